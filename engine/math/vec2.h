@@ -1,0 +1,70 @@
+#pragma once
+
+namespace plumb {
+
+/// A vector in the plane. Units are those of the quantity it holds.
+template <class Real>
+struct Vec2 {
+  Real x = 0, y = 0;
+
+  friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
+
+  constexpr Vec2& operator+=(Vec2 b) { return x += b.x, y += b.y, *this; }
+  constexpr Vec2& operator-=(Vec2 b) { return x -= b.x, y -= b.y, *this; }
+  constexpr Vec2& operator*=(Real s) { return x *= s, y *= s, *this; }
+
+  friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
+  friend constexpr Vec2 operator*(Real s, Vec2 a) { return {s * a.x, s * a.y}; }
+  friend constexpr Vec2 operator*(Vec2 a, Real s) { return s * a; }
+
+  template <class To>
+  constexpr Vec2<To> as() const {
+    return {static_cast<To>(x), static_cast<To>(y)};
+  }
+};
+
+using Vec2d = Vec2<double>;
+
+template <class Real>
+constexpr Real dot(Vec2<Real> a, Vec2<Real> b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+/// z component of a x b.
+template <class Real>
+constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// w z-hat x r: the velocity at r of a body that spins at w.
+template <class Real>
+constexpr Vec2<Real> cross(Real w, Vec2<Real> r) {
+  return {-w * r.y, w * r.x};
+}
+
+template <class Real>
+constexpr Real length_squared(Vec2<Real> a) {
+  return dot(a, a);
+}
+
+/// a turned a quarter turn counter-clockwise.
+template <class Real>
+constexpr Vec2<Real> perpendicular(Vec2<Real> a) {
+  return {-a.y, a.x};
+}
+
+/// A rotation held as the cosine and sine of its angle.
+template <class Real>
+struct Rotation {
+  Real c = 1, s = 0;
+
+  /// From the body's frame to the world's.
+  friend constexpr Vec2<Real> operator*(Rotation q, Vec2<Real> v) {
+    return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
+  }
+  constexpr Rotation inverse() const { return {c, -s}; }
+};
+
+}  // namespace plumb

@@ -1,0 +1,180 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/math/vec2.h"
+
+/// One scene for every engine: plain data in SI units, double precision, y up.
+namespace plumb {
+
+/// Joints name this in place of a body to hold on to the fixed frame.
+inline constexpr std::string_view kWorld = "world";
+
+struct Circle {
+  double radius = 0;  ///< m, > 0
+  friend bool operator==(const Circle&, const Circle&) = default;
+};
+
+struct Box {
+  double width = 0;   ///< m, > 0, along the shape's x
+  double height = 0;  ///< m, > 0, along the shape's y
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+using Geometry = std::variant<Circle, Box>;
+
+/// Two shapes may touch when each one's category is in the other's mask; an equal non-zero group decides
+/// first: positive always, negative never.
+struct Filter {
+  std::uint32_t category = 1;
+  std::uint32_t mask = 0xFFFFFFFFu;
+  std::int32_t group = 0;
+  friend bool operator==(const Filter&, const Filter&) = default;
+};
+
+struct Shape {
+  Geometry geometry;
+  Vec2d position{};        ///< m, of the shape's centre in the body's frame
+  double angle = 0;        ///< rad, in the body's frame
+  double friction = 0.5;   ///< Coulomb coefficient, >= 0
+  double restitution = 0;  ///< Newton's coefficient, 0..1
+  Filter filter{};
+  friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+enum class BodyType { Static, Kinematic, Dynamic };
+
+/// A rigid body. Its frame has its origin at the centre of mass.
+struct Body {
+  std::string name;  ///< unique, not empty, not "world"
+  BodyType type = BodyType::Dynamic;
+  Vec2d position{};                ///< m, of the centre of mass
+  double angle = 0;                ///< rad, counter-clockwise
+  Vec2d velocity{};                ///< m/s, of the centre of mass
+  double angular_velocity = 0;     ///< rad/s
+  double mass = 1;                 ///< kg, > 0; only a dynamic body has one
+  std::optional<double> inertia{};  ///< kg m^2 about the centre of mass, > 0; absent: see `inertia_of`
+  bool fixed_rotation = false;
+  std::vector<Shape> shapes{};
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+/// Holds two anchors together; the bodies turn freely about them.
+struct RevoluteJoint {
+  std::string name;    ///< unique, not empty
+  std::string body_a;  ///< a body's name, or "world"
+  std::string body_b;
+  Vec2d anchor_a{};      ///< m, in body a's frame
+  Vec2d anchor_b{};      ///< m, in body b's frame
+  bool collide = false;  ///< whether the two bodies may also touch
+  friend bool operator==(const RevoluteJoint&, const RevoluteJoint&) = default;
+};
+
+/// Holds two anchors at a distance (a massless rigid rod).
+struct DistanceJoint {
+  std::string name;
+  std::string body_a;
+  std::string body_b;
+  Vec2d anchor_a{};
+  Vec2d anchor_b{};
+  double length = 0;  ///< m, > 0
+  bool collide = false;
+  friend bool operator==(const DistanceJoint&, const DistanceJoint&) = default;
+};
+
+using Joint = std::variant<RevoluteJoint, DistanceJoint>;
+
+/// F = -coefficient v, at the centre of mass.
+struct LinearDrag {
+  std::string body;
+  double coefficient = 0;  ///< N s/m, >= 0
+  friend bool operator==(const LinearDrag&, const LinearDrag&) = default;
+};
+
+/// F = -coefficient |v| v, at the centre of mass.
+struct QuadraticDrag {
+  std::string body;
+  double coefficient = 0;  ///< N s^2/m^2, >= 0
+  friend bool operator==(const QuadraticDrag&, const QuadraticDrag&) = default;
+};
+
+enum class Frame { World, Body };
+
+/// A force at a point that moves with the body, from `start` for `duration`.
+struct PointForce {
+  std::string body;
+  Vec2d force{};               ///< N, in `frame`
+  Vec2d point{};               ///< m, in the body's frame
+  Frame frame = Frame::World;  ///< what the force's direction is fixed in
+  double start = 0;            ///< s
+  double duration = std::numeric_limits<double>::infinity();  ///< s
+  friend bool operator==(const PointForce&, const PointForce&) = default;
+};
+
+/// A torque from `start` for `duration`.
+struct Torque {
+  std::string body;
+  double torque = 0;  ///< N m, counter-clockwise
+  double start = 0;   ///< s
+  double duration = std::numeric_limits<double>::infinity();  ///< s
+  friend bool operator==(const Torque&, const Torque&) = default;
+};
+
+using ForceLaw = std::variant<LinearDrag, QuadraticDrag, PointForce, Torque>;
+
+/// How two shapes' coefficients become a contact's.
+enum class Combine { GeometricMean, Product, Maximum, Minimum, Average };
+
+struct ContactRules {
+  Combine friction = Combine::GeometricMean;
+  Combine restitution = Combine::Maximum;
+  double restitution_threshold = 0;  ///< m/s; slower impacts do not bounce
+  friend bool operator==(const ContactRules&, const ContactRules&) = default;
+};
+
+struct Scene {
+  std::string name;
+  Vec2d gravity{0, -9.81};  ///< m/s^2
+  ContactRules contact_rules{};
+  std::vector<Body> bodies{};
+  std::vector<Joint> joints{};
+  std::vector<ForceLaw> forces{};
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+/// What moves of a body. The angle counts whole turns: it is not wrapped.
+struct BodyState {
+  Vec2d position{};             ///< m, of the centre of mass
+  double angle = 0;             ///< rad
+  Vec2d velocity{};             ///< m/s
+  double angular_velocity = 0;  ///< rad/s
+  friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+/// The state that `body` starts in.
+BodyState initial_state(const Body& body);
+
+/// Rotational inertia of a dynamic body about its centre of mass, kg m^2: as given, else that of its shapes
+/// with uniform density (overlaps counted twice). 0 where rotation is fixed. Source: I_disc = m r^2/2,
+/// I_box = m (w^2 + h^2)/12, parallel axes.
+double inertia_of(const Body& body);
+
+/// The coefficient of a contact between shapes with coefficients `a` and `b`.
+double combine(Combine rule, double a, double b);
+
+/// Whether two shapes' filters let them touch.
+bool may_touch(const Filter& a, const Filter& b);
+
+/// The index of the body called `name`; nothing for "world" or an unknown name.
+std::optional<std::size_t> find_body(const Scene& scene, std::string_view name);
+
+/// 64-bit FNV-1a of the scene's canonical JSON: equal scenes have equal hashes on every platform.
+std::uint64_t hash(const Scene& scene);
+
+}  // namespace plumb

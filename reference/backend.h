@@ -1,0 +1,85 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "reference/simulator.h"
+
+namespace plumb::reference {
+
+/// What a run asks of an engine; what is absent is the engine's own default.
+struct StepSettings {
+  double dt = 1.0 / 60;                  ///< s, > 0; also the sampling grid of an adaptive engine
+  std::optional<int> substeps;           ///< equal parts of dt, >= 1
+  std::optional<double> tolerance;       ///< of an adaptive engine, > 0
+  std::map<std::string, std::string> options;  ///< the engine's own, by name: see `Backend::options`
+};
+
+/// An engine's own option, for help and for checking.
+struct Option {
+  std::string name;
+  std::string fallback;
+  std::string help;
+};
+
+/// Name/value pairs for people and reports, in the order in which they matter.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+struct Identity {
+  std::string version;    ///< "2.4.1"
+  std::string precision;  ///< "float" or "double"
+  bool available = true;
+  std::string reason;     ///< why it is not available and what to install
+};
+
+/// How an engine's time stepping works: what error bounds are derived from.
+enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, Adaptive };
+
+struct Method {
+  Scheme scheme = Scheme::SemiImplicitEuler;
+  int order = 1;             ///< of the global error in the substep; 0: adaptive, meets a tolerance
+  double substep = 1.0 / 60;  ///< s
+  double epsilon = 1.1920929e-7;  ///< unit roundoff of its state
+};
+
+/// An adapter: translates a Scene to one engine. Adapters hold no state of their own.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  virtual std::string_view name() const = 0;  ///< "box2d"; lower case, unique
+  virtual std::string_view summary() const = 0;
+  virtual Identity identity() const = 0;
+  virtual std::vector<Option> options() const { return {}; }
+
+  /// Throws `Error` for settings that this engine cannot take.
+  virtual Method method(const StepSettings& settings) const = 0;
+
+  /// Empty, or why this engine cannot run `scene`: "skipped: reason", never other physics.
+  virtual std::string unsupported(const Scene& scene, const StepSettings& settings) const = 0;
+
+  /// What the adapter chose, defaults included: equalised rules, thresholds, iterations.
+  virtual Settings effective_settings(const Scene& scene, const StepSettings& settings) const = 0;
+
+  /// Sets the engine up with a valid and supported `scene`. Throws `Error`.
+  virtual std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const = 0;
+};
+
+/// Every adapter linked in, plumb's first, then by name. An adapter adds itself with a `Registration`.
+std::vector<const Backend*> backends();
+
+/// The adapter called `name`; throws `Error` (Name) that suggests the nearest.
+const Backend& find_backend(std::string_view name);
+
+/// Adds an adapter that lives as long as the program: `static const Registration r{std::make_unique<X>()};`
+struct Registration {
+  explicit Registration(std::unique_ptr<Backend> backend);
+};
+
+}  // namespace plumb::reference

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "engine/scene/scene.h"
+
+namespace plumb::reference {
+
+/// One scene running in one engine.
+class Simulator {
+ public:
+  using Sink = std::function<void(double time, std::span<const BodyState> states)>;
+
+  virtual ~Simulator() = default;
+
+  /// Advances by `steps` steps of dt. Returns the wall time the engine spent, in ns, without any transport.
+  virtual double advance(int steps) = 0;
+
+  virtual double time() const = 0;  ///< s since the start
+
+  /// The state of every body, in the scene's order; `out` has one element a body.
+  virtual void read(std::span<BodyState> out) const = 0;
+
+  /// Advances by `samples` times `every` steps and hands over the states after each. Returns ns as `advance`.
+  virtual double record(int samples, int every, std::size_t bodies, const Sink& sink);
+};
+
+}  // namespace plumb::reference

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "reference/backend.h"
+
+namespace plumb::scenarios {
+
+/// An upper bound for each metric of a run, in SI units; NaN where none is stated.
+struct Bounds {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double position = kNone;          ///< m, largest over bodies and time
+  double angle = kNone;             ///< rad
+  double velocity = kNone;          ///< m/s, away from impacts
+  double angular_velocity = kNone;  ///< rad/s, away from impacts
+  double energy = kNone;            ///< relative to the largest energy in the run
+  double momentum = kNone;          ///< relative to the sum of the bodies' |m v|
+  double angular_momentum = kNone;  ///< relative to the sum of the bodies' |angular momentum|
+  double joint_gap = kNone;         ///< m
+  double penetration = kNone;       ///< m
+};
+
+/// The motion that no engine computed.
+struct Truth {
+  /// Where it comes from: the formula's name and its source.
+  std::string source;
+
+  /// The exact state of every body at `time`.
+  std::function<void(double time, std::span<BodyState> out)> exact{};
+
+  /// What `scheme` must give after `steps` steps of `substep`, exactly; returns false where that is not known.
+  std::function<bool(reference::Scheme scheme, double substep, long steps, std::span<BodyState> out)> discrete{};
+
+  /// When the exact velocities jump, s.
+  std::vector<double> impacts{};
+};
+
+/// Which quantities the scene's physics keeps.
+struct Conserved {
+  bool energy = false;
+  bool momentum_x = false;
+  bool momentum_y = false;
+  bool angular_momentum = false;  ///< about the origin
+};
+
+/// One scene with its answer and what to expect of whom.
+struct Problem {
+  Scene scene;
+  double duration = 1;  ///< s
+  Truth truth{};
+  Conserved conserved{};
+
+  /// For engines with a tolerance (at 1e-9): the digits promised.
+  Bounds precise{};
+
+  /// For second-order engines: C in error <= C h^2 + rounding, h the substep. 0: exact up to rounding.
+  /// What is not stated is derived from the truth's own motion, as it is for first-order engines.
+  Bounds second_order{};
+};
+
+/// A family of problems: one file, no registration elsewhere.
+struct Scenario {
+  std::string name;
+  std::string summary;
+  std::vector<std::string> variants{""};  ///< named cases; one empty name where there is only one
+  std::vector<int> sizes{1};              ///< run by default; any size >= 1 may be asked for where `scales`
+  bool scales = false;
+  std::function<Problem(std::string_view variant, int size)> build;
+};
+
+/// One member of a family: "elastic_collision/oblique", "pendulum_chain[20]".
+struct Instance {
+  const Scenario* scenario = nullptr;
+  std::string variant;
+  int size = 1;
+
+  std::string label() const;
+  Problem build() const { return scenario->build(variant, size); }
+};
+
+/// Every scenario, by name.
+const std::vector<Scenario>& all();
+
+/// The members that `name` means: a scenario's variants and sizes, or one of them ("name/variant",
+/// "name[size]"); `size` > 0 overrides the sizes. Throws `Error` (Name, Value) that suggests the nearest.
+std::vector<Instance> select(std::string_view name, int size = 0);
+
+/// Adds a scenario: `static const Register r{{.name = ..., .build = ...}};`
+struct Register {
+  explicit Register(Scenario scenario);
+};
+
+}  // namespace plumb::scenarios
