@@ -1,0 +1,176 @@
+// plumb's own engine, as three backends: its fixed-step driver in both precisions, and its adaptive one.
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "engine/scene/text.h"
+#include "engine/world/world.h"
+#include "reference/backend.h"
+#include "reference/support/settings.h"
+
+namespace plumb::reference {
+namespace {
+
+constexpr Realtime kRealtime;
+constexpr Precise kPrecise;
+
+class PlumbSimulator final : public Simulator {
+ public:
+  explicit PlumbSimulator(World world) : world_(std::move(world)) {}
+
+  double advance(int steps) override {
+    const auto start = std::chrono::steady_clock::now();
+    world_.step(steps);
+    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  }
+  double time() const override { return world_.time(); }
+  void read(std::span<BodyState> out) const override { world_.read(out); }
+
+ private:
+  World world_;
+};
+
+/// What the three backends have in common: settings become an Accuracy, and the World does the rest.
+class PlumbBackend : public Backend {
+ public:
+  PlumbBackend(std::string_view name, std::string_view summary, Precision precision)
+      : name_(name), summary_(summary), precision_(precision) {}
+
+  std::string_view name() const override { return name_; }
+  std::string_view summary() const override { return summary_; }
+  Identity identity() const override {
+    return {.version = PLUMB_VERSION, .precision = std::string(name_of(precision_)), .reason = ""};
+  }
+  std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
+    return plumb::unsupported(scene, accuracy(settings));
+  }
+  std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
+    return std::make_unique<PlumbSimulator>(compile(scene, accuracy(settings)));
+  }
+
+ protected:
+  virtual Accuracy accuracy(const StepSettings& settings) const = 0;
+
+  double epsilon() const {
+    return precision_ == Precision::Float ? std::numeric_limits<float>::epsilon()
+                                          : std::numeric_limits<double>::epsilon();
+  }
+
+  std::string_view name_, summary_;
+  Precision precision_;
+};
+
+class RealtimeBackend final : public PlumbBackend {
+ public:
+  using PlumbBackend::PlumbBackend;
+
+  std::vector<Option> options() const override {
+    return {{"integrator", std::string(name_of(kRealtime.integrator)),
+             "velocity_verlet, semi_implicit_euler or explicit_euler"},
+            {"joint_solver", std::string(name_of(kRealtime.joint_solver)), "direct or iterative"},
+            {"iterations", std::to_string(kRealtime.iterations),
+             "sweeps over contacts and iterative joints a substep"}};
+  }
+
+  Method method(const StepSettings& settings) const override {
+    const Realtime chosen = realtime(settings);
+    Method out{.substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
+    switch (chosen.integrator) {
+      case Integrator::VelocityVerlet:
+        out.scheme = Scheme::VelocityVerlet;
+        out.order = 2;
+        break;
+      case Integrator::SemiImplicitEuler:
+        out.scheme = Scheme::SemiImplicitEuler;
+        out.order = 1;
+        break;
+      case Integrator::ExplicitEuler:
+        out.scheme = Scheme::ExplicitEuler;
+        out.order = 1;
+        break;
+    }
+    return out;
+  }
+
+  Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
+    const Realtime chosen = realtime(settings);
+    Settings out{{"dt", shortest(chosen.dt)},
+                 {"substeps", std::to_string(chosen.substeps)},
+                 {"integrator", std::string(name_of(chosen.integrator))},
+                 {"joint_solver", std::string(name_of(chosen.joint_solver))},
+                 {"iterations", std::to_string(chosen.iterations)},
+                 {"precision", std::string(name_of(chosen.precision))}};
+    append_contact_rules(out, scene);
+    return out;
+  }
+
+ protected:
+  Accuracy accuracy(const StepSettings& settings) const override { return realtime(settings); }
+
+ private:
+  Realtime realtime(const StepSettings& settings) const {
+    check_steps(name_, settings, Stepping::Fixed);
+    const OptionReader given(name_, settings, options());
+    Realtime out;
+    out.dt = settings.dt;
+    out.substeps = settings.substeps.value_or(kRealtime.substeps);
+    out.iterations = given.integer("iterations", 1);
+    out.precision = precision_;
+    out.integrator = given.choice<Integrator>(
+        "integrator", {named(Integrator::VelocityVerlet), named(Integrator::SemiImplicitEuler),
+                       named(Integrator::ExplicitEuler)});
+    out.joint_solver = given.choice<JointSolver>("joint_solver",
+                                                 {named(JointSolver::Direct), named(JointSolver::Iterative)});
+    plumb::validate(Accuracy(out));
+    return out;
+  }
+
+  template <class Value>
+  static std::pair<std::string, Value> named(Value value) {
+    return {std::string(name_of(value)), value};
+  }
+};
+
+class PreciseBackend final : public PlumbBackend {
+ public:
+  using PlumbBackend::PlumbBackend;
+
+  Method method(const StepSettings& settings) const override {
+    const Precise chosen = precise(settings);
+    return {.scheme = Scheme::Adaptive, .order = 0, .substep = chosen.max_dt, .epsilon = epsilon()};
+  }
+
+  Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
+    const Precise chosen = precise(settings);
+    Settings out{{"tolerance", shortest(chosen.tolerance)},
+                 {"max_dt", shortest(chosen.max_dt)},
+                 {"precision", std::string(name_of(precision_))}};
+    append_contact_rules(out, scene);
+    return out;
+  }
+
+ protected:
+  Accuracy accuracy(const StepSettings& settings) const override { return precise(settings); }
+
+ private:
+  Precise precise(const StepSettings& settings) const {
+    check_steps(name_, settings, Stepping::Adaptive);
+    const OptionReader given(name_, settings, options());
+    const Precise out{.tolerance = settings.tolerance.value_or(kPrecise.tolerance), .max_dt = settings.dt};
+    plumb::validate(Accuracy(out));
+    return out;
+  }
+};
+
+const Registration realtime_double{
+    std::make_unique<RealtimeBackend>("plumb", "plumb with fixed steps in double", Precision::Double)};
+const Registration realtime_float{
+    std::make_unique<RealtimeBackend>("plumb-float", "plumb with fixed steps in float", Precision::Float)};
+const Registration precise_double{std::make_unique<PreciseBackend>(
+    "plumb-precise", "plumb with adaptive steps that meet a tolerance", Precision::Double)};
+
+}  // namespace
+}  // namespace plumb::reference

@@ -1,0 +1,18 @@
+#include "reference/simulator.h"
+
+#include <vector>
+
+namespace plumb::reference {
+
+double Simulator::record(int samples, int every, std::size_t bodies, const Sink& sink) {
+  std::vector<BodyState> states(bodies);
+  double nanoseconds = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    nanoseconds += advance(every);
+    read(states);
+    sink(time(), states);
+  }
+  return nanoseconds;
+}
+
+}  // namespace plumb::reference
