@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/math/vec2.h"
+#include "engine/scene/scene.h"
+
+/// What truths share. They compute in extended precision where the platform has it and round once, at the
+/// end.
+namespace plumb::scenarios::truth {
+
+using Real = long double;
+
+/// How a body moves, in SI units.
+struct Motion {
+  Vec2<Real> position{};
+  Real angle = 0;
+  Vec2<Real> velocity{};
+  Real angular_velocity = 0;
+};
+
+/// What changes it.
+struct Acceleration {
+  Vec2<Real> linear{};
+  Real angular = 0;
+};
+
+inline Motion motion_of(const Body& body) {
+  return {body.position.as<Real>(), body.angle, body.velocity.as<Real>(), body.angular_velocity};
+}
+
+inline std::vector<Motion> motions_of(const Scene& scene) {
+  std::vector<Motion> motions;
+  for (const Body& body : scene.bodies) motions.push_back(motion_of(body));
+  return motions;
+}
+
+inline BodyState rounded(const Motion& motion) {
+  return {motion.position.as<double>(), static_cast<double>(motion.angle), motion.velocity.as<double>(),
+          static_cast<double>(motion.angular_velocity)};
+}
+
+/// Motion under a constant acceleration: x + v t + a t^2/2.
+inline Motion coast(const Motion& from, Real time, const Acceleration& acceleration = {}) {
+  const auto& [linear, angular] = acceleration;
+  return {from.position + time * from.velocity + time * time / 2 * linear,
+          from.angle + time * from.angular_velocity + time * time / 2 * angular,
+          from.velocity + time * linear, from.angular_velocity + time * angular};
+}
+
+/// (cos, sin) of `angle`.
+inline Vec2<Real> direction(Real angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// `v` turned by `angle`.
+inline Vec2<Real> turned(Real angle, Vec2<Real> v) {
+  const auto [c, s] = direction(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// A shape that gives a body its looks and its inertia, and touches nothing.
+inline Shape untouchable(const Geometry& geometry) {
+  return {.geometry = geometry, .friction = 0, .filter = {.mask = 0}};
+}
+
+}  // namespace plumb::scenarios::truth
