@@ -1,22 +1,27 @@
 # Compile options of every target, in one place.
-find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM AND PROJECT_IS_TOP_LEVEL)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-endif()
-
-if(PROJECT_IS_TOP_LEVEL)
-  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-endif()
-
 add_library(plumb_options INTERFACE)
 target_compile_features(plumb_options INTERFACE cxx_std_20)
-target_compile_options(plumb_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  $<$<BOOL:${PLUMB_WERROR}>:-Werror>
-  # The same bits everywhere: no fused multiply-add. g++ 12 contracts across statements even with
-  # -ffp-contract=off when the target has FMA, so the instructions are taken away as well.
-  -ffp-contract=off)
+
+# The same bits everywhere: no fused multiply-add. g++ 12 contracts across statements even with
+# -ffp-contract=off when the target has FMA, so the instructions are taken away as well.
+target_compile_options(plumb_options INTERFACE -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
   target_compile_options(plumb_options INTERFACE -mno-fma)
 endif()
 target_compile_definitions(plumb_options INTERFACE $<$<BOOL:${PLUMB_SCALAR}>:PLUMB_SCALAR>)
+
+# The rest is for work on plumb itself; a project that takes plumb in keeps its own ways.
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(plumb_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<BOOL:${PLUMB_WERROR}>:-Werror>)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+  # Paths in the cache are relative to the checkout, so that a copy of it shares what was compiled.
+  find_program(CCACHE_PROGRAM ccache)
+  mark_as_advanced(CCACHE_PROGRAM)
+  if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CCACHE_PROGRAM})
+  endif()
+endif()
