@@ -3,26 +3,26 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/forces/linear_drag.h"
+#include "engine/forces/point_force.h"
+#include "engine/forces/quadratic_drag.h"
+#include "engine/forces/torque.h"
+#include "engine/forces/wrench.h"
 #include "engine/joints/row.h"
 #include "engine/scene/scene.h"
 
 namespace plumb {
 
-/// Force and torque on a body, about its centre of mass.
-template <class Real>
-struct Wrench {
-  Vec2<Real> force{};  ///< N
-  Real torque = 0;     ///< N m
-};
-
 /// The share of [t0, t1] that lies inside [start, start + duration]: a force that is switched within a step
-/// still gives its exact impulse.
+/// still gives its exact impulse. At a single instant, t0 == t1, it is 1 from `start` until before the end,
+/// else 0.
 double active_share(double start, double duration, double t0, double t1);
 
 /// A scene's force laws by body index, one array a law. Each law's formula stands in a file of its own.
 template <class Real>
 class Forces {
  public:
+  /// The scene is valid: every law's body exists.
   explicit Forces(const Scene& scene);
 
   bool empty() const;
@@ -34,7 +34,11 @@ class Forces {
   void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
  private:
-  // One array a law, each law's type in its own file of this folder.
+  std::vector<LinearDragLaw<Real>> linear_drags_;
+  std::vector<QuadraticDragLaw<Real>> quadratic_drags_;
+  std::vector<PointForceLaw<Real>> point_forces_;
+  std::vector<TorqueLaw<Real>> torques_;
+  std::vector<char> acts_on_;  // by body
 };
 
 }  // namespace plumb
