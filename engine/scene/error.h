@@ -18,9 +18,10 @@ class Error : public std::runtime_error {
     Io,           ///< a file or a program that cannot be opened, read or started
   };
 
-  /// `subject` names the thing ("body 'ball'"), `field` its member ("mass"), `value` what was given, `problem`
-  /// what is wrong and what to do; `line` is 1-based, 0 when there is no text.
-  Error(Kind kind, std::string subject, std::string field, std::string value, std::string problem, int line = 0);
+  /// `subject` names the thing ("body 'ball'"), `field` its member ("mass"), `value` what was given,
+  /// `problem` what is wrong and what to do; `line` is 1-based, 0 when there is no text.
+  Error(Kind kind, std::string subject, std::string field, std::string value, std::string problem,
+        int line = 0);
 
   Kind kind() const { return kind_; }
   const std::string& subject() const { return subject_; }

@@ -54,11 +54,11 @@ enum class BodyType { Static, Kinematic, Dynamic };
 struct Body {
   std::string name;  ///< unique, not empty, not "world"
   BodyType type = BodyType::Dynamic;
-  Vec2d position{};                ///< m, of the centre of mass
-  double angle = 0;                ///< rad, counter-clockwise
-  Vec2d velocity{};                ///< m/s, of the centre of mass
-  double angular_velocity = 0;     ///< rad/s
-  double mass = 1;                 ///< kg, > 0; only a dynamic body has one
+  Vec2d position{};                 ///< m, of the centre of mass
+  double angle = 0;                 ///< rad, counter-clockwise
+  Vec2d velocity{};                 ///< m/s, of the centre of mass
+  double angular_velocity = 0;      ///< rad/s
+  double mass = 1;                  ///< kg, > 0; only a dynamic body has one
   std::optional<double> inertia{};  ///< kg m^2 about the centre of mass, > 0; absent: see `inertia_of`
   bool fixed_rotation = false;
   std::vector<Shape> shapes{};
@@ -109,10 +109,10 @@ enum class Frame { World, Body };
 /// A force at a point that moves with the body, from `start` for `duration`.
 struct PointForce {
   std::string body;
-  Vec2d force{};               ///< N, in `frame`
-  Vec2d point{};               ///< m, in the body's frame
-  Frame frame = Frame::World;  ///< what the force's direction is fixed in
-  double start = 0;            ///< s
+  Vec2d force{};                                              ///< N, in `frame`
+  Vec2d point{};                                              ///< m, in the body's frame
+  Frame frame = Frame::World;                                 ///< what the force's direction is fixed in
+  double start = 0;                                           ///< s
   double duration = std::numeric_limits<double>::infinity();  ///< s
   friend bool operator==(const PointForce&, const PointForce&) = default;
 };
@@ -120,8 +120,8 @@ struct PointForce {
 /// A torque from `start` for `duration`.
 struct Torque {
   std::string body;
-  double torque = 0;  ///< N m, counter-clockwise
-  double start = 0;   ///< s
+  double torque = 0;                                          ///< N m, counter-clockwise
+  double start = 0;                                           ///< s
   double duration = std::numeric_limits<double>::infinity();  ///< s
   friend bool operator==(const Torque&, const Torque&) = default;
 };
@@ -174,7 +174,9 @@ bool may_touch(const Filter& a, const Filter& b);
 /// The index of the body called `name`; nothing for "world" or an unknown name.
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name);
 
-/// 64-bit FNV-1a of the scene's canonical JSON: equal scenes have equal hashes on every platform.
+/// 64-bit FNV-1a of the scene's one-line JSON: scenes with the same bits have the same hash on every
+/// platform. A negative zero counts as different from zero, though the two compare equal. Throws as
+/// `to_json`.
 std::uint64_t hash(const Scene& scene);
 
 }  // namespace plumb

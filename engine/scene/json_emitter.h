@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/vec2.h"
+
+namespace plumb::json {
+
+/// Writes JSON front to back. With `indent` >= 0, arrays and objects take a line an entry, except those that
+/// are opened as `inline`; else all is one line without spaces.
+class Emitter {
+ public:
+  enum class Layout { Block, Inline };
+
+  explicit Emitter(int indent) : indent_(indent) {}
+
+  void begin(char bracket, Layout layout = Layout::Block);  ///< '{' or '['
+  void end(char bracket);                                   ///< '}' or ']'
+  void key(std::string_view name);
+
+  void number(double value);
+  void integer(std::int64_t value);
+  void boolean(bool value);
+  void string(std::string_view value);
+  void vector(Vec2d value);
+
+  /// Whether anything was no JSON: a number that is not finite, a string that is not UTF-8.
+  bool failed() const { return failed_; }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  struct Level {
+    bool block = false;
+    bool empty = true;
+  };
+
+  void separate();  ///< what stands between the entry before and the one to come
+  void new_line();
+
+  int indent_;
+  std::string out_;
+  std::vector<Level> levels_;
+  bool after_key_ = false;
+  bool failed_ = false;
+};
+
+}  // namespace plumb::json

@@ -1,0 +1,197 @@
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/scene/check.h"
+#include "engine/scene/error.h"
+#include "engine/scene/json.h"
+#include "engine/scene/json_document.h"
+#include "engine/scene/json_fields.h"
+#include "engine/scene/json_place.h"
+#include "engine/scene/names.h"
+
+namespace plumb {
+namespace {
+
+using json::Fields;
+using json::View;
+
+Fields::Keys operator+(Fields::Keys keys, const Fields::Keys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+/// The index in `names` of the object's "type". `keys` are those of any type: a mistyped "type" is named as
+/// such.
+template <std::size_t kCount>
+std::size_t type_of(const View& view, std::string_view what, const Fields::Keys& keys,
+                    const std::array<std::string_view, kCount>& names) {
+  return choice(Fields(view, what, keys).required("type"), names);
+}
+
+void read_version(const Fields& fields) {
+  if (!fields.has("plumb_scene")) return;
+  const View version = fields.required("plumb_scene");
+  if (json::number(version) != 1) {
+    version.fail(Error::Kind::Unsupported,
+                 "must be 1, the version of the scene format that this plumb reads");
+  }
+}
+
+ContactRules read_contact_rules(const View& view) {
+  const Fields fields(view, "contact_rules", {"friction", "restitution", "restitution_threshold"});
+  ContactRules rules;
+  fields.read("friction", rules.friction, kCombineNames);
+  fields.read("restitution", rules.restitution, kCombineNames);
+  fields.read("restitution_threshold", rules.restitution_threshold);
+  return rules;
+}
+
+Filter read_filter(const View& view) {
+  const Fields fields(view, "a filter", {"category", "mask", "group"});
+  Filter filter;
+  fields.read("category", filter.category);
+  fields.read("mask", filter.mask);
+  fields.read("group", filter.group);
+  return filter;
+}
+
+Fields::Keys shape_keys() { return {"type", "position", "angle", "friction", "restitution", "filter"}; }
+
+Geometry read_geometry(const View& view) {
+  const Fields::Keys any = shape_keys() + Fields::Keys{"radius", "width", "height"};
+  if (type_of(view, "a shape", any, kGeometryNames) == 0) {
+    const Fields fields(view, "a circle", shape_keys() + Fields::Keys{"radius"});
+    return Circle{json::number(fields.required("radius"))};
+  }
+  const Fields fields(view, "a box", shape_keys() + Fields::Keys{"width", "height"});
+  return Box{json::number(fields.required("width")), json::number(fields.required("height"))};
+}
+
+Shape read_shape(const View& view) {
+  Shape shape{.geometry = read_geometry(view)};
+  const Fields fields(view, "a shape", shape_keys() + Fields::Keys{"radius", "width", "height"});
+  fields.read("position", shape.position);
+  fields.read("angle", shape.angle);
+  fields.read("friction", shape.friction);
+  fields.read("restitution", shape.restitution);
+  if (fields.has("filter")) shape.filter = read_filter(fields.required("filter"));
+  return shape;
+}
+
+Body read_body(const View& view) {
+  const Fields fields(view, "a body",
+                      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
+                       "fixed_rotation", "shapes"});
+  Body body{.name = json::string(fields.required("name"))};
+  fields.read("type", body.type, kBodyTypeNames);
+  fields.read("position", body.position);
+  fields.read("angle", body.angle);
+  fields.read("velocity", body.velocity);
+  fields.read("angular_velocity", body.angular_velocity);
+  fields.read("mass", body.mass);
+  if (fields.has("inertia")) body.inertia = json::number(fields.required("inertia"));
+  fields.read("fixed_rotation", body.fixed_rotation);
+  fields.each("shapes", [&](const View& shape) { body.shapes.push_back(read_shape(shape)); });
+  return body;
+}
+
+Fields::Keys joint_keys() { return {"type", "name", "body_a", "body_b", "anchor_a", "anchor_b", "collide"}; }
+
+template <class AnyJoint>
+void read_ends(const Fields& fields, AnyJoint& joint) {
+  joint.name = json::string(fields.required("name"));
+  joint.body_a = json::string(fields.required("body_a"));
+  joint.body_b = json::string(fields.required("body_b"));
+  fields.read("anchor_a", joint.anchor_a);
+  fields.read("anchor_b", joint.anchor_b);
+  fields.read("collide", joint.collide);
+}
+
+Joint read_joint(const View& view) {
+  if (type_of(view, "a joint", joint_keys() + Fields::Keys{"length"}, kJointNames) == 0) {
+    RevoluteJoint joint;
+    read_ends(Fields(view, "a revolute joint", joint_keys()), joint);
+    return joint;
+  }
+  const Fields fields(view, "a distance joint", joint_keys() + Fields::Keys{"length"});
+  DistanceJoint joint;
+  read_ends(fields, joint);
+  joint.length = json::number(fields.required("length"));
+  return joint;
+}
+
+template <class Drag>
+Drag read_drag(const Fields& fields) {
+  return {json::string(fields.required("body")), json::number(fields.required("coefficient"))};
+}
+
+PointForce read_point_force(const Fields& fields) {
+  PointForce law{.body = json::string(fields.required("body")),
+                 .force = json::vector(fields.required("force"))};
+  fields.read("point", law.point);
+  fields.read("frame", law.frame, kFrameNames);
+  fields.read("start", law.start);
+  fields.read("duration", law.duration);
+  return law;
+}
+
+Torque read_torque(const Fields& fields) {
+  Torque law{.body = json::string(fields.required("body")),
+             .torque = json::number(fields.required("torque"))};
+  fields.read("start", law.start);
+  fields.read("duration", law.duration);
+  return law;
+}
+
+ForceLaw read_force(const View& view) {
+  const Fields::Keys common{"type", "body"}, drag{"coefficient"}, timed{"start", "duration"};
+  const Fields::Keys point{"force", "point", "frame"}, torque{"torque"};
+  switch (type_of(view, "a force", common + drag + timed + point + torque, kForceNames)) {
+    case 0:
+      return read_drag<LinearDrag>(Fields(view, "a linear_drag", common + drag));
+    case 1:
+      return read_drag<QuadraticDrag>(Fields(view, "a quadratic_drag", common + drag));
+    case 2:
+      return read_point_force(Fields(view, "a point_force", common + point + timed));
+    default:
+      return read_torque(Fields(view, "a torque", common + torque + timed));
+  }
+}
+
+Scene read_scene(const View& view) {
+  const Fields fields(view, "a scene",
+                      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces"});
+  read_version(fields);
+  Scene scene;
+  fields.read("name", scene.name);
+  fields.read("gravity", scene.gravity);
+  if (fields.has("contact_rules")) scene.contact_rules = read_contact_rules(fields.required("contact_rules"));
+  fields.each("bodies", [&](const View& body) { scene.bodies.push_back(read_body(body)); });
+  fields.each("joints", [&](const View& joint) { scene.joints.push_back(read_joint(joint)); });
+  fields.each("forces", [&](const View& force) { scene.forces.push_back(read_force(force)); });
+  return scene;
+}
+
+}  // namespace
+
+Scene scene_from_json(std::string_view text) {
+  json::Document document;
+  json::parse(text, document);
+  if (document.refusal) {
+    json::Refusal& refusal = *document.refusal;
+    const auto [subject, field] = json::naming_of(refusal.path);
+    throw Error(refusal.kind, subject, field, std::move(refusal.value), std::move(refusal.problem),
+                refusal.line);
+  }
+  Scene scene = read_scene(View(document.root));
+  Place place;
+  try {
+    check(scene, place);
+  } catch (const Error& error) {
+    throw error.at_line(json::line_of(document.root, place, error.field()));
+  }
+  return scene;
+}
+
+}  // namespace plumb

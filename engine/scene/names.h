@@ -1,0 +1,18 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+/// What the scene format calls the members of each enumeration and variant, in their order of declaration.
+namespace plumb {
+
+inline constexpr std::array<std::string_view, 3> kBodyTypeNames{"static", "kinematic", "dynamic"};
+inline constexpr std::array<std::string_view, 5> kCombineNames{"geometric_mean", "product", "maximum",
+                                                               "minimum", "average"};
+inline constexpr std::array<std::string_view, 2> kFrameNames{"world", "body"};
+inline constexpr std::array<std::string_view, 2> kGeometryNames{"circle", "box"};
+inline constexpr std::array<std::string_view, 2> kJointNames{"revolute", "distance"};
+inline constexpr std::array<std::string_view, 4> kForceNames{"linear_drag", "quadratic_drag", "point_force",
+                                                             "torque"};
+
+}  // namespace plumb

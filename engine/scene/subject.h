@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+/// How errors name the things of a scene.
+namespace plumb {
+
+/// "scene 'tower'", or "scene" where it has no name.
+std::string scene_subject(std::string_view name);
+
+/// "body 'ball'"; "body 3", counted from 0, where it has no name.
+std::string body_subject(std::size_t index, std::string_view name);
+
+/// "joint 'hinge'"; "joint 3", counted from 0, where it has no name.
+std::string joint_subject(std::size_t index, std::string_view name);
+
+/// "force 2 (linear_drag on 'ball')", counted from 0; force laws have no names. Empty parts are left out.
+std::string force_subject(std::size_t index, std::string_view law, std::string_view body);
+
+}  // namespace plumb
