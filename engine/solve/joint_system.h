@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -7,13 +8,15 @@
 
 namespace plumb {
 
-/// The linear system of all joints at once, A = J M^-1 J^T, factorised as sparse L D L^T. The elimination order
-/// is found once, from which rows share a moving body; no fill for chains and trees, so both factorisation
-/// and solution are linear in their length. No allocation after construction.
+/// The linear system of all joints at once, A = J M^-1 J^T, factorised as sparse L D L^T. The elimination
+/// order is found once, from which rows share a moving body; no fill for chains and trees, so both
+/// factorisation and solution are linear in their length. No allocation after construction. One thread at a
+/// time.
 template <class Real>
 class JointSystem {
  public:
-  /// `rows` gives the bodies of each row (its numbers are ignored); `inverse_mass`, `inverse_inertia` are a body's.
+  /// `rows` gives the bodies of each row (its numbers are ignored); `inverse_mass`, `inverse_inertia` are a
+  /// body's, both zero for a body that joints cannot move.
   JointSystem(std::span<const Row<Real>> rows, std::span<const Real> inverse_mass,
               std::span<const Real> inverse_inertia);
 
@@ -23,6 +26,48 @@ class JointSystem {
 
   /// Solves A x = right_side in place, with the last factorisation.
   void solve(std::span<Real> right_side) const;
+
+  /// One step of iterative refinement of `x`, a solution for `right_side` from `solve`, with the rows of the
+  /// last factorisation. The residual is taken from J M^-1 (J^T x) term by term, where a light body's inverse
+  /// mass does not swallow a heavy one's as it does in A itself: wide mass ratios get their digits back.
+  void refine(std::span<const Row<Real>> rows, std::span<const Real> right_side, std::span<Real> x) const;
+
+  std::size_t row_count() const { return order_.size(); }
+  /// Entries of L below its diagonal: what factorisation and solution cost.
+  std::size_t nonzeros() const { return row_of_.size(); }
+
+ private:
+  /// An entry of A above the diagonal, by position in the elimination order.
+  struct Coupling {
+    int earlier = 0;
+    int row_a = 0, row_b = 0;  // the two rows as numbered by the caller
+  };
+
+  Real coupling(const Row<Real>& a, const Row<Real>& b) const;
+  void find_pattern(const std::vector<std::vector<int>>& below);
+  void find_couplings(std::span<const Row<Real>> rows, const std::vector<int>& place);
+
+  std::vector<Real> inverse_mass_, inverse_inertia_;  // by body
+  std::vector<int> order_;                            // the caller's row at each place of the order
+
+  // L by columns, the unit diagonal left out: column j holds entries [column_start_[j], column_start_[j +
+  // 1]).
+  std::vector<std::size_t> column_start_;
+  std::vector<int> row_of_;
+  std::vector<Real> lower_;
+  // L's pattern by rows: row i has entries in the columns column_of_[row_start_[i] ... row_start_[i + 1]).
+  std::vector<std::size_t> row_start_;
+  std::vector<int> column_of_;
+
+  // A by rows of its lower triangle, in the same way.
+  std::vector<std::size_t> coupling_start_;
+  std::vector<Coupling> couplings_;
+
+  std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
+  std::vector<std::size_t> filled_;     // while factorising: the end of what is known of a column
+  mutable std::vector<Real> work_;
+  mutable std::vector<Real> residual_;         // by row
+  mutable std::vector<Twist<Real>> response_;  // by body: M^-1 J^T x
 };
 
 }  // namespace plumb

@@ -1,0 +1,207 @@
+#include "engine/solve/joint_system.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/solve/elimination_order.h"
+
+namespace plumb {
+namespace {
+
+/// Rows of one joint follow each other and name the same bodies: they are eliminated as one block.
+template <class Real>
+std::vector<int> block_of_each(std::span<const Row<Real>> rows) {
+  std::vector<int> block(rows.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const bool same = rows[i].a == rows[i - 1].a && rows[i].b == rows[i - 1].b;
+    block[i] = block[i - 1] + (same ? 0 : 1);
+  }
+  return block;
+}
+
+}  // namespace
+
+template <class Real>
+JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const Real> inverse_mass,
+                               std::span<const Real> inverse_inertia)
+    : inverse_mass_(inverse_mass.begin(), inverse_mass.end()),
+      inverse_inertia_(inverse_inertia.begin(), inverse_inertia.end()) {
+  const auto moving = [&](int body) {
+    return body != kFixedFrame && (inverse_mass_[body] > 0 || inverse_inertia_[body] > 0) ? body : -1;
+  };
+  const std::vector<int> block = block_of_each(rows);
+  std::vector<Link> links(rows.empty() ? 0 : block.back() + 1);
+  std::vector<std::vector<int>> rows_of(links.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    links[block[i]] = {moving(rows[i].a), moving(rows[i].b)};
+    rows_of[block[i]].push_back(static_cast<int>(i));
+  }
+  const EliminationOrder order = minimum_degree(links, static_cast<int>(inverse_mass_.size()));
+
+  std::vector<int> place(rows.size());  // of the caller's row in the order
+  for (const int b : order.sequence) {
+    for (const int row : rows_of[b]) {
+      place[row] = static_cast<int>(order_.size());
+      order_.push_back(row);
+    }
+  }
+  std::vector<std::vector<int>> below(rows.size());  // by place: the rows that its column of L reaches
+  for (const int b : order.sequence) {
+    for (std::size_t i = 0; i < rows_of[b].size(); ++i) {
+      std::vector<int>& column = below[place[rows_of[b][i]]];
+      for (std::size_t j = i + 1; j < rows_of[b].size(); ++j) column.push_back(place[rows_of[b][j]]);
+      for (const int other : order.below[b]) {
+        for (const int row : rows_of[other]) column.push_back(place[row]);
+      }
+      std::sort(column.begin(), column.end());
+    }
+  }
+  find_pattern(below);
+  find_couplings(rows, place);
+  inverse_diagonal_.assign(rows.size(), 0);
+  work_.assign(rows.size(), 0);
+  residual_.assign(rows.size(), 0);
+  response_.assign(inverse_mass_.size(), {});
+}
+
+template <class Real>
+void JointSystem<Real>::find_pattern(const std::vector<std::vector<int>>& below) {
+  std::vector<std::vector<int>> left(below.size());
+  column_start_.assign(1, 0);
+  for (std::size_t j = 0; j < below.size(); ++j) {
+    row_of_.insert(row_of_.end(), below[j].begin(), below[j].end());
+    column_start_.push_back(row_of_.size());
+    for (const int i : below[j]) left[i].push_back(static_cast<int>(j));
+  }
+  row_start_.assign(1, 0);
+  for (const std::vector<int>& row : left) {
+    column_of_.insert(column_of_.end(), row.begin(), row.end());
+    row_start_.push_back(column_of_.size());
+  }
+  lower_.assign(row_of_.size(), 0);
+  filled_.assign(below.size(), 0);
+}
+
+template <class Real>
+void JointSystem<Real>::find_couplings(std::span<const Row<Real>> rows, const std::vector<int>& place) {
+  std::vector<std::vector<int>> rows_at(inverse_mass_.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const int body : {rows[i].a, rows[i].b}) {
+      if (body != kFixedFrame) rows_at[body].push_back(static_cast<int>(i));
+    }
+  }
+  coupling_start_.assign(1, 0);
+  std::vector<int> earlier;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const Row<Real>& row = rows[order_[k]];
+    earlier.clear();
+    for (const int body : {row.a, row.b}) {
+      if (body == kFixedFrame || (inverse_mass_[body] == 0 && inverse_inertia_[body] == 0)) continue;
+      for (const int other : rows_at[body]) {
+        if (place[other] < static_cast<int>(k)) earlier.push_back(place[other]);
+      }
+    }
+    std::sort(earlier.begin(), earlier.end());
+    earlier.erase(std::unique(earlier.begin(), earlier.end()), earlier.end());
+    for (const int j : earlier) couplings_.push_back({j, order_[j], order_[k]});
+    coupling_start_.push_back(couplings_.size());
+  }
+}
+
+/// The entry of J M^-1 J^T for two rows: a sum over the bodies that they share.
+template <class Real>
+Real JointSystem<Real>::coupling(const Row<Real>& a, const Row<Real>& b) const {
+  const auto shared = [&](int body, Vec2<Real> linear, Real angular, int other_body, Vec2<Real> other_linear,
+                          Real other_angular) {
+    if (body != other_body || body == kFixedFrame) return Real{0};
+    return inverse_mass_[body] * dot(linear, other_linear) + inverse_inertia_[body] * angular * other_angular;
+  };
+  return (shared(a.a, a.linear_a, a.angular_a, b.a, b.linear_a, b.angular_a) +
+          shared(a.b, a.linear_b, a.angular_b, b.b, b.linear_b, b.angular_b)) +
+         (shared(a.a, a.linear_a, a.angular_a, b.b, b.linear_b, b.angular_b) +
+          shared(a.b, a.linear_b, a.angular_b, b.a, b.linear_a, b.angular_a));
+}
+
+// Up-looking (T. A. Davis, Algorithm 849: a concise sparse Cholesky factorization package, ACM TOMS 31,
+// 2005): row k of L from the rows before it, L(0..k-1, 0..k-1) y = A(0..k-1, k), L(k, j) = y(j) / D(j), D(k)
+// = A(k, k) - sum of L(k, j) y(j).
+template <class Real>
+int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
+  // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
+  constexpr Real kDependent = 64 * std::numeric_limits<Real>::epsilon();
+  int dependent = 0;
+  std::copy(column_start_.begin(), column_start_.end() - 1, filled_.begin());
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    for (std::size_t p = coupling_start_[k]; p < coupling_start_[k + 1]; ++p) {
+      work_[couplings_[p].earlier] = coupling(rows[couplings_[p].row_a], rows[couplings_[p].row_b]);
+    }
+    const Real own = coupling(rows[order_[k]], rows[order_[k]]);
+    Real pivot = own;
+    for (std::size_t q = row_start_[k]; q < row_start_[k + 1]; ++q) {
+      const int j = column_of_[q];
+      const Real y = work_[j];
+      work_[j] = 0;
+      for (std::size_t p = column_start_[j]; p < filled_[j]; ++p) work_[row_of_[p]] -= lower_[p] * y;
+      const Real l = y * inverse_diagonal_[j];
+      pivot -= l * y;
+      lower_[filled_[j]++] = l;
+    }
+    const bool independent = pivot > kDependent * own;
+    inverse_diagonal_[k] = independent ? 1 / pivot : 0;
+    dependent += independent ? 0 : 1;
+  }
+  return dependent;
+}
+
+template <class Real>
+void JointSystem<Real>::solve(std::span<Real> right_side) const {
+  const std::size_t n = order_.size();
+  for (std::size_t k = 0; k < n; ++k) work_[k] = right_side[order_[k]];
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t p = column_start_[j]; p < column_start_[j + 1]; ++p) {
+      work_[row_of_[p]] -= lower_[p] * work_[j];
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) work_[k] *= inverse_diagonal_[k];
+  for (std::size_t j = n; j-- > 0;) {
+    for (std::size_t p = column_start_[j]; p < column_start_[j + 1]; ++p) {
+      work_[j] -= lower_[p] * work_[row_of_[p]];
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) right_side[order_[k]] = work_[k];
+  std::fill(work_.begin(), work_.end(), Real{0});
+}
+
+template <class Real>
+void JointSystem<Real>::refine(std::span<const Row<Real>> rows, std::span<const Real> right_side,
+                               std::span<Real> x) const {
+  std::fill(response_.begin(), response_.end(), Twist<Real>{});
+  const auto pull = [&](int body, Vec2<Real> linear, Real angular, Real multiplier) {
+    if (body == kFixedFrame) return;
+    response_[body].velocity += multiplier * linear;
+    response_[body].angular_velocity += multiplier * angular;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    pull(rows[i].a, rows[i].linear_a, rows[i].angular_a, x[i]);
+    pull(rows[i].b, rows[i].linear_b, rows[i].angular_b, x[i]);
+  }
+  for (std::size_t body = 0; body < response_.size(); ++body) {
+    response_[body].velocity *= inverse_mass_[body];
+    response_[body].angular_velocity *= inverse_inertia_[body];
+  }
+  const auto along = [&](int body, Vec2<Real> linear, Real angular) {
+    if (body == kFixedFrame) return Real{0};
+    return dot(linear, response_[body].velocity) + angular * response_[body].angular_velocity;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    residual_[i] = right_side[i] - (along(rows[i].a, rows[i].linear_a, rows[i].angular_a) +
+                                    along(rows[i].b, rows[i].linear_b, rows[i].angular_b));
+  }
+  solve(residual_);
+  for (std::size_t i = 0; i < rows.size(); ++i) x[i] += residual_[i];
+}
+
+template class JointSystem<float>;
+template class JointSystem<double>;
+
+}  // namespace plumb
