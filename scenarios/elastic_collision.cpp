@@ -43,7 +43,7 @@ Scene oblique(std::string_view variant, double restitution) {
   return balls(variant, restitution,
                {{"cue", 1, 0.5, {-3, 6.3}, {3, 0}},
                 {"object", 1, 0.5, {0, 6}, {0, 0}},
-                {"small", 0.5, 0.25, {-2.05, 0}, {2.5, 0.4}},
+                {"small", 0.5, 0.25, {-2.04, 0}, {2.5, 0.4}},
                 {"large", 4, 1, {1.5, 0.2}, {-0.5, 0.1}},
                 {"falling", 2, 0.4, {0.2, -3}, {0.3, -2}},
                 {"rising", 3, 0.6, {-0.1, -7}, {0.1, 1.2}}});
@@ -54,7 +54,7 @@ Scene inelastic(std::string_view variant, double restitution) {
   return balls(variant, restitution,
                {{"chaser", 1, 0.5, {-3.01, 2}, {3.5, 0}},
                 {"chased", 2, 0.25, {0, 2}, {0.5, 0}},
-                {"small", 0.5, 0.25, {-2.05, -2}, {2.5, 0.4}},
+                {"small", 0.5, 0.25, {-2.04, -2}, {2.5, 0.4}},
                 {"large", 4, 1, {1.5, -1.8}, {-0.5, 0.1}}});
 }
 

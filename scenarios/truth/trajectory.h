@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scenarios/truth/motion.h"
+
+namespace plumb::scenarios::truth {
+
+/// The solution of y' = f(y) from y(0), at any time, to the last few digits of extended precision: the
+/// eighth-order Runge-Kutta-Fehlberg method of Boost.Odeint with error control. States are kept on a grid as
+/// they are asked for, and a time in between is reached from the grid point before it, so questions may come
+/// in any order and have one answer. Not thread-safe.
+class Trajectory {
+ public:
+  using State = std::vector<Real>;
+  using Law = std::function<void(const State& y, State& rate)>;
+
+  /// `spacing` of the grid, s; also the largest step. `tolerance` is the local error a step, relative to
+  /// 1 + |y|.
+  Trajectory(State start, Law law, Real spacing, Real tolerance = 1e-15L);
+
+  State at(Real time) const;
+
+ private:
+  void advance(State& y, Real from, Real to) const;
+
+  Law law_;
+  Real spacing_, tolerance_;
+  mutable std::vector<State> grid_;
+};
+
+}  // namespace plumb::scenarios::truth
