@@ -8,7 +8,8 @@
 namespace plumb {
 
 /// The scene as JSON; numbers are the shortest decimals that read back to the same bits. `indent` < 0: one
-/// line.
+/// line. Throws `Error` for what JSON cannot hold: numbers that are not finite (a law's infinite duration is
+/// left out), names that are not UTF-8.
 std::string to_json(const Scene& scene, int indent = 2);
 
 /// Reads a scene and validates it. Throws `Error` with the line, the subject, the field and the value.
