@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "harness/energy.h"
+#include "harness/envelope.h"
+#include "harness/joint_gap.h"
+#include "harness/truth_table.h"
+#include "reference/backend.h"
+#include "scenarios/scenario.h"
+
+namespace plumb::harness {
+
+/// The tolerance of every check of one run, none of them fitted to an engine. Where they come from, in order:
+///
+/// 1. What the scenario promises: `Problem::precise` for a method with a tolerance (times tolerance/1e-9
+/// where a looser
+///    one was asked for), `Problem::second_order` for one of second order: C h^2 + rounding.
+/// 2. Else the truth's own motion and the method's order: `Envelope` + rounding.
+/// 3. What must hold besides follows from how far the bodies may be from the truth, P, V (and angles, A, W):
+///    energy       sum m |v| V + m V^2/2 + I |w| W + I W^2/2 + m |g| P, over the energy scale
+///    momentum     rounding alone: every exchange of momentum is equal and opposite
+///    ang. mom.    sum m (|x| V + P |v| + P V) + I W, over its scale
+///    joint gap    of a's and b's anchors at r from their centres: P_a + r_a A_a + P_b + r_b A_b
+///    penetration  twice the largest P + r A over the bodies, r the radius of the circle that holds the body
+class Tolerances {
+ public:
+  Tolerances(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
+             const reference::StepSettings& settings, const ConservationScale& scale);
+
+  /// A tolerance, or nothing where none can be derived (no truth, nothing promised).
+  using Bound = std::optional<double>;
+
+  Bound position(int sample, std::size_t body) const;
+  Bound angle(int sample, std::size_t body) const;
+  Bound velocity(int sample, std::size_t body) const;
+  Bound angular_velocity(int sample, std::size_t body) const;
+  Bound energy(int sample) const;
+  Bound momentum(int sample) const;
+  Bound angular_momentum(int sample) const;
+  Bound joint_gap(int sample, const JointGaps& joints, std::size_t joint) const;
+  Bound penetration(int sample) const;
+
+  /// What rounding alone may do by `sample`: the tolerance of the discrete oracle.
+  StateBound rounding(int sample) const;
+
+ private:
+  Bound stated(double scenarios::Bounds::*member, double rounding) const;
+  Bound state(int sample, std::size_t body, double scenarios::Bounds::*stated_member,
+              double StateBound::*member) const;
+  double reach(int sample, std::size_t body, double radius) const;
+
+  const scenarios::Problem& problem_;
+  const TruthTable& truth_;
+  reference::Method method_;
+  ConservationScale scale_;
+  const scenarios::Bounds* stated_ = nullptr;
+  double stated_factor_ = 0;
+  std::optional<Envelope> envelope_;
+  std::vector<double> radii_, inertias_;
+};
+
+}  // namespace plumb::harness

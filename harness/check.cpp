@@ -1,0 +1,26 @@
+#include "harness/check.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plumb::harness {
+
+void WorstRatio::add(double value, double tolerance) {
+  const bool pass = value <= tolerance;  // false for NaN as well
+  double ratio = value > 0 ? value / tolerance : 0;
+  if (std::isnan(ratio) || (!pass && tolerance == 0)) ratio = std::numeric_limits<double>::infinity();
+  if (!any_ || (pass_ && !pass) || (pass_ == pass && ratio > ratio_)) {
+    ratio_ = ratio;
+    value_ = value;
+    tolerance_ = tolerance;
+  }
+  any_ = true;
+  pass_ = pass_ && pass;
+}
+
+Check WorstRatio::check(std::string name, Oracle oracle) const {
+  return {std::move(name), oracle, value_, tolerance_, pass_, {}};
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "harness/truth_table.h"
+#include "scenarios/scenario.h"
+
+namespace plumb::harness {
+
+/// What a system of bodies has at one time, in the quantities that physics may keep.
+struct Mechanics {
+  double kinetic = 0;                 ///< J
+  double potential = 0;               ///< J, in gravity, from where each body starts
+  Vec2d momentum{};                   ///< kg m/s
+  double angular_momentum = 0;        ///< kg m^2/s, about the origin
+  double sum_of_momenta = 0;          ///< kg m/s, sum of the bodies' |m v|
+  double sum_of_angular_momenta = 0;  ///< kg m^2/s, sum of |m x * v| + |I w|
+};
+
+/// Adds up the dynamic bodies of `scene`.
+Mechanics mechanics(const Scene& scene, std::span<const BodyState> states);
+
+/// What the drifts are relative to. Taken from the truth where there is one, so that a run that goes wild
+/// does not enlarge its own measure.
+struct ConservationScale {
+  double energy = 0;    ///< J, largest kinetic + potential energy, the potential from its lowest value
+  double momentum = 0;  ///< kg m/s, largest sum of |m v|; total mass * extent / duration if that is 0
+  double angular_momentum = 0;  ///< kg m^2/s, likewise
+};
+
+ConservationScale conservation_scale(const Scene& scene, const TruthTable& truth);
+
+/// How far energy, momentum and angular momentum have gone from where they started, relative to the scale;
+/// only what the scene's physics conserves.
+struct Drift {
+  std::optional<double> energy, momentum, angular_momentum;
+};
+
+class DriftMeter {
+ public:
+  DriftMeter(const scenarios::Problem& problem, const ConservationScale& scale);
+  Drift drift(std::span<const BodyState> states) const;
+
+ private:
+  const scenarios::Problem& problem_;
+  ConservationScale scale_;
+  Mechanics start_;
+};
+
+}  // namespace plumb::harness

@@ -1,0 +1,240 @@
+#include "harness/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace plumb::harness {
+namespace {
+
+double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
+
+// The share of the bounds that grows with the motion, from differences of the truth's velocities.
+struct Differences {
+  std::optional<Vec2d> acceleration, jerk;
+  std::optional<double> angular_acceleration, angular_jerk;
+};
+
+// How errors of the angle feed back through the forces that act at a time.
+struct Feedback {
+  double acceleration_per_rad = 0, angular_acceleration_per_rad = 0;
+};
+
+Feedback feedback_at(const Scene& scene, std::size_t body, double from, double to) {
+  Feedback feedback;
+  for (const ForceLaw& law : scene.forces) {
+    const auto* force = std::get_if<PointForce>(&law);
+    if (force == nullptr || find_body(scene, force->body) != body) continue;
+    if (to <= force->start || from >= force->start + force->duration) continue;
+    const Body& target = scene.bodies[body];
+    if (force->frame == Frame::Body) {
+      feedback.acceleration_per_rad += magnitude(force->force) / target.mass;
+    } else if (!target.fixed_rotation) {
+      feedback.angular_acceleration_per_rad +=
+          magnitude(force->force) * magnitude(force->point) / inertia_of(target);
+    }
+  }
+  return feedback;
+}
+
+// A jump that an engine may show earlier or later by `delay`.
+struct Window {
+  std::size_t body;
+  double time, delay;
+  Vec2d velocity;
+  double angular_velocity;
+};
+
+// The bounds by component.
+struct Parts {
+  Vec2d position{}, velocity{};
+  double angle = 0, angular_velocity = 0;
+};
+
+Vec2d absolute(Vec2d v) { return {std::abs(v.x), std::abs(v.y)}; }
+
+// The largest component along the unit vector `n` of a vector within `bound`.
+double along(Vec2d bound, Vec2d n) { return dot(bound, absolute(n)); }
+
+StateBound total(const Parts& parts) {
+  return {magnitude(parts.position), parts.angle, magnitude(parts.velocity), parts.angular_velocity};
+}
+
+class Growth {
+ public:
+  Growth(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
+         double tolerance)
+      : problem_(problem),
+        truth_(truth),
+        method_(method),
+        tolerance_(tolerance),
+        impacts_(find_impacts(problem)) {
+    const std::size_t bodies = truth.bodies();
+    now_.resize(bodies);
+    differences_.resize(bodies);
+    has_turning_force_.resize(bodies, false);
+    for (const ForceLaw& law : problem.scene.forces)
+      if (const auto* force = std::get_if<PointForce>(&law))
+        if (const auto body = find_body(problem.scene, force->body)) has_turning_force_[*body] = true;
+  }
+
+  std::vector<StateBound> run() {
+    std::vector<StateBound> out;
+    out.reserve((static_cast<std::size_t>(truth_.steps()) + 1) * truth_.bodies());
+    keep(out);
+    const long samples = static_cast<long>(truth_.steps()) * truth_.refinement();
+    for (long i = 1; i <= samples; ++i) {
+      interval(i);
+      if (i % truth_.refinement() == 0) keep(out);
+    }
+    for (const Window& window : windows_) open(window, out);
+    return out;
+  }
+
+ private:
+  double substep() const { return method_.substep; }
+  bool adaptive() const { return method_.order == 0; }
+
+  void keep(std::vector<StateBound>& out) const {
+    for (const Parts& parts : now_) out.push_back(total(parts));
+  }
+
+  void interval(long i) {
+    const double from = truth_.fine_time(i - 1), to = truth_.fine_time(i);
+    const auto before = truth_.fine(i - 1), after = truth_.fine(i);
+    for (std::size_t body = 0; body < now_.size(); ++body) {
+      if (problem_.scene.bodies[body].type != BodyType::Dynamic) continue;
+      smooth(body, before[body], after[body], from, to);
+    }
+    while (next_impact_ < impacts_.size() && impacts_[next_impact_].time <= to + kImpactMargin)
+      collide(impacts_[next_impact_++]);
+  }
+
+  bool jumps_within(std::size_t body, double from, double to) const {
+    // Impacts at a sample's very time spoil the differences on both of its sides.
+    for (std::size_t k = next_impact_ == 0 ? 0 : next_impact_ - 1; k < impacts_.size(); ++k) {
+      if (impacts_[k].time > to + kImpactMargin) break;
+      if (impacts_[k].time < from - kImpactMargin) continue;
+      for (const Jump& jump : impacts_[k].jumps)
+        if (jump.body == body) return true;
+    }
+    return false;
+  }
+
+  void smooth(std::size_t body, const BodyState& before, const BodyState& after, double from, double to) {
+    const double span = to - from, h = substep();
+    Parts& bound = now_[body];
+    Differences& last = differences_[body];
+    Vec2d velocity{}, position{};
+    double spin = 0, angle = 0;
+    if (adaptive()) {
+      const double share = Envelope::kAdaptiveSteps * tolerance_ * span / truth_.dt();
+      velocity = share * truth_.scale().speed * Vec2d{1, 1};
+      spin = share * truth_.scale().angular_speed;
+      position = share * truth_.scale().extent * Vec2d{1, 1};
+      angle = share * truth_.scale().angle;
+    } else if (jumps_within(body, from, to)) {
+      last = {};
+    } else {
+      const Vec2d acceleration = (1 / span) * (after.velocity - before.velocity);
+      const double angular_acceleration = (after.angular_velocity - before.angular_velocity) / span;
+      const Vec2d change = last.acceleration ? acceleration - *last.acceleration : Vec2d{};
+      const double angular_change =
+          last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
+      if (method_.order == 1) {
+        velocity = h * absolute(change);
+        spin = h * std::abs(angular_change);
+        position = h * span * absolute(acceleration);
+        angle = h * span * std::abs(angular_acceleration);
+      } else {
+        const Vec2d jerk = (1 / span) * change;
+        const double angular_jerk = angular_change / span;
+        if (last.jerk) velocity = h * h * absolute(jerk - *last.jerk);
+        spin = last.angular_jerk ? h * h * std::abs(angular_jerk - *last.angular_jerk) : 0;
+        position = h * h * absolute(change);
+        angle = h * h * std::abs(angular_change);
+        if (last.acceleration) last.jerk = jerk;
+        if (last.angular_acceleration) last.angular_jerk = angular_jerk;
+      }
+      last.acceleration = acceleration;
+      last.angular_acceleration = angular_acceleration;
+    }
+    const Feedback feedback =
+        has_turning_force_[body] ? feedback_at(problem_.scene, body, from, to) : Feedback{};
+    bound.angular_velocity += spin + feedback.angular_acceleration_per_rad * bound.angle * span;
+    bound.angle += angle + bound.angular_velocity * span;
+    const double turned = feedback.acceleration_per_rad * bound.angle * span;
+    bound.velocity += velocity + Vec2d{turned, turned};
+    bound.position += position + bound.velocity * span;
+  }
+
+  void collide(const Impact& impact) {
+    const std::vector<Parts> before = now_;
+    const double time = impact.time, step = adaptive() ? tolerance_ * truth_.scale().duration : substep();
+    const StateBound rounding = rounding_bound(truth_.scale(), method_.epsilon, time / substep(), time);
+    for (const Jump& jump : impact.jumps) {
+      Parts& bound = now_[jump.body];
+      Vec2d position = before[jump.body].position + rounding.position * Vec2d{1, 1};
+      Vec2d velocity = before[jump.body].velocity + rounding.velocity * Vec2d{1, 1};
+      if (jump.partner) {
+        position += before[*jump.partner].position;
+        velocity += before[*jump.partner].velocity;
+      }
+      const Vec2d normal = jump.normal, tangent = perpendicular(jump.normal);
+      const double closing = std::max(jump.closing, 1e-12);
+      const double delay = std::min(step + along(position, normal) / closing, truth_.scale().duration);
+      const double lever = std::max(jump.distance - closing * delay, jump.distance / 10);
+      const double turn = (jump.sliding * delay + along(position, tangent)) / lever;
+      const double share = (turn * jump.sliding + along(velocity, normal)) / closing;
+      const double size = magnitude(jump.velocity);
+      bound.velocity += size * (share * absolute(normal) + turn * absolute(tangent));
+      bound.angular_velocity += jump.angular_velocity * (share + turn);
+      bound.position += delay * absolute(jump.velocity);
+      bound.angle += jump.angular_velocity * delay;
+      windows_.push_back({jump.body, time, delay, jump.velocity, jump.angular_velocity});
+    }
+  }
+
+  void open(const Window& window, std::vector<StateBound>& out) const {
+    const double dt = truth_.dt();
+    const int first = std::max(0, static_cast<int>(std::floor((window.time - window.delay) / dt)));
+    const int last = std::min(truth_.steps(), static_cast<int>(std::ceil((window.time + window.delay) / dt)));
+    for (int k = first; k <= last; ++k) {
+      const double time = k * dt;
+      if (std::abs(time - window.time) > window.delay * (1 + 1e-9)) continue;
+      StateBound& bound = out[static_cast<std::size_t>(k) * now_.size() + window.body];
+      bound.velocity += magnitude(window.velocity);
+      bound.angular_velocity += window.angular_velocity;
+      if (time < window.time) {
+        bound.position += magnitude(window.velocity) * window.delay;
+        bound.angle += window.angular_velocity * window.delay;
+      }
+    }
+  }
+
+  const scenarios::Problem& problem_;
+  const TruthTable& truth_;
+  const reference::Method& method_;
+  double tolerance_;
+  std::vector<Impact> impacts_;
+  std::size_t next_impact_ = 0;
+  std::vector<Parts> now_;
+  std::vector<Differences> differences_;
+  std::vector<bool> has_turning_force_;
+  std::vector<Window> windows_;
+};
+
+}  // namespace
+
+StateBound rounding_bound(const Scale& scale, double epsilon, double steps, double time) {
+  const double share = kRoundings * epsilon * (steps + 1);
+  return {share * (scale.length + scale.extent + scale.speed * time),
+          share * (scale.angle + scale.angular_speed * time), share * scale.speed,
+          share * scale.angular_speed};
+}
+
+Envelope::Envelope(const scenarios::Problem& problem, const TruthTable& truth,
+                   const reference::Method& method, double tolerance)
+    : bodies_(truth.bodies()), bounds_(Growth(problem, truth, method, tolerance).run()) {}
+
+}  // namespace plumb::harness

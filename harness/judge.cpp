@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include "harness/known_limits.h"
+#include "harness/result.h"
+
+namespace plumb::harness {
+namespace {
+
+void judge_check(Result& result, Check& check, bool defaults) {
+  const KnownLimit* limit = find_known_limit(result.engine, result.label, check.name);
+  check.known_limit = limit != nullptr && !check.pass ? std::string(limit->reason) : "";
+  if (!check.pass && limit == nullptr) {
+    result.unexpected.push_back(
+        fmt::format("{} is {:.3g}, its bound is {:.3g}", check.name, check.value, check.tolerance));
+  }
+  if (check.pass && limit != nullptr && defaults) {
+    result.unexpected.push_back(fmt::format(
+        "known limit has gone: {} meets its bound; remove it from harness/known_limits.cpp", check.name));
+  }
+}
+
+}  // namespace
+
+void judge(Result& result, bool defaults) {
+  result.unexpected.clear();
+  if (result.status == Status::Failed || result.status == Status::Crashed || result.status == Status::Timeout)
+    result.unexpected.push_back(result.reason);
+  for (Check& check : result.checks) judge_check(result, check, defaults);
+}
+
+}  // namespace plumb::harness

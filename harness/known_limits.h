@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace plumb::harness {
+
+/// Bounds that an engine is known to miss, and why. Declared for the default settings at dt = 1/60. In each
+/// pattern
+/// '*' stands for anything and '|' parts alternatives; every check that the patterns cover has to miss its
+/// bound.
+struct KnownLimit {
+  std::string_view engine;    ///< "box2d", "bullet*"
+  std::string_view instance;  ///< labels: "pendulum_chain[20]|pendulum_chain[100]"
+  std::string_view check;     ///< names of checks
+  std::string_view reason;
+};
+
+/// All of them: the one place.
+std::span<const KnownLimit> known_limits();
+
+/// The first that speaks of this check; null if none does.
+const KnownLimit* find_known_limit(std::string_view engine, std::string_view instance,
+                                   std::string_view check);
+
+/// Whether `text` is what one of the alternatives in `pattern` says.
+bool matches(std::string_view pattern, std::string_view text);
+
+}  // namespace plumb::harness

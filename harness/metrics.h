@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace plumb::harness {
+
+/// How far a run is from the truth and from the laws of physics: the largest figures over all bodies and
+/// every step's sample. Absent where the figure has no meaning for the scene.
+struct Metrics {
+  std::optional<double> position_error;  ///< m
+  std::optional<double> angle_error;     ///< rad
+  std::optional<double> velocity_error;  ///< m/s; samples within one dt of an exact impact are left out
+  std::optional<double> angular_velocity_error;  ///< rad/s; the same samples are left out
+  std::optional<double> energy_drift;            ///< relative to the energy scale; see `EnergyMeter`
+  std::optional<double> momentum_drift;          ///< relative to the largest sum of the bodies' |m v|
+  std::optional<double> angular_momentum_drift;  ///< relative to the largest sum of the bodies' |L|
+  std::optional<double> joint_gap;               ///< m, how far a joint's anchors are from where they belong
+  std::optional<double> penetration;             ///< m, depth of the deepest overlap of two shapes
+};
+
+/// A metric by name, for tables and files.
+struct MetricField {
+  std::string_view name;
+  std::string_view unit;  ///< empty: relative
+  std::optional<double> Metrics::*value;
+};
+
+inline constexpr std::array<MetricField, 9> kMetricFields{{
+    {"position_error", "m", &Metrics::position_error},
+    {"angle_error", "rad", &Metrics::angle_error},
+    {"velocity_error", "m/s", &Metrics::velocity_error},
+    {"angular_velocity_error", "rad/s", &Metrics::angular_velocity_error},
+    {"energy_drift", "", &Metrics::energy_drift},
+    {"momentum_drift", "", &Metrics::momentum_drift},
+    {"angular_momentum_drift", "", &Metrics::angular_momentum_drift},
+    {"joint_gap", "m", &Metrics::joint_gap},
+    {"penetration", "m", &Metrics::penetration},
+}};
+
+}  // namespace plumb::harness

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "harness/bounds.h"
+#include "harness/energy.h"
+#include "harness/joint_gap.h"
+#include "harness/penetration.h"
+#include "harness/result.h"
+#include "harness/run.h"
+#include "harness/track.h"
+
+namespace plumb::harness {
+
+/// Watches a run sample by sample and measures it: metrics, checks, and the track for comparing engines.
+/// Keeps no trajectory, so its memory does not grow with the run.
+class Observer {
+ public:
+  Observer(const Case& scene_case, const reference::Method& method, const reference::StepSettings& settings,
+           Track* track);
+
+  void add(int sample, std::span<const BodyState> states);
+
+  bool diverged() const { return !why_diverged_.empty(); }
+  /// Writes metrics, checks and, where it diverged, status and reason.
+  void finish(Result& result) const;
+
+ private:
+  struct Errors {
+    double position = 0, angle = 0, velocity = 0, angular_velocity = 0;
+  };
+
+  void watch_for_divergence(int sample, std::span<const BodyState> states);
+  void against_truth(int sample, std::span<const BodyState> states);
+  void against_discrete(int sample, std::span<const BodyState> states);
+  void invariants(int sample, std::span<const BodyState> states);
+  void follow(int sample, std::span<const BodyState> states);
+  bool near_impact(double time) const;
+
+  const Case& case_;
+  reference::Method method_;
+  ConservationScale scale_;
+  Tolerances tolerances_;
+  DriftMeter drifts_;
+  JointGaps joints_;
+  PenetrationMeter penetration_;
+  Track* track_;
+  std::string why_diverged_;
+  Metrics metrics_;
+  WorstRatio position_, angle_, velocity_, angular_velocity_;
+  WorstRatio discrete_position_, discrete_angle_, discrete_velocity_, discrete_angular_velocity_;
+  WorstRatio energy_, momentum_, angular_momentum_, gap_, depth_, finite_;
+  std::vector<BodyState> discrete_;
+  bool discrete_known_ = true;
+};
+
+}  // namespace plumb::harness

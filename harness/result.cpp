@@ -1,0 +1,158 @@
+#include "harness/result.h"
+
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/error.h"
+#include "harness/environment.h"
+
+namespace plumb::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kStatusNames[] = {"ok", "skipped", "failed", "crashed", "timeout", "diverged"};
+constexpr Oracle kOracles[] = {Oracle::Exact, Oracle::Discrete, Oracle::Invariant, Oracle::Consensus,
+                               Oracle::Self};
+
+template <class Enum, class Names>
+Enum parse(const std::string& name, const Names& all) {
+  for (const Enum value : all)
+    if (name_of(value) == name) return value;
+  throw Error(Error::Kind::Syntax, "a result", "", name, "is not a name that results have");
+}
+
+double number(const Json& json) {
+  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+Json cost_json(const Cost& cost) {
+  return {{"ns_per_step", cost.ns_per_step},
+          {"ns_per_step_low", cost.ns_per_step_low},
+          {"ns_per_step_high", cost.ns_per_step_high},
+          {"ns_per_simulated_second", cost.ns_per_simulated_second},
+          {"setup_ns", cost.setup_ns},
+          {"repetitions", cost.repetitions},
+          {"steps", cost.steps}};
+}
+
+Json checks_json(const std::vector<Check>& checks) {
+  Json array = Json::array();
+  for (const Check& check : checks) {
+    Json json{{"name", check.name},
+              {"oracle", name_of(check.oracle)},
+              {"value", check.value},
+              {"tolerance", check.tolerance},
+              {"pass", check.pass}};
+    if (!check.known_limit.empty()) json["known_limit"] = check.known_limit;
+    array.push_back(std::move(json));
+  }
+  return array;
+}
+
+Json result_json(const Result& result) {
+  Json settings = Json::object(), metrics = Json::object();
+  for (const auto& [name, value] : result.settings) settings[name] = value;
+  for (const MetricField& field : kMetricFields) {
+    const auto& value = result.metrics.*field.value;
+    metrics[std::string(field.name)] = value ? Json(*value) : Json(nullptr);
+  }
+  return {{"scenario", result.scenario},
+          {"variant", result.variant},
+          {"size", result.size},
+          {"label", result.label},
+          {"engine", result.engine},
+          {"engine_version", result.engine_version},
+          {"precision", result.precision},
+          {"dt", result.dt},
+          {"settings", settings},
+          {"status", name_of(result.status)},
+          {"reason", result.reason},
+          {"metrics", metrics},
+          {"cost", result.cost ? cost_json(*result.cost) : Json(nullptr)},
+          {"checks", checks_json(result.checks)},
+          {"agrees_with", result.agrees_with},
+          {"disagrees_with", result.disagrees_with},
+          {"unexpected", result.unexpected}};
+}
+
+// Engines' messages may hold anything; JSON holds only UTF-8.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Cost cost_from(const Json& json) {
+  return {number(json.at("ns_per_step")),      number(json.at("ns_per_step_low")),
+          number(json.at("ns_per_step_high")), number(json.at("ns_per_simulated_second")),
+          number(json.at("setup_ns")),         json.at("repetitions").get<int>(),
+          json.at("steps").get<int>()};
+}
+
+Result result_from(const Json& json) {
+  Result result;
+  result.scenario = json.at("scenario");
+  result.variant = json.at("variant");
+  result.size = json.at("size");
+  result.label = json.at("label");
+  result.engine = json.at("engine");
+  result.engine_version = json.at("engine_version");
+  result.precision = json.at("precision");
+  result.dt = number(json.at("dt"));
+  for (const auto& [name, value] : json.at("settings").items()) result.settings.emplace_back(name, value);
+  static constexpr Status kStatuses[] = {Status::Ok,      Status::Skipped, Status::Failed,
+                                         Status::Crashed, Status::Timeout, Status::Diverged};
+  result.status = parse<Status>(json.at("status"), kStatuses);
+  result.reason = json.at("reason");
+  for (const MetricField& field : kMetricFields) {
+    const Json& value = json.at("metrics").at(std::string(field.name));
+    if (!value.is_null()) result.metrics.*field.value = value.get<double>();
+  }
+  if (!json.at("cost").is_null()) result.cost = cost_from(json.at("cost"));
+  for (const Json& check : json.at("checks")) {
+    result.checks.push_back({check.at("name"), parse<Oracle>(check.at("oracle"), kOracles),
+                             number(check.at("value")), number(check.at("tolerance")), check.at("pass"),
+                             check.value("known_limit", "")});
+  }
+  result.agrees_with = json.at("agrees_with").get<std::vector<std::string>>();
+  result.disagrees_with = json.at("disagrees_with").get<std::vector<std::string>>();
+  result.unexpected = json.at("unexpected").get<std::vector<std::string>>();
+  return result;
+}
+
+}  // namespace
+
+std::string_view name_of(Status status) { return kStatusNames[static_cast<int>(status)]; }
+
+const Check* Result::find_check(std::string_view name) const {
+  for (const Check& check : checks)
+    if (check.name == name) return &check;
+  return nullptr;
+}
+
+std::string to_json(const Result& result) { return dump(result_json(result)); }
+
+std::string to_json_with_environment(const Result& result) {
+  const Environment where = environment();
+  Json json = result_json(result);
+  json["environment"] = {{"plumb_version", where.plumb_version},
+                         {"commit", where.commit},
+                         {"compiler", where.compiler},
+                         {"flags", where.flags},
+                         {"build_type", where.build_type},
+                         {"cpu", where.cpu},
+                         {"os", where.os},
+                         {"date", where.date}};
+  return dump(json);
+}
+
+Result result_from_json(std::string_view text) {
+  try {
+    return result_from(Json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(Error::Kind::Syntax, "a result", "", std::string(text.substr(0, 80)),
+                fmt::format("cannot be read: {}", error.what()));
+  }
+}
+
+}  // namespace plumb::harness

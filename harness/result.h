@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/check.h"
+#include "harness/metrics.h"
+#include "reference/backend.h"
+
+namespace plumb::harness {
+
+enum class Status {
+  Ok,        ///< ran to its end
+  Skipped,   ///< the engine cannot run this scene, or is not installed
+  Failed,    ///< the engine reported an error
+  Crashed,   ///< the engine's process died
+  Timeout,   ///< the run took longer than it may
+  Diverged,  ///< a state that is not finite, or a thousand times the scene's extent away from the truth
+};
+
+std::string_view name_of(Status status);
+
+/// Wall time, median of repetitions that took turns with the other engines' on the same scene.
+struct Cost {
+  double ns_per_step = 0;  ///< a step is one dt, with all its substeps; no sampling, no transport
+  double ns_per_step_low = 0,
+         ns_per_step_high = 0;  ///< the middle half of the repetitions lies between these
+  double ns_per_simulated_second = 0;
+  double setup_ns = 0;  ///< from the scene to the first step
+  int repetitions = 0;
+  int steps = 0;  ///< steps a repetition, from the start of the run
+};
+
+/// One engine's run of one instance.
+struct Result {
+  std::string scenario, variant;
+  int size = 1;
+  std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
+  std::string engine, engine_version, precision;
+  double dt = 0;  ///< s
+  reference::Settings settings;
+  Status status = Status::Ok;
+  std::string reason;  ///< why it is not ok
+  Metrics metrics;
+  std::optional<Cost> cost;
+  std::vector<Check> checks;
+  std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
+  std::vector<std::string> unexpected;                   ///< what makes the run fail, as sentences
+
+  bool ran() const { return status == Status::Ok || status == Status::Diverged; }
+  const Check* find_check(std::string_view name) const;
+};
+
+/// What is wrong with `result` beyond what is declared: checks missed without a declared limit and statuses
+/// that are neither ok nor skipped. Also marks missed checks that are declared, and, where `defaults` says
+/// that the run used the settings that limits are declared for, declared limits that have gone.
+void judge(Result& result, bool defaults);
+
+/// As one line of JSON, without and with the environment. `result_from_json` reads either.
+std::string to_json(const Result& result);
+std::string to_json_with_environment(const Result& result);
+Result result_from_json(std::string_view text);
+
+}  // namespace plumb::harness

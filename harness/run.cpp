@@ -1,0 +1,70 @@
+#include "harness/run.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+#include "engine/scene/validate.h"
+#include "harness/observer.h"
+
+namespace plumb::harness {
+
+Case::Case(const scenarios::Instance& which, double dt)
+    : instance(which), label(which.label()), problem(which.build()), truth(problem, dt) {
+  validate(problem.scene);
+}
+
+Result describe(const Case& scene_case, const reference::Backend& backend,
+                const reference::StepSettings& settings) {
+  Result result;
+  result.scenario = scene_case.instance.scenario->name;
+  result.variant = scene_case.instance.variant;
+  result.size = scene_case.instance.size;
+  result.label = scene_case.label;
+  result.engine = backend.name();
+  const reference::Identity identity = backend.identity();
+  result.engine_version = identity.version;
+  result.precision = identity.precision;
+  result.dt = settings.dt;
+  if (!identity.available) {
+    result.status = Status::Skipped;
+    result.reason = fmt::format("not installed: {}", identity.reason);
+    return result;
+  }
+  const Scene& scene = scene_case.problem.scene;
+  const std::string unsupported = backend.unsupported(scene, settings);
+  if (!unsupported.empty()) {
+    result.status = Status::Skipped;
+    result.reason = unsupported;
+    return result;
+  }
+  result.settings = backend.effective_settings(scene, settings);
+  return result;
+}
+
+Result run(const Case& scene_case, const reference::Backend& backend, const reference::StepSettings& settings,
+           Track* track, double* nanoseconds) {
+  Result result = describe(scene_case, backend, settings);
+  if (result.status == Status::Skipped) return result;
+  const Scene& scene = scene_case.problem.scene;
+  Observer observer(scene_case, backend.method(settings), settings, track);
+  const auto simulator = backend.create(scene, settings);
+  std::vector<BodyState> start(scene.bodies.size());
+  simulator->read(start);
+  observer.add(0, start);
+  int sample = 0;
+  const auto sink = [&](double, std::span<const BodyState> states) { observer.add(++sample, states); };
+  const double spent = simulator->record(scene_case.truth.steps(), 1, scene.bodies.size(), sink);
+  if (nanoseconds != nullptr) *nanoseconds = spent;
+  if (sample != scene_case.truth.steps()) {
+    throw Error(Error::Kind::Run, fmt::format("engine '{}'", backend.name()), "samples",
+                fmt::format("{}", sample),
+                fmt::format("were handed over where {} were asked for", scene_case.truth.steps()));
+  }
+  observer.finish(result);
+  return result;
+}
+
+}  // namespace plumb::harness

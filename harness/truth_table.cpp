@@ -1,0 +1,88 @@
+#include "harness/truth_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/error.h"
+#include "harness/interrupt.h"
+
+namespace plumb::harness {
+namespace {
+
+constexpr int kRefinement = 4;
+constexpr std::size_t kMemory = std::size_t{256} << 20;  // bytes
+
+double radius_of(const Geometry& geometry) {
+  if (const auto* circle = std::get_if<Circle>(&geometry)) return circle->radius;
+  const auto& box = std::get<Box>(geometry);
+  return std::hypot(box.width, box.height) / 2;
+}
+
+double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
+
+}  // namespace
+
+int step_count(double duration, double dt) {
+  return std::max(1, static_cast<int>(std::floor(duration / dt + 1e-6)));
+}
+
+double bounding_radius(const Body& body) {
+  double radius = 0;
+  for (const Shape& shape : body.shapes)
+    radius = std::max(radius, magnitude(shape.position) + radius_of(shape.geometry));
+  return radius;
+}
+
+TruthTable::TruthTable(const scenarios::Problem& problem, double dt)
+    : dt_(dt), steps_(step_count(problem.duration, dt)), bodies_(problem.scene.bodies.size()) {
+  if (problem.truth.exact) {
+    const std::size_t coarse = (static_cast<std::size_t>(steps_) + 1) * bodies_ * sizeof(BodyState);
+    refinement_ = std::clamp(static_cast<int>(kMemory / std::max<std::size_t>(coarse, 1)), 1, kRefinement);
+    const long samples = static_cast<long>(steps_) * refinement_ + 1;
+    states_.resize(static_cast<std::size_t>(samples) * bodies_);
+    for (long i = 0; i < samples; ++i) {
+      if (interrupted()) throw Error(Error::Kind::Run, "the run", "", "", "was interrupted");
+      problem.truth.exact(fine_time(i), {states_.data() + static_cast<std::size_t>(i) * bodies_, bodies_});
+    }
+  }
+  measure(problem.scene);
+}
+
+std::span<const BodyState> TruthTable::fine(long index) const {
+  return {states_.data() + static_cast<std::size_t>(index) * bodies_, bodies_};
+}
+
+double TruthTable::fine_time(long index) const {
+  // On a step's sample exactly k * dt, as the engines' clocks have it.
+  const long whole = index / refinement_, part = index % refinement_;
+  return static_cast<double>(whole) * dt_ + dt_ * static_cast<double>(part) / refinement_;
+}
+
+void TruthTable::measure(const Scene& scene) {
+  scale_.duration = steps_ * dt_;
+  scale_.angle = std::numbers::pi;
+  Vec2d low{}, high{};
+  bool first = true;
+  const auto include = [&](std::size_t body, const BodyState& state) {
+    const double radius = bounding_radius(scene.bodies[body]);
+    scale_.length = std::max({scale_.length, std::abs(state.position.x), std::abs(state.position.y)});
+    scale_.speed = std::max(scale_.speed, magnitude(state.velocity));
+    scale_.angle = std::max(scale_.angle, std::abs(state.angle));
+    scale_.angular_speed = std::max(scale_.angular_speed, std::abs(state.angular_velocity));
+    const Vec2d a = state.position - Vec2d{radius, radius}, b = state.position + Vec2d{radius, radius};
+    low = first ? a : Vec2d{std::min(low.x, a.x), std::min(low.y, a.y)};
+    high = first ? b : Vec2d{std::max(high.x, b.x), std::max(high.y, b.y)};
+    first = false;
+  };
+  for (std::size_t i = 0; i < bodies_; ++i) include(i, initial_state(scene.bodies[i]));
+  for (std::size_t k = 0; k < states_.size(); ++k) include(k % bodies_, states_[k]);
+  if (!known()) {
+    // Without a truth: what gravity and the first speeds reach.
+    scale_.speed += magnitude(scene.gravity) * scale_.duration;
+    high += Vec2d{scale_.speed * scale_.duration, 0};
+  }
+  scale_.extent = std::max(magnitude(high - low), 1e-3);
+}
+
+}  // namespace plumb::harness
