@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Plants physics bugs in a copy of the engine, one at a time, and shows that the agreement tests catch each.
+
+    mutate.py [--work DIR] [--only NAME]... [--compiler CXX] [-j N]
+    mutate.py --list         names the bugs
+    mutate.py --match        checks only that each bug still has its place in the sources
+    mutate.py --self-test    tries the machinery on a project of one file
+
+Exit status: 0 when every bug was caught, 1 when one survived, 2 when the sources or the tests did not let it
+start. The copy and its build stay in DIR (build/mutations), so that a second run is quick.
+"""
+
+import argparse
+import dataclasses
+import os
+import pathlib
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+sys.dont_write_bytecode = True
+
+import checkout_copy  # noqa: E402
+
+
+@dataclasses.dataclass(frozen=True)
+class Mutation:
+    """A bug: the text `old`, which stands exactly once in `file`, becomes `new`."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+
+    def apply(self, text):
+        count = text.count(self.old)
+        if count != 1:
+            raise ValueError(f"{self.name}: the text to change stands {count} times in {self.file}, not once: "
+                             f"{self.old!r}")
+        if self.old == self.new:
+            raise ValueError(f"{self.name}: changes nothing")
+        return text.replace(self.old, self.new)
+
+
+def mismatches(root, mutations):
+    """One sentence for each mutation that has lost its place."""
+    problems = []
+    for mutation in mutations:
+        try:
+            mutation.apply((root / mutation.file).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            problems.append(str(error))
+    names = [mutation.name for mutation in mutations]
+    problems += [f"{name}: two mutations have this name" for name in set(names) if names.count(name) > 1]
+    return problems
+
+
+class Tests:
+    """The agreement tests of a tree."""
+
+    def __init__(self, tree, arguments, target, select, jobs):
+        self.build = checkout_copy.configure(tree, arguments)
+        self.target, self.select, self.jobs = target, select, jobs
+
+    def compile(self):
+        return checkout_copy.run(["ninja", "-C", self.build, f"-j{self.jobs}", self.target], check=False)
+
+    def failures(self):
+        """Names of the tests that fail, and how many ran."""
+        report = self.build / "mutation.xml"
+        report.unlink(missing_ok=True)
+        _, output = checkout_copy.run(["ctest", "--test-dir", self.build, f"-j{self.jobs}", "--timeout", "120",
+                                       "--output-junit", report, *self.select], check=False)
+        if not report.exists():
+            raise SystemExit(f"{output}\nctest wrote no report")
+        cases = xml.etree.ElementTree.parse(report).getroot().findall("testcase")
+        failing = [case.get("name") for case in cases if case.get("status") == "fail"]
+        return failing, len(failing) + sum(case.get("status") == "run" for case in cases)
+
+
+def describe(names):
+    """A few of the tests by name, and how many more."""
+    shown = ", ".join(names[:3])
+    return shown + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def plant(root, work, mutations, tests_of, say=print):
+    """Plants each mutation in a copy of `root`; returns the names of those that survive."""
+    tree = work / "tree"
+    checkout_copy.sync(root, tree)
+    tests = tests_of(tree)
+    status, output = tests.compile()
+    if status != 0:
+        raise SystemExit(f"{output}\nthe copy does not build without a mutation")
+    failing, count = tests.failures()
+    if failing or count == 0:
+        raise SystemExit(f"without a mutation {len(failing)} of {count} tests fail: {describe(failing)}")
+    say(f"without a mutation all {count} tests pass", flush=True)
+
+    survivors = []
+    width = max(len(mutation.name) for mutation in mutations)
+    for mutation in mutations:
+        begin = time.monotonic()
+        file = tree / mutation.file
+        text = file.read_text(encoding="utf-8")
+        try:
+            file.write_text(mutation.apply(text), encoding="utf-8")
+            status, output = tests.compile()
+            if status != 0:
+                raise SystemExit(f"{output}\n{mutation.name}: does not compile")
+            caught, count = tests.failures()
+        finally:
+            file.write_text(text, encoding="utf-8")
+        verdict = f"caught by {len(caught)} of {count}: {describe(caught)}" if caught else "SURVIVED"
+        say(f"{mutation.name:{width}}  {verdict}  [{time.monotonic() - begin:.0f} s]", flush=True)
+        if not caught:
+            survivors.append(mutation.name)
+    return survivors
+
+
+def self_test():
+    """A project of one file and one test: a mutation that is caught, one that survives, one without a place."""
+    sources = {
+        "CMakeLists.txt": "cmake_minimum_required(VERSION 3.25)\nproject(fall LANGUAGES CXX)\nenable_testing()\n"
+                          "add_executable(fall fall.cpp)\nadd_test(NAME agreement/fall COMMAND fall)\n"
+                          "set_tests_properties(agreement/fall PROPERTIES LABELS agreement)\n",
+        "fall.cpp": "double unused() { return 1; }\n"
+                    "double height(double t) { return 10 - 9.81 * t * t / 2; }\n"
+                    "int main() { return height(2) == 10 - 9.81 * 2 ? 0 : 1; }\n",
+    }
+    caught = Mutation("gravity twice", "fall.cpp", "t * t / 2", "t * t")
+    survives = Mutation("never called", "fall.cpp", "return 1;", "return 2;")
+    lost = Mutation("no place", "fall.cpp", "t * t * t", "t")
+    twice = Mutation("two places", "fall.cpp", "return", "throw")
+    with tempfile.TemporaryDirectory() as name:
+        root, work = pathlib.Path(name) / "checkout", pathlib.Path(name) / "work"
+        root.mkdir()
+        for path, text in sources.items():
+            (root / path).write_text(text, encoding="utf-8")
+
+        def tests_of(tree):
+            return Tests(tree, [], "all", ["-L", "agreement"], 1)
+
+        assert mismatches(root, [caught, survives]) == []
+        assert len(mismatches(root, [caught, lost, twice])) == 2
+        assert len(mismatches(root, [caught, caught])) == 1
+        assert plant(root, work, [caught, survives], tests_of) == ["never called"]
+        for path, text in sources.items():
+            assert (root / path).read_text(encoding="utf-8") == text, "the checkout was changed"
+        assert plant(root, work, [caught], tests_of) == []
+    print("one caught, one survived, three refused")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", type=pathlib.Path)
+    parser.add_argument("--only", action="append", metavar="NAME")
+    parser.add_argument("--compiler", default=os.environ.get("CXX", "c++"))
+    parser.add_argument("-j", dest="jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--match", action="store_true")
+    parser.add_argument("--self-test", action="store_true")
+    options = parser.parse_args()
+    if options.self_test:
+        return self_test()
+
+    from bugs import MUTATIONS
+
+    root = HERE.parent.parent
+    if options.list:
+        for mutation in MUTATIONS:
+            print(f"{mutation.name:45} {mutation.file}")
+        return 0
+    problems = mismatches(root, MUTATIONS)
+    if problems:
+        print("\n".join(problems), file=sys.stderr)
+        return 2
+    if options.match:
+        print(f"{len(MUTATIONS)} mutations have their place")
+        return 0
+    chosen = [mutation for mutation in MUTATIONS if not options.only or mutation.name in options.only]
+    if not chosen:
+        print(f"no mutation is called {' or '.join(options.only)}; see --list", file=sys.stderr)
+        return 2
+
+    arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF"]
+    select = ["-L", "agreement", "-R", "plumb"]
+    survivors = plant(root, options.work or root / "build" / "mutations", chosen,
+                      lambda tree: Tests(tree, arguments, "test_agreement", select, options.jobs))
+    print(f"{len(chosen) - len(survivors)} of {len(chosen)} caught" +
+          (f"; survived: {', '.join(survivors)}" if survivors else ""))
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
