@@ -14,6 +14,8 @@ target_compile_definitions(plumb_options INTERFACE $<$<BOOL:${PLUMB_SCALAR}>:PLU
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(plumb_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    # g++ 12 sees overlaps in std::string + literal that are not there (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     $<$<BOOL:${PLUMB_WERROR}>:-Werror>)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
