@@ -68,6 +68,8 @@ Json result_json(const Result& result) {
           {"engine_version", result.engine_version},
           {"precision", result.precision},
           {"dt", result.dt},
+          {"duration", result.duration},
+          {"truth", result.truth},
           {"settings", settings},
           {"status", name_of(result.status)},
           {"reason", result.reason},
@@ -99,6 +101,8 @@ Result result_from(const Json& json) {
   result.engine_version = json.at("engine_version");
   result.precision = json.at("precision");
   result.dt = number(json.at("dt"));
+  result.duration = number(json.at("duration"));
+  result.truth = json.at("truth");
   for (const auto& [name, value] : json.at("settings").items()) result.settings.emplace_back(name, value);
   static constexpr Status kStatuses[] = {Status::Ok,      Status::Skipped, Status::Failed,
                                          Status::Crashed, Status::Timeout, Status::Diverged};

@@ -39,7 +39,9 @@ struct Result {
   int size = 1;
   std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
   std::string engine, engine_version, precision;
-  double dt = 0;  ///< s
+  double dt = 0;        ///< s
+  double duration = 0;  ///< s
+  std::string truth;    ///< where the exact answer comes from
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok

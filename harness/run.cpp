@@ -28,6 +28,8 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
   result.engine_version = identity.version;
   result.precision = identity.precision;
   result.dt = settings.dt;
+  result.duration = scene_case.problem.duration;
+  result.truth = scene_case.problem.truth.source;
   if (!identity.available) {
     result.status = Status::Skipped;
     result.reason = fmt::format("not installed: {}", identity.reason);

@@ -1,0 +1,221 @@
+#include "harness/table.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace plumb::harness {
+namespace {
+
+using Ink = Style::Ink;
+
+constexpr int kEngineWidth = 15, kFigureWidth = 10, kVerdictWidth = 30;
+
+/// A column of figures.
+struct Column {
+  std::string title, unit;
+  std::function<std::optional<double>(const Result&)> value;
+  std::function<std::string(double)> text;
+  int priority = 0;  // the highest is dropped first on a narrow terminal
+};
+
+Column metric_column(const char* title, const char* unit, std::optional<double> Metrics::*member,
+                     int priority) {
+  return {title, unit, [member](const Result& result) { return result.metrics.*member; }, figure, priority};
+}
+
+std::vector<Column> all_columns() {
+  return {metric_column("position", "m", &Metrics::position_error, 1),
+          metric_column("angle", "rad", &Metrics::angle_error, 6),
+          metric_column("velocity", "m/s", &Metrics::velocity_error, 4),
+          metric_column("energy", "drift", &Metrics::energy_drift, 2),
+          metric_column("joint gap", "m", &Metrics::joint_gap, 3),
+          metric_column("overlap", "m", &Metrics::penetration, 5),
+          {"cost", "a step",
+           [](const Result& result) {
+             return result.cost ? std::optional(result.cost->ns_per_step) : std::nullopt;
+           },
+           duration_text, 0}};
+}
+
+// Columns that have something to say, as many as fit.
+std::vector<Column> columns_for(std::span<const Result> results, int width) {
+  std::vector<Column> columns;
+  for (Column& column : all_columns()) {
+    const bool used = std::any_of(results.begin(), results.end(),
+                                  [&](const Result& r) { return column.value(r).has_value(); });
+    if (used) columns.push_back(std::move(column));
+  }
+  const auto total = [&] {
+    return kEngineWidth + kFigureWidth * static_cast<int>(columns.size()) + kVerdictWidth;
+  };
+  while (columns.size() > 1 && total() > width) {
+    columns.erase(std::max_element(columns.begin(), columns.end(),
+                                   [](const Column& a, const Column& b) { return a.priority < b.priority; }));
+  }
+  return columns;
+}
+
+double best_of(std::span<const Result> results, const Column& column) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Result& result : results)
+    if (const auto value = column.value(result); value && result.status == Status::Ok)
+      best = std::min(best, *value);
+  return best;
+}
+
+/// What a row says about agreement, and the footnote that explains it.
+struct Verdict {
+  std::string text;
+  Ink ink = Ink::Plain;
+  std::string note{};
+};
+
+std::string kind_name(Oracle oracle) {
+  switch (oracle) {
+    case Oracle::Exact:
+      return "truth";
+    case Oracle::Discrete:
+      return "scheme";
+    case Oracle::Invariant:
+      return "laws";
+    case Oracle::Consensus:
+    case Oracle::Self:
+      break;
+  }
+  return std::string(name_of(oracle));
+}
+
+// The kinds of checks of a result that all passed, or that some missed.
+std::string kinds(const Result& result, bool passed) {
+  std::string text;
+  for (const Oracle oracle : {Oracle::Exact, Oracle::Discrete, Oracle::Invariant, Oracle::Self}) {
+    bool any = false, all = true;
+    for (const Check& check : result.checks) {
+      if (check.oracle != oracle) continue;
+      any = true;
+      all = all && check.pass;
+    }
+    if (any && all == passed) text += (text.empty() ? "" : " ") + kind_name(oracle);
+  }
+  return text;
+}
+
+std::string misses(const Result& result, bool known) {
+  std::string text;
+  for (const Check& check : result.checks) {
+    if (check.pass || check.known_limit.empty() == known) continue;
+    if (!text.empty()) text += ", ";
+    text += fmt::format("{} {} (bound {})", check.name, figure(check.value), figure(check.tolerance));
+  }
+  return text;
+}
+
+std::string note_of(const Result& result) {
+  std::string note;
+  const std::string declared = misses(result, true);
+  if (!declared.empty()) {
+    std::string reason;
+    for (const Check& check : result.checks) {
+      if (check.known_limit.empty() || reason.find(check.known_limit) != std::string::npos) continue;
+      reason += (reason.empty() ? "" : "; ") + check.known_limit;
+    }
+    note = fmt::format("known limit: {}: {}", declared, reason);
+  }
+  for (const std::string& sentence : result.unexpected)
+    note += (note.empty() ? "" : ". ") + ("UNEXPECTED: " + sentence);
+  return note;
+}
+
+Verdict verdict(const Result& result) {
+  const std::size_t others = result.agrees_with.size() + result.disagrees_with.size();
+  std::string with;
+  if (others > 0) with = fmt::format("{}/{}", result.agrees_with.size(), others);
+  const std::string missed = kinds(result, false);
+  Verdict out;
+  out.note = note_of(result);
+  if (missed.empty() && result.unexpected.empty()) {
+    const std::string held = kinds(result, true);
+    out.text = "yes: " + held + (with.empty() ? "" : ", " + with);
+    out.ink = Ink::Green;
+    if (held.empty()) out = {"not checked", Ink::Dim, ""};
+  } else {
+    out.text = fmt::format("{}: {}{}", result.unexpected.empty() ? "no" : "NO",
+                           missed.empty() ? "limit gone" : missed, with.empty() ? "" : ", " + with);
+    out.ink = result.unexpected.empty() ? Ink::Yellow : Ink::Red;
+  }
+  return out;
+}
+
+std::string heading(const Result& first, const Style& style) {
+  std::string text = style.paint(first.label, Ink::Bold);
+  text += style.paint(fmt::format("  {:g} s at dt = {} s", first.duration, dt_text(first.dt)), Ink::Dim);
+  if (!first.truth.empty()) {
+    const int room = style.width - 30 - static_cast<int>(first.label.size());
+    std::string source = first.truth;
+    if (room > 20 && static_cast<int>(source.size()) > room)
+      source = source.substr(0, static_cast<std::size_t>(room - 3)) + "...";
+    if (room > 20) text += style.paint(", truth: " + source, Ink::Dim);
+  }
+  return text + "\n";
+}
+
+std::string header(const std::vector<Column>& columns, const Style& style) {
+  std::string titles = pad_right("", kEngineWidth), units = titles;
+  for (const Column& column : columns) {
+    titles += pad_left(column.title, kFigureWidth);
+    units += pad_left(column.unit, kFigureWidth);
+  }
+  titles += "  agrees with";
+  return style.paint(titles, Ink::Dim) + "\n" + style.paint(units, Ink::Dim) + "\n";
+}
+
+std::string row(const Result& result, const std::vector<Column>& columns, const std::vector<double>& best,
+                const Style& style, std::vector<std::string>& notes) {
+  std::string line = pad_right(result.engine, kEngineWidth);
+  if (!result.ran()) {
+    const Ink ink = result.status == Status::Skipped ? Ink::Dim : Ink::Red;
+    const std::string text = fmt::format("{}: {}", name_of(result.status), result.reason);
+    return line + style.paint(wrap("  " + text, style.width - kEngineWidth, kEngineWidth + 2), ink) + "\n";
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto value = columns[i].value(result);
+    const std::string text = value ? columns[i].text(*value) : "-";
+    const bool is_best = value && *value <= best[i] && result.status == Status::Ok;
+    line += pad_left("", kFigureWidth - static_cast<int>(text.size())) +
+            style.paint(text, is_best ? Ink::Green : Ink::Plain);
+  }
+  Verdict said = verdict(result);
+  if (result.status == Status::Diverged) {
+    said.text = "diverged";
+    said.note = result.reason + (said.note.empty() ? "" : "; " + said.note);
+  }
+  if (!said.note.empty()) {
+    notes.push_back(fmt::format("{}: {}", result.engine, said.note));
+    said.text += fmt::format(" ({})", static_cast<char>('a' + (notes.size() - 1) % 26));
+  }
+  return line + "  " + style.paint(said.text, said.ink) + "\n";
+}
+
+}  // namespace
+
+std::string table(std::span<const Result> results, const Style& style) {
+  if (results.empty()) return "";
+  const std::vector<Column> columns = columns_for(results, style.width);
+  std::vector<double> best;
+  for (const Column& column : columns) best.push_back(best_of(results, column));
+  std::string out = heading(results.front(), style) + header(columns, style);
+  std::vector<std::string> notes;
+  for (const Result& result : results) out += row(result, columns, best, style, notes);
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    const std::string note = fmt::format("({}) {}", static_cast<char>('a' + i % 26), notes[i]);
+    out += "  " + style.paint(wrap(note, style.width - 2, 6), Ink::Dim) + "\n";
+  }
+  return out;
+}
+
+}  // namespace plumb::harness
