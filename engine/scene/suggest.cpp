@@ -47,7 +47,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
   const std::string* best = nullptr;
   std::size_t fewest = 0;
   for (const std::string& candidate : candidates) {
-    const auto [shorter, longer] = std::minmax(name.size(), candidate.size());
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});  // by value
     if (longer > kLongest || !near(longer - shorter, shorter, longer)) continue;
     const std::size_t wrong = distance(name, candidate);
     if (!near(wrong, shorter, longer) || (best != nullptr && wrong >= fewest)) continue;

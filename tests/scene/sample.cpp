@@ -1,0 +1,159 @@
+#include "tests/scene/sample.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/scene/json.h"
+
+namespace plumb::test {
+namespace {
+
+double below(std::mt19937_64& random, double largest) {
+  for (;;) {
+    const double value = random_bits(random);
+    if (std::abs(value) <= largest) return value;
+  }
+}
+
+double any(std::mt19937_64& random) { return below(random, 1e100); }
+double non_negative(std::mt19937_64& random) { return std::abs(any(random)); }
+double unit(std::mt19937_64& random) { return std::abs(below(random, 1)); }
+Vec2d vector(std::mt19937_64& random) { return {any(random), any(random)}; }
+
+double positive(std::mt19937_64& random) {
+  for (;;) {
+    const double value = non_negative(random);
+    if (value >= 1e-100) return value;
+  }
+}
+
+int up_to(std::mt19937_64& random, int highest) {
+  return static_cast<int>(random() % static_cast<unsigned>(highest + 1));
+}
+
+bool coin(std::mt19937_64& random) { return random() % 2 == 0; }
+
+/// One of plain, quoted, non-Latin and emoji letters, made unique by `index`.
+std::string name(std::mt19937_64& random, int index) {
+  static const char* const kStems[] = {"body", "a \"quoted\" \\ name/", "Körper-球", "\xF0\x9F\x8F\x80", "'"};
+  return kStems[up_to(random, 4)] + std::to_string(index);
+}
+
+Shape random_shape(std::mt19937_64& random) {
+  Shape shape;
+  if (coin(random)) {
+    shape.geometry = Circle{positive(random)};
+  } else {
+    shape.geometry = Box{positive(random), positive(random)};
+  }
+  shape.position = vector(random);
+  shape.angle = any(random);
+  shape.friction = non_negative(random);
+  shape.restitution = unit(random);
+  shape.filter = {static_cast<std::uint32_t>(random()), static_cast<std::uint32_t>(random()),
+                  static_cast<std::int32_t>(random())};
+  return shape;
+}
+
+Body random_body(std::mt19937_64& random, int index) {
+  Body body;
+  body.name = name(random, index);
+  body.type = static_cast<BodyType>(up_to(random, 2));
+  body.position = vector(random);
+  body.angle = any(random);
+  body.fixed_rotation = coin(random);
+  if (body.type != BodyType::Static) {
+    body.velocity = vector(random);
+    if (!body.fixed_rotation) body.angular_velocity = any(random);
+  }
+  body.mass = positive(random);
+  for (int i = up_to(random, 3); i > 0; --i) body.shapes.push_back(random_shape(random));
+  if (body.shapes.empty() || coin(random)) body.inertia = positive(random);
+  return body;
+}
+
+Joint random_joint(std::mt19937_64& random, const Body& body, int index) {
+  RevoluteJoint revolute{name(random, index), body.name,      "world",
+                         vector(random),      vector(random), coin(random)};
+  if (coin(random)) std::swap(revolute.body_a, revolute.body_b);
+  if (coin(random)) return revolute;
+  return DistanceJoint{revolute.name,     revolute.body_a,  revolute.body_b, revolute.anchor_a,
+                       revolute.anchor_b, positive(random), revolute.collide};
+}
+
+ForceLaw random_force(std::mt19937_64& random, const Body& body) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double start = non_negative(random);
+  const double duration = coin(random) ? infinite : non_negative(random);
+  switch (up_to(random, 3)) {
+    case 0:
+      return LinearDrag{body.name, non_negative(random)};
+    case 1:
+      return QuadraticDrag{body.name, non_negative(random)};
+    case 2:
+      return PointForce{body.name, vector(random), vector(random), static_cast<Frame>(up_to(random, 1)),
+                        start,     duration};
+    default:
+      return Torque{body.name, any(random), start, duration};
+  }
+}
+
+}  // namespace
+
+double random_bits(std::mt19937_64& random) {
+  for (;;) {
+    const double value = std::bit_cast<double>(std::uint64_t{random()});
+    if (std::isfinite(value)) return value;
+  }
+}
+
+Scene random_scene(std::mt19937_64& random) {
+  Scene scene;
+  scene.name = name(random, 0);
+  scene.gravity = vector(random);
+  scene.contact_rules = {static_cast<Combine>(up_to(random, 4)), static_cast<Combine>(up_to(random, 4)),
+                         non_negative(random)};
+  for (int i = up_to(random, 4); i > 0; --i) scene.bodies.push_back(random_body(random, i));
+  for (const Body& body : scene.bodies) {
+    const int index = static_cast<int>(scene.joints.size());
+    if (body.type == BodyType::Dynamic) scene.joints.push_back(random_joint(random, body, index));
+    if (coin(random)) scene.forces.push_back(random_force(random, body));
+  }
+  return scene;
+}
+
+Scene full_scene() {
+  Scene scene{.name = "everything", .gravity = {0.1, -1.62}};
+  scene.contact_rules = {Combine::Average, Combine::Product, 0.25};
+  const Filter filter{6, 0xF0F0F0F0u, -3};
+  const Shape disc{Circle{0.5}, {0.1, 0.2}, 0.3, 0.7, 0.9, filter};
+  const Shape plank{Box{2, 0.25}, {-0.1, 0.4}, -0.6, 0.2, 0.1, filter};
+  scene.bodies = {{"ball", BodyType::Dynamic, {1, 2}, 0.5, {3, 4}, 5, 6, 7.5, false, {disc, plank}},
+                  {"floor", BodyType::Static, {0, -1}, 0.25, {}, 0, 2, {}, true, {plank}},
+                  {"belt", BodyType::Kinematic, {9, 1}, 0.125, {1, 0}, 2, 0, 0.5, false, {}}};
+  scene.joints = {RevoluteJoint{"hinge", "world", "ball", {1, 1}, {2, 2}, true},
+                  DistanceJoint{"rod", "ball", "floor", {3, 3}, {4, 4}, 5, true}};
+  scene.forces = {LinearDrag{"ball", 0.5}, QuadraticDrag{"ball", 0.25},
+                  PointForce{"ball", {1, 2}, {3, 4}, Frame::Body, 0.5, 1.5}, Torque{"ball", -2, 0.25, 2}};
+  return scene;
+}
+
+Error error_of(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error";
+  throw std::logic_error("no error");
+}
+
+bool same_bits(const Scene& a, const Scene& b) {
+  // Equality tells every value apart but the zeros; those the text shows, which has a place for every field.
+  return a == b && to_json(a) == to_json(b);
+}
+
+}  // namespace plumb::test

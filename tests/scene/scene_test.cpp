@@ -1,0 +1,186 @@
+#include "engine/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "engine/scene/json.h"
+
+namespace plumb {
+namespace {
+
+TEST(Inertia, OfOneShape) {
+  Body body{.name = "b", .mass = 3};
+  body.shapes = {Shape{.geometry = Circle{0.5}}};
+  EXPECT_DOUBLE_EQ(inertia_of(body), 0.375);  // m r^2 / 2
+  body.shapes = {Shape{.geometry = Box{3, 4}}};
+  EXPECT_DOUBLE_EQ(inertia_of(body), 6.25);  // m (w^2 + h^2) / 12
+  body.shapes[0].angle = 0.7;
+  EXPECT_DOUBLE_EQ(inertia_of(body), 6.25);
+  body.shapes[0].position = {3, 4};
+  EXPECT_DOUBLE_EQ(inertia_of(body), 81.25);  // + m d^2
+}
+
+TEST(Inertia, GivenFixedOrOfABodyThatForcesDoNotTurn) {
+  Body body{.name = "b", .mass = 3, .shapes = {Shape{.geometry = Circle{0.5}}}};
+  body.inertia = 7;
+  EXPECT_EQ(inertia_of(body), 7);
+  body.type = BodyType::Static;
+  EXPECT_EQ(inertia_of(body), 0);
+  body.type = BodyType::Kinematic;
+  EXPECT_EQ(inertia_of(body), 0);
+  body.type = BodyType::Dynamic;
+  body.fixed_rotation = true;
+  EXPECT_EQ(inertia_of(body), 0);
+}
+
+TEST(Inertia, OverlapsCountTwice) {
+  Body body{
+      .name = "b", .mass = 3, .shapes = {Shape{.geometry = Circle{0.5}}, Shape{.geometry = Circle{0.5}}}};
+  EXPECT_DOUBLE_EQ(inertia_of(body), 0.375);
+}
+
+struct Moments {
+  double area = 0;
+  double second = 0;  ///< integral of |r|^2 over the area, about the body's origin
+};
+
+/// Gauss's rule with three points on [-1, 1], exact up to degree 5.
+constexpr double kNodes[] = {-0.774596669241483377, 0, 0.774596669241483377};
+constexpr double kWeights[] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+
+Vec2d placed(const Shape& shape, double x, double y) {
+  const double c = std::cos(shape.angle), s = std::sin(shape.angle);
+  return shape.position + Vec2d{c * x - s * y, s * x + c * y};
+}
+
+Moments quadrature(const Shape& shape, const Box& box) {
+  Moments sum;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double weight = kWeights[i] * kWeights[j] * box.width * box.height / 4;
+      sum.area += weight;
+      sum.second +=
+          weight * length_squared(placed(shape, kNodes[i] * box.width / 2, kNodes[j] * box.height / 2));
+    }
+  }
+  return sum;
+}
+
+/// Polar coordinates: r^3 is exact in Gauss's rule, and eight equal angles integrate the harmonics up to 7.
+Moments quadrature(const Shape& shape, const Circle& circle) {
+  Moments sum;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 8; ++j) {
+      const double r = circle.radius * (1 + kNodes[i]) / 2, angle = std::numbers::pi * j / 4;
+      const double weight = kWeights[i] * circle.radius / 2 * r * std::numbers::pi / 4;
+      sum.area += weight;
+      sum.second += weight * length_squared(placed(shape, r * std::cos(angle), r * std::sin(angle)));
+    }
+  }
+  return sum;
+}
+
+TEST(Inertia, AgreesWithQuadrature) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> size(0.1, 3), place(-5, 5);
+  for (int i = 0; i < 1000; ++i) {
+    Body body{.name = "b", .mass = size(random)};
+    Moments sum;
+    for (std::uint64_t n = 1 + random() % 5; n > 0; --n) {
+      Shape shape{.geometry = {}, .position = {place(random), place(random)}, .angle = place(random)};
+      if (random() % 2 == 0) {
+        shape.geometry = Circle{size(random)};
+      } else {
+        shape.geometry = Box{size(random), size(random)};
+      }
+      const Moments more =
+          std::visit([&](const auto& any) { return quadrature(shape, any); }, shape.geometry);
+      sum.area += more.area;
+      sum.second += more.second;
+      body.shapes.push_back(shape);
+    }
+    const double expected = body.mass / sum.area * sum.second;
+    // Up to 5 x 24 positive terms of about 5 roundings each on the side of the quadrature, mostly cancelling.
+    EXPECT_NEAR(inertia_of(body), expected, 3e-15 * expected);
+  }
+}
+
+TEST(Combine, Rules) {
+  EXPECT_DOUBLE_EQ(combine(Combine::GeometricMean, 0.2, 0.8), 0.4);
+  EXPECT_EQ(combine(Combine::GeometricMean, 0, 0.8), 0);
+  EXPECT_DOUBLE_EQ(combine(Combine::Product, 0.5, 0.8), 0.4);
+  EXPECT_EQ(combine(Combine::Maximum, 0.2, 0.8), 0.8);
+  EXPECT_EQ(combine(Combine::Minimum, 0.2, 0.8), 0.2);
+  EXPECT_DOUBLE_EQ(combine(Combine::Average, 0.2, 0.8), 0.5);
+}
+
+TEST(Combine, KnowsNoOrder) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> coefficient(0, 2);
+  for (const Combine rule :
+       {Combine::GeometricMean, Combine::Product, Combine::Maximum, Combine::Minimum, Combine::Average}) {
+    for (int i = 0; i < 100; ++i) {
+      const double a = coefficient(random), b = coefficient(random);
+      EXPECT_EQ(combine(rule, a, b), combine(rule, b, a));
+      if (rule != Combine::Product) {
+        EXPECT_EQ(combine(rule, a, a), a);
+      }
+    }
+  }
+}
+
+TEST(Filter, CategoriesMustWantEachOther) {
+  EXPECT_TRUE(may_touch({}, {}));
+  EXPECT_TRUE(may_touch({2, 4, 0}, {4, 2, 0}));
+  EXPECT_FALSE(may_touch({2, 4, 0}, {4, 1, 0}));
+  EXPECT_FALSE(may_touch({4, 1, 0}, {2, 4, 0}));
+  EXPECT_FALSE(may_touch({0, 0xFFFFFFFFu, 0}, {}));
+}
+
+TEST(Filter, EqualGroupsDecideFirst) {
+  EXPECT_TRUE(may_touch({1, 0, 5}, {1, 0, 5}));
+  EXPECT_FALSE(may_touch({1, 1, -5}, {1, 1, -5}));
+  EXPECT_TRUE(may_touch({1, 1, -5}, {1, 1, -4}));
+  EXPECT_FALSE(may_touch({1, 0, 5}, {1, 0, 4}));
+  EXPECT_FALSE(may_touch({1, 0, 0}, {1, 0, 0}));
+}
+
+TEST(Scene, FindsBodies) {
+  Scene scene;
+  scene.bodies = {{.name = "a"}, {.name = "b"}};
+  EXPECT_EQ(find_body(scene, "a"), 0u);
+  EXPECT_EQ(find_body(scene, "b"), 1u);
+  EXPECT_EQ(find_body(scene, "c"), std::nullopt);
+  EXPECT_EQ(find_body(scene, kWorld), std::nullopt);
+}
+
+TEST(Scene, StartsAsItSays) {
+  const Body body{.name = "a", .position = {1, 2}, .angle = 3, .velocity = {4, 5}, .angular_velocity = 6};
+  EXPECT_EQ(initial_state(body), (BodyState{{1, 2}, 3, {4, 5}, 6}));
+}
+
+TEST(Hash, IsThatOfTheOneLineText) {
+  const Scene scene{.name = "a"};
+  EXPECT_EQ(to_json(scene, -1),
+            R"({"plumb_scene":1,"name":"a","gravity":[0,-9.81],"contact_rules":{"friction":"geometric_mean",)"
+            R"("restitution":"maximum","restitution_threshold":0},"bodies":[],"joints":[],"forces":[]})");
+  EXPECT_EQ(hash(scene), 0x6ac636f8459aa2a8u);  // FNV-1a of that text by another program
+}
+
+TEST(Hash, TellsEveryBitApart) {
+  const Scene scene{.name = "a"};
+  Scene other = scene;
+  EXPECT_EQ(hash(scene), hash(other));
+  other.gravity.y = std::nextafter(other.gravity.y, 0.0);
+  EXPECT_NE(hash(scene), hash(other));
+  other = scene;
+  other.gravity.x = -0.0;
+  EXPECT_EQ(scene, other);
+  EXPECT_NE(hash(scene), hash(other));
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,42 @@
+#include "engine/scene/suggest.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace plumb {
+namespace {
+
+const std::array<std::string, 5> kNames{"plumb", "box2d", "bullet", "free_fall", "pendulum_chain"};
+
+TEST(Suggest, ForgivesOneSlipOfEachKind) {
+  EXPECT_EQ(nearest("plumbb", kNames), "plumb");        // one too many
+  EXPECT_EQ(nearest("plum", kNames), "plumb");          // one too few
+  EXPECT_EQ(nearest("plump", kNames), "plumb");         // another
+  EXPECT_EQ(nearest("bxo2d", kNames), "box2d");         // neighbours swapped
+  EXPECT_EQ(nearest("Bullet", kNames), "bullet");       // upper case
+  EXPECT_EQ(nearest("freefall", kNames), "free_fall");  // forgotten separator
+  EXPECT_EQ(nearest("pendulum-chian", kNames), "pendulum_chain");
+}
+
+TEST(Suggest, TakesTheNearestAndTheFirstOfEquals) {
+  const std::array<std::string, 3> names{"cart", "card", "cord"};
+  EXPECT_EQ(nearest("carp", names), "cart");
+  EXPECT_EQ(nearest("cords", names), "cord");
+}
+
+TEST(Suggest, KeepsSilentWhenNothingIsNear) {
+  EXPECT_EQ(nearest("teapot", kNames), "");
+  EXPECT_EQ(nearest("", kNames), "");
+  EXPECT_EQ(nearest("x", std::array<std::string, 2>{"a", ""}), "");
+  EXPECT_EQ(nearest("plumb", {}), "");
+  EXPECT_EQ(nearest(std::string(1000000, 'p'), kNames), "");
+}
+
+TEST(Suggest, SaysIt) {
+  EXPECT_EQ(did_you_mean("plum", kNames), "; did you mean 'plumb'?");
+  EXPECT_EQ(did_you_mean("teapot", kNames), "");
+}
+
+}  // namespace
+}  // namespace plumb
