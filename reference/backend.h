@@ -15,9 +15,9 @@ namespace plumb::reference {
 
 /// What a run asks of an engine; what is absent is the engine's own default.
 struct StepSettings {
-  double dt = 1.0 / 60;                  ///< s, > 0; also the sampling grid of an adaptive engine
-  std::optional<int> substeps;           ///< equal parts of dt, >= 1
-  std::optional<double> tolerance;       ///< of an adaptive engine, > 0
+  double dt = 1.0 / 60;                        ///< s, > 0; also the sampling grid of an adaptive engine
+  std::optional<int> substeps;                 ///< equal parts of dt, >= 1
+  std::optional<double> tolerance;             ///< of an adaptive engine, > 0
   std::map<std::string, std::string> options;  ///< the engine's own, by name: see `Backend::options`
 };
 
@@ -35,7 +35,7 @@ struct Identity {
   std::string version;    ///< "2.4.1"
   std::string precision;  ///< "float" or "double"
   bool available = true;
-  std::string reason;     ///< why it is not available and what to install
+  std::string reason;  ///< why it is not available and what to install
 };
 
 /// How an engine's time stepping works: what error bounds are derived from.
@@ -43,8 +43,8 @@ enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, Adaptive }
 
 struct Method {
   Scheme scheme = Scheme::SemiImplicitEuler;
-  int order = 1;             ///< of the global error in the substep; 0: adaptive, meets a tolerance
-  double substep = 1.0 / 60;  ///< s
+  int order = 1;                  ///< of the global error in the substep; 0: adaptive, meets a tolerance
+  double substep = 1.0 / 60;      ///< s
   double epsilon = 1.1920929e-7;  ///< unit roundoff of its state
 };
 

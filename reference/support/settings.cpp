@@ -2,7 +2,9 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
+#include "engine/scene/names.h"
 #include "engine/scene/suggest.h"
 #include "engine/scene/text.h"
 
@@ -55,21 +57,15 @@ void check_steps(std::string_view engine, const StepSettings& settings, Stepping
   }
 }
 
-std::string_view name_of(Combine rule) {
-  switch (rule) {
-    case Combine::GeometricMean:
-      return "geometric_mean";
-    case Combine::Product:
-      return "product";
-    case Combine::Maximum:
-      return "maximum";
-    case Combine::Minimum:
-      return "minimum";
-    case Combine::Average:
-      return "average";
-  }
-  return "";
+void require_float_step(std::string_view engine, double substep) {
+  // Bullet takes a step below the roundoff for none at all.
+  constexpr double kLeast = 2 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  if (substep >= kLeast && substep <= std::numeric_limits<float>::max()) return;
+  throw Error(Error::Kind::Value, subject_of(engine), "dt / substeps", shortest(substep),
+              "must be at least " + shortest(kLeast) + " s: this engine computes in float");
 }
+
+std::string_view name_of(Combine rule) { return kCombineNames[static_cast<std::size_t>(rule)]; }
 
 void append_contact_rules(Settings& out, const Scene& scene) {
   const ContactRules& rules = scene.contact_rules;
@@ -125,7 +121,8 @@ bool OptionReader::toggle(std::string_view name) const {
 }
 
 Error OptionReader::bad(std::string_view name, std::string value, std::string problem) const {
-  return {Error::Kind::Value, subject_of(engine_), std::string(name), quoted(value), std::move(problem)};
+  return {Error::Kind::Value, subject_of(engine_), std::string(name), plumb::quoted(value),
+          std::move(problem)};
 }
 
 Error OptionReader::not_a_choice(std::string_view name, const std::string& given,

@@ -19,6 +19,9 @@ enum class Stepping { Fixed, Adaptive };
 /// and `Error` (Unsupported) for substeps of an adaptive engine or a tolerance of a fixed-step one.
 void check_steps(std::string_view engine, const StepSettings& settings, Stepping stepping);
 
+/// Throws `Error` (Value) for a substep, in s, that an engine whose time is in float would round away.
+void require_float_step(std::string_view engine, double substep);
+
 /// The combine rule's name in scene files.
 std::string_view name_of(Combine rule);
 

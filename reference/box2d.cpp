@@ -1,0 +1,291 @@
+//! cmake: find_package(box2d 2.4 CONFIG QUIET)
+//! cmake: set_property(SOURCE ${file} PROPERTY COMPILE_DEFINITIONS PLUMB_BOX2D_VERSION="${box2d_VERSION}")
+//! link: box2d::box2d
+//! missing: Box2D 2.4 was not found; install libbox2d-dev and build again
+
+// Box2D 2.4 in float. Its own rules for contacts are replaced by the scene's; what is compiled in (slop,
+// skin, clamps) is printed among the effective settings.
+#include <box2d/box2d.h>
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+#include "reference/backend.h"
+#include "reference/support/applied_forces.h"
+#include "reference/support/range.h"
+#include "reference/support/settings.h"
+
+namespace plumb::reference {
+namespace {
+
+constexpr const char* kName = "box2d";
+
+b2Vec2 to_box2d(Vec2d v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
+Vec2d from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
+
+/// `StepSettings` with this engine's options read.
+struct Box2dSettings {
+  int substeps = 1;
+  float substep = 0;
+  double exact_substep = 0;
+  int velocity_iterations = 8;
+  int position_iterations = 3;
+  bool continuous = true;
+};
+
+/// The scene's rules in place of Box2D's: which shapes touch, and with which coefficients.
+class ContactRulesOfScene final : public b2ContactFilter, public b2ContactListener {
+ public:
+  explicit ContactRulesOfScene(const ContactRules& rules) : rules_(rules) {}
+
+  bool ShouldCollide(b2Fixture* a, b2Fixture* b) override {
+    return may_touch(shape_of(a).filter, shape_of(b).filter);
+  }
+
+  // What is set when two shapes begin to touch holds until they part.
+  void BeginContact(b2Contact* contact) override {
+    const Shape& a = shape_of(contact->GetFixtureA());
+    const Shape& b = shape_of(contact->GetFixtureB());
+    contact->SetFriction(static_cast<float>(combine(rules_.friction, a.friction, b.friction)));
+    contact->SetRestitution(static_cast<float>(combine(rules_.restitution, a.restitution, b.restitution)));
+  }
+
+ private:
+  static const Shape& shape_of(b2Fixture* fixture) {
+    return *reinterpret_cast<const Shape*>(fixture->GetUserData().pointer);
+  }
+
+  ContactRules rules_;
+};
+
+class Box2dSimulator final : public Simulator {
+ public:
+  Box2dSimulator(const Scene& scene, const Box2dSettings& settings)
+      : scene_(scene),
+        settings_(settings),
+        rules_(scene_.contact_rules),
+        world_(to_box2d(scene_.gravity)),
+        forces_(applied_forces(scene_)) {
+    world_.SetAllowSleeping(false);
+    world_.SetContinuousPhysics(settings_.continuous);
+    world_.SetContactFilter(&rules_);
+    world_.SetContactListener(&rules_);
+    for (const Body& body : scene_.bodies) bodies_.push_back(add_body(body));
+    for (const Joint& joint : scene_.joints) std::visit([this](const auto& j) { add_joint(j); }, joint);
+  }
+
+  double advance(int steps) override {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < steps * settings_.substeps; ++i) {
+      apply_forces();
+      world_.Step(settings_.substep, settings_.velocity_iterations, settings_.position_iterations);
+      ++substeps_done_;
+    }
+    const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
+    std::vector<BodyState> states(bodies_.size());
+    read(states);
+    require_finite(kName, scene_, states, time());
+    return spent.count();
+  }
+
+  double time() const override { return static_cast<double>(substeps_done_) * settings_.exact_substep; }
+
+  void read(std::span<BodyState> out) const override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) out[i] = state_of(*bodies_[i]);
+  }
+
+ private:
+  // The sweep's angle is not wrapped.
+  static BodyState state_of(const b2Body& body) {
+    return {.position = from_box2d(body.GetWorldCenter()),
+            .angle = body.GetAngle(),
+            .velocity = from_box2d(body.GetLinearVelocity()),
+            .angular_velocity = body.GetAngularVelocity()};
+  }
+
+  b2Body* add_body(const Body& body) {
+    b2BodyDef def;
+    def.type = body.type == BodyType::Static      ? b2_staticBody
+               : body.type == BodyType::Kinematic ? b2_kinematicBody
+                                                  : b2_dynamicBody;
+    def.position = to_box2d(body.position);
+    def.angle = static_cast<float>(body.angle);
+    def.linearVelocity = to_box2d(body.velocity);
+    def.angularVelocity = static_cast<float>(body.angular_velocity);
+    def.allowSleep = false;
+    def.fixedRotation = body.fixed_rotation;
+    b2Body* out = world_.CreateBody(&def);
+    for (const Shape& shape : body.shapes) add_shape(*out, shape);
+    if (body.type == BodyType::Dynamic) {
+      b2MassData mass;
+      mass.mass = static_cast<float>(body.mass);
+      mass.center.SetZero();
+      mass.I = static_cast<float>(inertia_of(body));
+      out->SetMassData(&mass);
+    }
+    return out;
+  }
+
+  void add_shape(b2Body& body, const Shape& shape) {
+    b2CircleShape circle;
+    b2PolygonShape polygon;
+    b2FixtureDef def;
+    if (const auto* round = std::get_if<Circle>(&shape.geometry)) {
+      circle.m_radius = static_cast<float>(round->radius);
+      circle.m_p = to_box2d(shape.position);
+      def.shape = &circle;
+    } else {
+      const Box& box = std::get<Box>(shape.geometry);
+      polygon.SetAsBox(static_cast<float>(box.width / 2), static_cast<float>(box.height / 2),
+                       to_box2d(shape.position), static_cast<float>(shape.angle));
+      def.shape = &polygon;
+    }
+    def.density = 0;  // the scene states the mass
+    def.restitutionThreshold = static_cast<float>(scene_.contact_rules.restitution_threshold);
+    def.userData.pointer = reinterpret_cast<std::uintptr_t>(&shape);
+    body.CreateFixture(&def);
+  }
+
+  b2Body* body_called(const std::string& name) {
+    if (const auto index = find_body(scene_, name)) return bodies_[*index];
+    if (fixed_frame_ == nullptr) {
+      const b2BodyDef at_origin;
+      fixed_frame_ = world_.CreateBody(&at_origin);
+    }
+    return fixed_frame_;
+  }
+
+  template <class Definition, class SceneJoint>
+  Definition definition_of(const SceneJoint& joint) {
+    Definition def;
+    def.bodyA = body_called(joint.body_a);
+    def.bodyB = body_called(joint.body_b);
+    def.localAnchorA = to_box2d(joint.anchor_a);
+    def.localAnchorB = to_box2d(joint.anchor_b);
+    def.collideConnected = joint.collide;
+    return def;
+  }
+
+  void add_joint(const RevoluteJoint& joint) {
+    const auto def = definition_of<b2RevoluteJointDef>(joint);
+    world_.CreateJoint(&def);
+  }
+
+  void add_joint(const DistanceJoint& joint) {
+    auto def = definition_of<b2DistanceJointDef>(joint);
+    // Without stiffness and with both limits at the length, Box2D solves it as an equation.
+    def.length = def.minLength = def.maxLength = static_cast<float>(joint.length);
+    world_.CreateJoint(&def);
+  }
+
+  // As a user of Box2D does it: forces of the state at the step's start, held for the step.
+  void apply_forces() {
+    const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.exact_substep;
+    for (const AppliedForce& force : forces_) {
+      b2Body& body = *bodies_[force.body];
+      const Wrench<double> wrench = evaluate(force.law, state_of(body), start, end);
+      body.ApplyForceToCenter(to_box2d(wrench.force), true);
+      body.ApplyTorque(static_cast<float>(wrench.torque), true);
+    }
+  }
+
+  Scene scene_;  // fixtures point at its shapes
+  Box2dSettings settings_;
+  ContactRulesOfScene rules_;
+  b2World world_;
+  std::vector<AppliedForce> forces_;
+  std::vector<b2Body*> bodies_;
+  b2Body* fixed_frame_ = nullptr;
+  std::int64_t substeps_done_ = 0;
+};
+
+class Box2dBackend final : public Backend {
+ public:
+  std::string_view name() const override { return kName; }
+  std::string_view summary() const override { return "Box2D 2.4: sequential impulses"; }
+  Identity identity() const override {
+    return {.version = PLUMB_BOX2D_VERSION, .precision = "float", .reason = ""};
+  }
+
+  std::vector<Option> options() const override {
+    return {{"velocity_iterations", "8", "sweeps over velocity constraints a substep"},
+            {"position_iterations", "3", "sweeps over position constraints a substep"},
+            {"continuous", "on", "on or off: continuous collision against static bodies"}};
+  }
+
+  Method method(const StepSettings& settings) const override {
+    return {.scheme = Scheme::SemiImplicitEuler,
+            .order = 1,
+            .substep = read_settings(settings).exact_substep,
+            .epsilon = std::numeric_limits<float>::epsilon()};
+  }
+
+  std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
+    read_settings(settings);
+    for (const Joint& joint : scene.joints) {
+      const auto* distance = std::get_if<DistanceJoint>(&joint);
+      if (distance != nullptr && static_cast<float>(distance->length) < b2_linearSlop) {
+        return "joint " + plumb::quoted(distance->name) + ": length " + shortest(distance->length) +
+               " m is below Box2D's least, " + shortest(b2_linearSlop) + " m";
+      }
+    }
+    return out_of_range(scene, kFloatRange);
+  }
+
+  Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
+    const Box2dSettings chosen = read_settings(settings);
+    Settings out{{"dt", shortest(settings.dt)},
+                 {"substeps", std::to_string(chosen.substeps)},
+                 {"velocity_iterations", std::to_string(chosen.velocity_iterations)},
+                 {"position_iterations", std::to_string(chosen.position_iterations)},
+                 {"continuous", chosen.continuous ? "on" : "off"},
+                 {"warm_starting", "on"},
+                 {"sleeping", "off"},
+                 {"linear_damping", "0"},
+                 {"angular_damping", "0"},
+                 {"inertia", "the scene's"},
+                 {"filters", "the scene's"}};
+    append_contact_rules(out, scene);
+    const auto number = [](float value) { return shortest(static_cast<double>(value)); };
+    out.insert(out.end(), {{"forces", "at the start of each substep"},
+                           {"linear_slop", number(b2_linearSlop) + " m"},
+                           {"polygon_radius", number(b2_polygonRadius) + " m"},
+                           {"max_translation", number(b2_maxTranslation) + " m a substep"},
+                           {"max_rotation", number(b2_maxRotation) + " rad a substep"},
+                           {"max_linear_correction", number(b2_maxLinearCorrection) + " m"},
+                           {"baumgarte", number(b2_baumgarte)},
+                           {"precision", "float"}});
+    return out;
+  }
+
+  std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
+    return std::make_unique<Box2dSimulator>(scene, read_settings(settings));
+  }
+
+ private:
+  static Box2dSettings read_settings(const StepSettings& settings) {
+    check_steps(kName, settings, Stepping::Fixed);
+    const OptionReader given(kName, settings, Box2dBackend().options());
+    Box2dSettings out;
+    out.substeps = settings.substeps.value_or(1);
+    out.exact_substep = settings.dt / out.substeps;
+    out.substep = static_cast<float>(out.exact_substep);
+    out.velocity_iterations = given.integer("velocity_iterations", 0);
+    out.position_iterations = given.integer("position_iterations", 0);
+    out.continuous = given.toggle("continuous");
+    require_float_step(kName, out.exact_substep);
+    return out;
+  }
+};
+
+const Registration registration{std::make_unique<Box2dBackend>()};
+
+}  // namespace
+}  // namespace plumb::reference

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace plumb::reference {
+
+/// The angle of a body that an engine knows only as a rotation, whole turns included. Each update may turn it
+/// by less than half a turn.
+class TurnCounter {
+ public:
+  TurnCounter() = default;
+
+  /// `angle` in rad is what cosine and sine stand for at the start.
+  TurnCounter(double angle, double cosine, double sine) : cosine_(cosine), sine_(sine) {
+    turns_ = std::round((angle - within_turn()) / (2 * std::numbers::pi));
+  }
+
+  void update(double cosine, double sine) {
+    // The angle in (-pi, pi] jumps where the upper half-plane is left counter-clockwise through -x, or
+    // entered clockwise.
+    const bool was_upper = sine_ >= 0, is_upper = sine >= 0;
+    const double turned = cosine_ * sine - sine_ * cosine;  // sine of the angle between
+    if (was_upper && !is_upper && turned > 0) ++turns_;
+    if (!was_upper && is_upper && turned < 0) --turns_;
+    cosine_ = cosine;
+    sine_ = sine;
+  }
+
+  double angle() const { return within_turn() + 2 * std::numbers::pi * turns_; }  ///< rad
+
+ private:
+  // + 0.0 takes the sign from a negative zero, which would stand for -pi.
+  double within_turn() const { return std::atan2(sine_ + 0.0, cosine_); }
+
+  double cosine_ = 1, sine_ = 0;
+  double turns_ = 0;
+};
+
+}  // namespace plumb::reference

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/scene/error.h"
+#include "reference/backend.h"
+
+/// Engines that run as programs of their own, in any language: docs/protocol.md.
+namespace plumb::reference {
+
+/// What is let an engine's program.
+struct ProcessLimits {
+  double seconds = 30;                 ///< for each line of an answer, and for the program to take a request
+  std::size_t line_bytes = 64u << 20;  ///< longest line of an answer
+};
+
+/// A program that did not keep to the protocol. `what()` names the engine, what it was asked, what it did
+/// instead and the last lines of its stderr.
+class ProcessError : public Error {
+ public:
+  enum class Fault {
+    Start,     ///< it cannot be started (kind Io)
+    Timeout,   ///< it did not answer in time
+    Crash,     ///< it ended, by a signal or an exit, where an answer was due
+    Protocol,  ///< it answered, but not with what docs/protocol.md asks for
+    Diverged,  ///< a state that is not finite
+  };
+
+  ProcessError(Fault fault, const std::string& engine, const std::string& request, const std::string& problem)
+      : Error(fault == Fault::Start ? Kind::Io : Kind::Run, "engine '" + engine + "'", request, "", problem),
+        fault_(fault) {}
+
+  Fault fault() const { return fault_; }
+
+ private:
+  Fault fault_;
+};
+
+/// An adapter for the program `command` (its name, then its arguments; no shell is involved). A name without
+/// a slash is looked for in the folders of PLUMB_WORKER_PATH, beside the running program, in `../bin` from
+/// there, then in PATH. The program is started when first asked about, once to answer questions and once more
+/// for each simulator; a program that cannot be started, or answers wrongly, makes an adapter that is not
+/// available, with the reason.
+std::unique_ptr<Backend> make_process_backend(std::string name, std::vector<std::string> command,
+                                              std::string summary = "", ProcessLimits limits = {});
+
+}  // namespace plumb::reference

@@ -1,0 +1,326 @@
+#include "reference/support/protocol.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "engine/scene/names.h"
+#include "engine/scene/text.h"
+
+namespace plumb::reference::protocol {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::pair<Scheme, const char*>, 4> kSchemes{
+    {{Scheme::ExplicitEuler, "explicit_euler"},
+     {Scheme::SemiImplicitEuler, "semi_implicit_euler"},
+     {Scheme::VelocityVerlet, "velocity_verlet"},
+     {Scheme::Adaptive, "adaptive"}}};
+
+constexpr std::array<std::pair<Error::Kind, const char*>, 6> kKinds{
+    {{Error::Kind::Syntax, "syntax"},
+     {Error::Kind::Value, "value"},
+     {Error::Kind::Name, "name"},
+     {Error::Kind::Unsupported, "unsupported"},
+     {Error::Kind::Run, "run"},
+     {Error::Kind::Io, "io"}}};
+
+/// The member `name`, which must be there and hold a `Value`.
+template <class Value>
+Value member(const Json& message, const char* name) {
+  if (!message.contains(name)) throw Malformed("it has no \"" + std::string(name) + "\"");
+  try {
+    return message[name].get<Value>();
+  } catch (const Json::exception&) {
+    throw Malformed("its \"" + std::string(name) + "\" is " + printable(message[name].dump()));
+  }
+}
+
+template <class Value>
+Value member(const Json& message, const char* name, Value fallback) {
+  return message.contains(name) ? member<Value>(message, name) : fallback;
+}
+
+/// A setting's value as text: strings as they stand, other values as JSON writes them.
+std::string as_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+double finite_number(const Json& value, const char* what) {
+  if (value.is_null()) throw NotFinite(std::string(what) + " is not finite");
+  if (!value.is_number()) throw Malformed(std::string(what) + " is " + printable(value.dump()));
+  const double out = value.get<double>();
+  if (!std::isfinite(out)) throw NotFinite(std::string(what) + " is not finite");
+  return out;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Method method_from_json(const Json& message) {
+  const auto scheme = member<std::string>(message, "scheme");
+  Method out;
+  bool known = false;
+  for (const auto& [value, name] : kSchemes) {
+    if (scheme != name) continue;
+    out.scheme = value;
+    known = true;
+  }
+  if (!known) throw Malformed("its \"scheme\" is " + plumb::quoted(scheme));
+  out.order = member<int>(message, "order");
+  out.epsilon = member<double>(message, "epsilon");
+  if (!(out.epsilon > 0) || out.order < 0) throw Malformed("its \"method\" is " + printable(message.dump()));
+  return out;
+}
+
+}  // namespace
+
+Json to_json(const Hello& hello) {
+  Json method;
+  for (const auto& [value, name] : kSchemes) {
+    if (value == hello.method.scheme) method["scheme"] = name;
+  }
+  method["order"] = hello.method.order;
+  method["epsilon"] = hello.method.epsilon;
+  method["substeps"] = hello.substeps;
+  Json options = Json::array();
+  for (const Option& option : hello.options) {
+    options.push_back({{"name", option.name}, {"fallback", option.fallback}, {"help", option.help}});
+  }
+  return {{"protocol", kVersion},         {"name", hello.name},       {"version", hello.version},
+          {"precision", hello.precision}, {"summary", hello.summary}, {"method", method},
+          {"shapes", hello.shapes},       {"joints", hello.joints},   {"forces", hello.forces},
+          {"features", hello.features},   {"options", options}};
+}
+
+Hello hello_from_json(const Json& message) {
+  const int version = member<int>(message, "protocol");
+  if (version != kVersion) {
+    throw Malformed("it speaks version " + std::to_string(version) + " of the protocol, not " +
+                    std::to_string(kVersion));
+  }
+  Hello out;
+  out.name = member<std::string>(message, "name");
+  out.version = member<std::string>(message, "version");
+  out.precision = member<std::string>(message, "precision");
+  if (out.precision != "float" && out.precision != "double") {
+    throw Malformed("its \"precision\" is " + plumb::quoted(out.precision));
+  }
+  out.summary = member<std::string>(message, "summary", "");
+  const Json method = member<Json>(message, "method");
+  out.method = method_from_json(method);
+  out.substeps = member<int>(method, "substeps", 1);
+  if (out.substeps < 1) throw Malformed("its \"substeps\" is " + std::to_string(out.substeps));
+  using Names = std::vector<std::string>;
+  out.shapes = member<Names>(message, "shapes");
+  out.joints = member<Names>(message, "joints", Names{});
+  out.forces = member<Names>(message, "forces", Names{});
+  out.features = member<Names>(message, "features", Names{});
+  for (const Json& option : member<Json>(message, "options", Json::array())) {
+    out.options.push_back({member<std::string>(option, "name"), as_text(member<Json>(option, "fallback")),
+                           member<std::string>(option, "help", "")});
+  }
+  return out;
+}
+
+Json to_json(const StepSettings& settings) {
+  Json out{{"dt", settings.dt}};
+  if (settings.substeps) out["substeps"] = *settings.substeps;
+  if (settings.tolerance) out["tolerance"] = *settings.tolerance;
+  out["options"] = settings.options;
+  return out;
+}
+
+StepSettings settings_from_json(const Json& message) {
+  StepSettings out;
+  out.dt = member<double>(message, "dt");
+  if (message.contains("substeps")) out.substeps = member<int>(message, "substeps");
+  if (message.contains("tolerance")) out.tolerance = member<double>(message, "tolerance");
+  const Json options = member<Json>(message, "options", Json::object());
+  for (const auto& [name, value] : options.items()) out.options[name] = as_text(value);
+  return out;
+}
+
+Json to_json(const Settings& effective) {
+  Json out = Json::object();
+  for (const auto& [name, value] : effective) out[name] = value;
+  return out;
+}
+
+Settings effective_from_json(const Json& message) {
+  if (!message.is_object()) throw Malformed("its \"effective_settings\" is " + printable(message.dump()));
+  Settings out;
+  for (const auto& [name, value] : message.items()) out.emplace_back(name, as_text(value));
+  return out;
+}
+
+Json to_json(const Error& error) {
+  Json out;
+  for (const auto& [value, name] : kKinds) {
+    if (value == error.kind()) out["kind"] = name;
+  }
+  out["subject"] = error.subject();
+  out["field"] = error.field();
+  out["value"] = error.value();
+  out["problem"] = error.problem();
+  return out;
+}
+
+Error error_from_json(const Json& message, const std::string& engine) {
+  const std::string own_subject = "engine '" + engine + "'";
+  if (!message.is_object()) {
+    return {Error::Kind::Run, own_subject, "", "", printable(as_text(message), 400)};
+  }
+  Error::Kind kind = Error::Kind::Run;
+  const auto given = member<std::string>(message, "kind", "run");
+  for (const auto& [value, name] : kKinds) {
+    if (given == name) kind = value;
+  }
+  return {kind, member<std::string>(message, "subject", own_subject),
+          member<std::string>(message, "field", ""), member<std::string>(message, "value", ""),
+          member<std::string>(message, "problem", "")};
+}
+
+std::string sample_line(double time, std::span<const BodyState> states) {
+  std::string out = "{\"t\":" + shortest(time) + ",\"states\":[";
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& s = states[i];
+    const std::array<double, 6> row{s.position.x, s.position.y, s.angle,
+                                    s.velocity.x, s.velocity.y, s.angular_velocity};
+    out += i == 0 ? '[' : ',';
+    if (i > 0) out += '[';
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (!std::isfinite(row[k]))
+        throw NotFinite("the state of body " + std::to_string(i) + " is not finite");
+      if (k > 0) out += ',';
+      out += shortest(row[k]);
+    }
+    out += ']';
+  }
+  return out + "]}";
+}
+
+double sample_from_json(const Json& message, std::span<BodyState> out) {
+  if (!message.contains("t")) throw Malformed("it has no \"t\"");
+  const double time = finite_number(message["t"], "\"t\"");
+  const Json states = member<Json>(message, "states");
+  if (!states.is_array() || states.size() != out.size()) {
+    throw Malformed("its \"states\" has " + std::to_string(states.is_array() ? states.size() : 0) +
+                    " bodies where the scene has " + std::to_string(out.size()));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Json& row = states[i];
+    const std::string what = "the state of body " + std::to_string(i);
+    if (!row.is_array() || row.size() != 6) {
+      throw Malformed(what + " is not [x, y, angle, vx, vy, w]: " + printable(row.dump()));
+    }
+    std::array<double, 6> numbers;
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = finite_number(row[k], what.c_str());
+    out[i] = {.position = {numbers[0], numbers[1]},
+              .angle = numbers[2],
+              .velocity = {numbers[3], numbers[4]},
+              .angular_velocity = numbers[5]};
+  }
+  return time;
+}
+
+Json parse_line(std::string_view line) {
+  Json out;
+  try {
+    out = Json::parse(line);
+  } catch (const Json::exception&) {
+    // What Python, JavaScript or C print for a number that JSON has no words for.
+    for (const char* word : {"NaN", "nan", "Infinity", "inf"}) {
+      if (line.starts_with('{') && line.find(word) != line.npos) throw NotFinite("a state is not finite");
+    }
+    throw Malformed("it is not JSON: " + plumb::quoted(line));
+  }
+  if (!out.is_object()) throw Malformed("it is not a JSON object: " + plumb::quoted(line));
+  return out;
+}
+
+namespace {
+
+std::string missing_of_body(const Body& body, const Hello& hello) {
+  const std::string who = "body " + plumb::quoted(body.name) + " ";
+  if (body.type == BodyType::Kinematic && !contains(hello.features, "kinematic")) return who + "is kinematic";
+  if (body.fixed_rotation && !contains(hello.features, "fixed_rotation")) return who + "has a fixed rotation";
+  for (const Shape& shape : body.shapes) {
+    const std::string kind(kGeometryNames[shape.geometry.index()]);
+    if (!contains(hello.shapes, kind)) return who + "has a " + kind;
+  }
+  return "";
+}
+
+bool jointed_apart(const Scene& scene, const std::string& a, const std::string& b) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    return std::visit(
+        [&](const auto& j) {
+          return !j.collide && ((j.body_a == a && j.body_b == b) || (j.body_a == b && j.body_b == a));
+        },
+        joint);
+  });
+}
+
+bool some_may_touch(const std::vector<Shape>& a, const std::vector<Shape>& b) {
+  for (const Shape& one : a) {
+    for (const Shape& other : b) {
+      if (may_touch(one.filter, other.filter)) return true;
+    }
+  }
+  return false;
+}
+
+/// Two bodies that the scene lets touch; nothing where no contact can ever be.
+std::optional<std::pair<std::string, std::string>> pair_that_may_touch(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
+      const Body &a = scene.bodies[i], &b = scene.bodies[j];
+      if (a.type != BodyType::Dynamic && b.type != BodyType::Dynamic) continue;
+      if (some_may_touch(a.shapes, b.shapes) && !jointed_apart(scene, a.name, b.name)) {
+        return std::pair(a.name, b.name);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string missing_capability(const Scene& scene, const Hello& hello) {
+  const std::string lacks = ", which it does not declare";
+  for (const Body& body : scene.bodies) {
+    const std::string missing = missing_of_body(body, hello);
+    if (!missing.empty()) return missing + lacks;
+  }
+  for (const Joint& joint : scene.joints) {
+    const std::string kind(kJointNames[joint.index()]);
+    const auto& name = std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
+    if (!contains(hello.joints, kind))
+      return "joint " + plumb::quoted(name) + " is a " + kind + " joint" + lacks;
+  }
+  for (const ForceLaw& law : scene.forces) {
+    const std::string kind(kForceNames[law.index()]);
+    if (!contains(hello.forces, kind)) return "the scene has a " + kind + lacks;
+  }
+  if (!contains(hello.features, "contacts")) {
+    if (const auto pair = pair_that_may_touch(scene)) {
+      return "bodies " + plumb::quoted(pair->first) + " and " + plumb::quoted(pair->second) +
+             " may touch, and it has no contacts";
+    }
+    return "";
+  }
+  if (contains(hello.features, "filters")) return "";
+  for (const Body& body : scene.bodies) {
+    for (const Shape& shape : body.shapes) {
+      if (shape.filter != Filter{})
+        return "body " + plumb::quoted(body.name) + " has a collision filter" + lacks;
+    }
+  }
+  return "";
+}
+
+}  // namespace plumb::reference::protocol

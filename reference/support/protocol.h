@@ -1,0 +1,62 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/error.h"
+#include "engine/scene/scene.h"
+#include "reference/backend.h"
+
+/// The messages of docs/protocol.md, as both sides read and write them.
+namespace plumb::reference::protocol {
+
+inline constexpr int kVersion = 1;
+
+/// What an engine says about itself in answer to "hello".
+struct Hello {
+  std::string name, version, precision, summary;
+  Method method;
+  int substeps = 1;  ///< that it makes of a step when none are asked for
+  std::vector<std::string> shapes, joints, forces, features;
+  std::vector<Option> options;
+};
+
+/// A message that is JSON, but not what is due; `what()` says how.
+class Malformed : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A state that is not finite.
+class NotFinite : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+nlohmann::ordered_json to_json(const Hello& hello);
+Hello hello_from_json(const nlohmann::ordered_json& message);
+
+nlohmann::ordered_json to_json(const StepSettings& settings);
+StepSettings settings_from_json(const nlohmann::ordered_json& message);
+
+nlohmann::ordered_json to_json(const Settings& effective);
+Settings effective_from_json(const nlohmann::ordered_json& message);
+
+/// An error as its parts; a bare string is read as a problem.
+nlohmann::ordered_json to_json(const Error& error);
+Error error_from_json(const nlohmann::ordered_json& message, const std::string& engine);
+
+/// One sample: {"t":..,"states":[[x,y,angle,vx,vy,w],..]}, on one line. Throws `NotFinite`.
+std::string sample_line(double time, std::span<const BodyState> states);
+
+/// Reads a sample of `out.size()` bodies and returns its time. Throws `Malformed` or `NotFinite`.
+double sample_from_json(const nlohmann::ordered_json& message, std::span<BodyState> out);
+
+/// A line as a JSON object. Throws `Malformed`, or `NotFinite` for JSON with a NaN or an infinity in it.
+nlohmann::ordered_json parse_line(std::string_view line);
+
+/// Empty, or what `scene` needs that an engine with these capabilities does not have.
+std::string missing_capability(const Scene& scene, const Hello& hello);
+
+}  // namespace plumb::reference::protocol

@@ -1,0 +1,94 @@
+#include "reference/support/range.h"
+
+#include <cmath>
+#include <initializer_list>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+
+namespace plumb::reference {
+namespace {
+
+class Checker {
+ public:
+  explicit Checker(const Range& range) : range_(range) {}
+
+  void at_most(const std::string& who, const char* field, std::initializer_list<double> values) {
+    for (const double value : values) {
+      if (std::abs(value) > range_.largest) reject(who, field, value);
+    }
+  }
+
+  void within(const std::string& who, const char* field, std::initializer_list<double> values) {
+    for (const double value : values) {
+      if (value > range_.largest || value < range_.smallest) reject(who, field, value);
+    }
+  }
+
+  std::string reason;
+
+ private:
+  void reject(const std::string& who, const char* field, double value) {
+    if (!reason.empty()) return;
+    reason = who + ": " + field + " " + shortest(value) + " is beyond the range of its arithmetic, " +
+             shortest(range_.smallest) + " to " + shortest(range_.largest);
+  }
+
+  Range range_;
+};
+
+void check(const Body& body, Checker& checker) {
+  const std::string who = "body " + plumb::quoted(body.name);
+  checker.at_most(who, "position", {body.position.x, body.position.y});
+  checker.at_most(who, "angle", {body.angle});
+  checker.at_most(who, "velocity", {body.velocity.x, body.velocity.y});
+  checker.at_most(who, "angular_velocity", {body.angular_velocity});
+  if (body.type == BodyType::Dynamic) {
+    checker.within(who, "mass", {body.mass});
+    if (!body.fixed_rotation) checker.within(who, "inertia", {inertia_of(body)});
+  }
+  for (const Shape& shape : body.shapes) {
+    checker.at_most(who, "shape position", {shape.position.x, shape.position.y});
+    checker.at_most(who, "friction", {shape.friction});
+    if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
+      checker.within(who, "radius", {circle->radius});
+    } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+      checker.within(who, "box side", {box->width, box->height});
+    }
+  }
+}
+
+void check(const Joint& joint, Checker& checker) {
+  std::visit(
+      [&](const auto& j) {
+        const std::string who = "joint " + plumb::quoted(j.name);
+        checker.at_most(who, "anchor", {j.anchor_a.x, j.anchor_a.y, j.anchor_b.x, j.anchor_b.y});
+        if constexpr (requires { j.length; }) checker.within(who, "length", {j.length});
+      },
+      joint);
+}
+
+}  // namespace
+
+std::string out_of_range(const Scene& scene, const Range& range) {
+  Checker checker(range);
+  checker.at_most("scene", "gravity", {scene.gravity.x, scene.gravity.y});
+  for (const Body& body : scene.bodies) check(body, checker);
+  for (const Joint& joint : scene.joints) check(joint, checker);
+  return checker.reason;
+}
+
+void require_finite(std::string_view engine, const Scene& scene, std::span<const BodyState> states,
+                    double time) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& s = states[i];
+    const double sum =
+        s.position.x + s.position.y + s.angle + s.velocity.x + s.velocity.y + s.angular_velocity;
+    if (std::isfinite(sum)) continue;
+    throw Error(Error::Kind::Run, "engine '" + std::string(engine) + "'", "body",
+                plumb::quoted(scene.bodies[i].name),
+                "its state is not finite at t = " + shortest(time) + " s");
+  }
+}
+
+}  // namespace plumb::reference

@@ -1,0 +1,153 @@
+#include "reference/support/serve.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/json.h"
+#include "engine/scene/names.h"
+#include "reference/support/protocol.h"
+
+namespace plumb::reference {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+/// Lines to the host. Many samples share a write, but none waits for long.
+class Output {
+ public:
+  Output() {
+    // Engines print banners: their standard output becomes the standard error, the protocol keeps a copy.
+    file_ = fdopen(dup(STDOUT_FILENO), "w");
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+
+  void sample(const std::string& line) {
+    write(line);
+    if (Clock::now() - flushed_ > std::chrono::milliseconds(100)) flush();
+  }
+  void answer(const Json& message) {
+    write(message.dump());
+    flush();
+  }
+
+ private:
+  void write(const std::string& line) {
+    std::fwrite(line.data(), 1, line.size(), file_);
+    std::fputc('\n', file_);
+  }
+  void flush() {
+    std::fflush(file_);
+    flushed_ = Clock::now();
+  }
+
+  FILE* file_ = nullptr;
+  Clock::time_point flushed_ = Clock::now();
+};
+
+class Server {
+ public:
+  explicit Server(const Backend& backend) : backend_(backend) {}
+
+  /// False when the host is done.
+  bool handle(const std::string& line) {
+    const Json message = protocol::parse_line(line);
+    const std::string request = message.value("request", "");
+    if (request == "quit") return false;
+    if (request == "hello") {
+      hello();
+    } else if (request == "load") {
+      load(message);
+    } else if (request == "run") {
+      run(message);
+    } else {
+      throw Error(Error::Kind::Name, "request", "", request, "is not hello, load, run or quit");
+    }
+    return true;
+  }
+
+  void report(const Error& error) { output_.answer({{"error", protocol::to_json(error)}}); }
+
+ private:
+  void hello() {
+    const StepSettings unit{.dt = 1, .substeps = {}, .tolerance = {}, .options = {}};
+    const Identity identity = backend_.identity();
+    protocol::Hello out;
+    out.name = backend_.name();
+    out.version = identity.version;
+    out.precision = identity.precision;
+    out.summary = backend_.summary();
+    out.method = backend_.method(unit);
+    out.substeps = static_cast<int>(std::lround(unit.dt / out.method.substep));
+    // What a scene can hold; the backend's own `unsupported` decides scene by scene.
+    out.shapes.assign(kGeometryNames.begin(), kGeometryNames.end());
+    out.joints.assign(kJointNames.begin(), kJointNames.end());
+    out.forces.assign(kForceNames.begin(), kForceNames.end());
+    out.features = {"contacts", "filters", "kinematic", "fixed_rotation"};
+    out.options = backend_.options();
+    output_.answer(protocol::to_json(out));
+  }
+
+  void load(const Json& message) {
+    simulator_.reset();
+    const Scene scene = scene_from_json(message.at("scene").dump());
+    const StepSettings settings = protocol::settings_from_json(message.at("settings"));
+    const std::string reason = backend_.unsupported(scene, settings);
+    if (!reason.empty()) {
+      output_.answer({{"unsupported", reason}});
+      return;
+    }
+    const Settings effective = backend_.effective_settings(scene, settings);
+    simulator_ = backend_.create(scene, settings);
+    bodies_ = scene.bodies.size();
+    output_.answer({{"effective_settings", protocol::to_json(effective)}});
+  }
+
+  void run(const Json& message) {
+    if (!simulator_) throw Error(Error::Kind::Run, "request", "run", "", "no scene is loaded");
+    const double nanoseconds =
+        simulator_->record(message.at("samples").get<int>(), message.at("every").get<int>(), bodies_,
+                           [this](double time, std::span<const BodyState> states) {
+                             output_.sample(protocol::sample_line(time, states));
+                           });
+    output_.answer({{"done", true}, {"ns", nanoseconds}});
+  }
+
+  const Backend& backend_;
+  Output output_;
+  std::unique_ptr<Simulator> simulator_;
+  std::size_t bodies_ = 0;
+};
+
+}  // namespace
+
+int serve(const Backend& backend) {
+  Server server(backend);
+  std::string line;
+  while (std::getline(std::cin, line)) {
+    try {
+      if (!server.handle(line)) break;
+    } catch (const Error& error) {
+      server.report(error);
+    } catch (const std::exception& error) {
+      const std::string subject = "engine '" + std::string(backend.name()) + "'";
+      server.report(Error(Error::Kind::Run, subject, "", "", error.what()));
+    }
+  }
+  return 0;
+}
+
+}  // namespace plumb::reference

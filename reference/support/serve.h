@@ -1,0 +1,12 @@
+#pragma once
+
+#include "reference/backend.h"
+
+namespace plumb::reference {
+
+/// Answers the process protocol on standard input and output with `backend`, until "quit" or the end of the
+/// input: `int main() { return serve(*make_my_backend()); }` makes any adapter a worker. What the engine
+/// itself prints on standard output goes to standard error. Returns the exit code.
+int serve(const Backend& backend);
+
+}  // namespace plumb::reference
