@@ -89,7 +89,7 @@ int parse_size(const Scenario& scenario, const std::string& text) {
 std::vector<std::string> chosen_variants(const Scenario& scenario,
                                          const std::optional<std::string>& variant) {
   if (!variant) return scenario.variants;
-  if (std::ranges::find(scenario.variants, *variant) == scenario.variants.end())
+  if (variant->empty() || std::ranges::find(scenario.variants, *variant) == scenario.variants.end())
     throw Error(Error::Kind::Name, subject(scenario.name), "variant", *variant,
                 "there is no such variant" + did_you_mean(*variant, scenario.variants));
   return {*variant};

@@ -1,0 +1,22 @@
+# The scenario that docs/adding-a-scenario.md shows, built as a reader would build it: its first ```cpp block.
+if(TARGET test_scenarios)
+  set(page ${PROJECT_SOURCE_DIR}/docs/adding-a-scenario.md)
+  set(example ${CMAKE_CURRENT_BINARY_DIR}/scenarios/doc_example.cpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
+
+  # ';' and '[' mean something to CMake's lists, so the text is only ever cut, never split.
+  file(READ ${page} text)
+  string(FIND "${text}" "```cpp\n" start)
+  if(start LESS 0)
+    message(FATAL_ERROR "${page} has no \`\`\`cpp block")
+  endif()
+  math(EXPR start "${start} + 7")
+  string(SUBSTRING "${text}" ${start} -1 text)
+  string(FIND "${text}" "```" end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  file(CONFIGURE OUTPUT ${example} CONTENT "${text}" @ONLY)
+
+  target_sources(test_scenarios PRIVATE ${example})
+  set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/doc_example_test.cpp APPEND PROPERTY
+    COMPILE_DEFINITIONS PLUMB_DOC_EXAMPLE="${example}")
+endif()

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+/// A second reading of a scene's physics, written for the tests alone: what the truths are held against.
+namespace plumb::scenarios::testing {
+
+struct Rate {
+  Vec2d linear{};
+  double angular = 0;
+};
+
+inline double norm(Vec2d v) { return std::hypot(v.x, v.y); }
+
+inline Vec2d turned(double angle, Vec2d v) {
+  return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
+}
+
+/// Newton and Euler: gravity and the scene's force laws, without joints and contacts.
+inline Rate acceleration(const Scene& scene, std::size_t body, const BodyState& state, double time) {
+  const Body& of = scene.bodies[body];
+  if (of.type != BodyType::Dynamic) return {};
+  Vec2d force = of.mass * scene.gravity;
+  double torque = 0;
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* drag = std::get_if<LinearDrag>(&law); drag && drag->body == of.name)
+      force -= drag->coefficient * state.velocity;
+    if (const auto* drag = std::get_if<QuadraticDrag>(&law); drag && drag->body == of.name)
+      force -= drag->coefficient * norm(state.velocity) * state.velocity;
+    if (const auto* push = std::get_if<PointForce>(&law);
+        push && push->body == of.name && time >= push->start && time < push->start + push->duration) {
+      const Vec2d f = push->frame == Frame::World ? push->force : turned(state.angle, push->force);
+      force += f;
+      torque += cross(turned(state.angle, push->point), f);
+    }
+    if (const auto* twist = std::get_if<Torque>(&law);
+        twist && twist->body == of.name && time >= twist->start && time < twist->start + twist->duration)
+      torque += twist->torque;
+  }
+  const double inertia = inertia_of(of);
+  return {1 / of.mass * force, inertia > 0 ? torque / inertia : 0};
+}
+
+/// A sum, and the sum of its terms' sizes: what rounding is relative to.
+struct Total {
+  double value = 0, scale = 0;
+  void add(double term) { value += term, scale += std::fabs(term); }
+};
+
+struct Totals {
+  Total energy, momentum_x, momentum_y, angular_momentum;
+};
+
+inline Totals totals(const Scene& scene, std::span<const BodyState> states) {
+  Totals sum;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.type != BodyType::Dynamic) continue;
+    const BodyState& s = states[i];
+    const Vec2d momentum = body.mass * s.velocity;
+    const double spin = inertia_of(body) * s.angular_velocity;
+    sum.energy.add(dot(momentum, s.velocity) / 2);
+    sum.energy.add(spin * s.angular_velocity / 2);
+    sum.energy.add(-body.mass * scene.gravity.x * s.position.x);
+    sum.energy.add(-body.mass * scene.gravity.y * s.position.y);
+    sum.momentum_x.add(momentum.x);
+    sum.momentum_y.add(momentum.y);
+    sum.angular_momentum.add(s.position.x * momentum.y);
+    sum.angular_momentum.add(-s.position.y * momentum.x);
+    sum.angular_momentum.add(spin);
+  }
+  return sum;
+}
+
+/// Whether any two bodies' shapes may meet.
+inline bool has_contacts(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
+      for (const Shape& a : scene.bodies[i].shapes)
+        for (const Shape& b : scene.bodies[j].shapes)
+          if (may_touch(a.filter, b.filter)) return true;
+  return false;
+}
+
+}  // namespace plumb::scenarios::testing
