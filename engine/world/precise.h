@@ -12,11 +12,13 @@ namespace plumb {
 
 /// The driver of `Precise`, for a valid scene that it supports. What it does, body by body:
 /// - free flight under constant forces is a polynomial and is evaluated, not integrated: exact to rounding;
-/// - all else is integrated by DOP853 with step control, joints held by their accelerations and, after each step,
+/// - all else is integrated by DOP853 with step control, joints held by their accelerations and, after each
+/// step,
 ///   by a projection of positions and velocities onto the constraints;
 /// - circles' impacts are located in time and resolved there: Newton's restitution, Coulomb's friction.
 /// Steps end on the grid of max_dt and where forces are switched.
-std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise, CompileOptions options);
+std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
+                                            CompileOptions options);
 
 /// Empty, or why `Precise` cannot run `scene` (a valid one).
 std::string precise_unsupported(const Scene& scene);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+namespace plumb {
+
+/// An ordinary differential equation dy/dt = rate(t, y).
+class Flow {
+ public:
+  virtual ~Flow() = default;
+  virtual void rate(double time, std::span<const double> y, std::span<double> out) = 0;
+};
+
+}  // namespace plumb

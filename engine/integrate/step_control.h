@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+
+/// How long the next step should be, from the errors of the last two (a PI controller, Gustafsson 1991, as in
+/// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4). For a method whose error goes
+/// with h^8. The exponents are 3/32 and 1/32, because roots by repeated `sqrt` have the same bits everywhere
+/// and `pow` has not.
+class StepControl {
+ public:
+  /// The factor for a step that met its tolerance with `error` <= 1.
+  double after_acceptance(double error) {
+    constexpr double kLeast = 1e-10;  // an error of zero says no more than this
+    const double e = std::max(error, kLeast);
+    const double r = root32(e);
+    const double factor = kSafety * root32(previous_) / (r * r * r);
+    previous_ = std::max(e, 1e-4);
+    return std::clamp(factor, kShrinkMost, kGrowMost);
+  }
+
+  /// The factor for a step that has to be done again; 1/8 of the power, without history.
+  static double after_rejection(double error) {
+    if (!(error < 1e30)) return kShrinkMost;
+    const double r = root32(error);
+    return std::clamp(kSafety / ((r * r) * (r * r)), kShrinkMost, kSafety);
+  }
+
+  double previous() const { return previous_; }
+  void reset(double previous = 1) { previous_ = previous; }
+
+ private:
+  static double root32(double x) { return std::sqrt(std::sqrt(std::sqrt(std::sqrt(std::sqrt(x))))); }
+
+  static constexpr double kSafety = 0.9, kShrinkMost = 0.2, kGrowMost = 4;
+  double previous_ = 1;
+};
+
+}  // namespace plumb

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// How a body moves, with its acceleration.
+struct Motion {
+  BodyState state{};
+  Vec2d acceleration{};             ///< m/s^2
+  double angular_acceleration = 0;  ///< rad/s^2
+};
+
+/// A circle that may touch others.
+struct Disc {
+  std::size_t body = 0;
+  Vec2d offset{};  ///< m, of its centre in the body's frame
+  double radius = 0, friction = 0, restitution = 0;
+  Filter filter{};
+};
+
+/// Who is moved how: what `Precise` derives from the scene before anything is allocated.
+struct Parts {
+  std::vector<std::size_t> flying;  ///< bodies on polynomials: static, kinematic, under constant forces alone
+  std::vector<std::size_t>
+      integrated;           ///< dynamic bodies with joints or with forces that depend on the motion
+  std::vector<Disc> discs;  ///< those that have a partner to touch
+  std::vector<std::pair<std::size_t, std::size_t>>
+      apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
+  std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending
+};
+
+Parts divide(const Scene& scene);
+
+/// Whether the pair's shapes may touch as far as body types, filters and joints go.
+bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const Filter& a, std::size_t body_b,
+              const Filter& b);
+
+/// The scene's own scales that errors are measured against.
+struct Scales {
+  double length = 1;  ///< m: the largest extent of an integrated body, joint or lever
+  double speed = 1;   ///< m/s: what the scene's accelerations give over that length
+};
+
+Scales scales_of(const Scene& scene, const Parts& parts);
+
+}  // namespace plumb::precise
