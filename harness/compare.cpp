@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -133,10 +134,9 @@ Comparison compare(const CompareOptions& options, const CompareEvents& events) {
       if (events.progress) events.progress(progress);
       ++progress.done;
     };
-    for (Result& result : compare_on(instance, options, starting)) {
-      if (events.finished) events.finished(result);
-      comparison.results.push_back(std::move(result));
-    }
+    std::vector<Result> results = compare_on(instance, options, starting);
+    if (events.finished) events.finished(results);
+    std::move(results.begin(), results.end(), std::back_inserter(comparison.results));
     progress.done = before + options.engines.size();
     comparison.interrupted = interrupted();
     if (comparison.interrupted) break;

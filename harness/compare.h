@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "harness/cost.h"
@@ -26,7 +28,7 @@ struct Progress {
 };
 
 struct CompareEvents {
-  std::function<void(const Result&)> finished{};  ///< called once a run, in order
+  std::function<void(std::span<const Result>)> finished{};  ///< called once an instance, with all its results
   std::function<void(const Progress&)> progress{};
 };
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace plumb::app {
+
+/// What a subcommand does once its options are parsed; returns the exit code.
+using Action = std::function<int()>;
+
+// Each adds its subcommand to `app` and puts its action into `chosen` when it is the one that is given.
+void add_list(CLI::App& app, Action& chosen);
+void add_engines(CLI::App& app, Action& chosen);
+void add_explain(CLI::App& app, Action& chosen);
+void add_run(CLI::App& app, Action& chosen);
+void add_scene(CLI::App& app, Action& chosen);
+void add_compare(CLI::App& app, Action& chosen);
+void add_bench(CLI::App& app);
+
+/// Replaces this program by the benchmarks beside it. Returns only when that fails: throws `Error` (Io).
+int run_bench(int argc, char** argv);
+
+}  // namespace plumb::app

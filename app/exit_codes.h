@@ -1,0 +1,10 @@
+#pragma once
+
+namespace plumb::app {
+
+inline constexpr int kOk = 0;
+inline constexpr int kCheckFailed = 1;    ///< a check failed, or an engine could not go on
+inline constexpr int kUsage = 2;          ///< usage or bad input
+inline constexpr int kInterrupted = 130;  ///< by the user; what was finished is kept
+
+}  // namespace plumb::app

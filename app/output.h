@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+#include <string_view>
+
+namespace plumb::app {
+
+/// Nobody reads stdout any more: the program ends quietly.
+class OutputClosed : public std::runtime_error {
+ public:
+  OutputClosed() : std::runtime_error("stdout was closed") {}
+};
+
+/// Writes data to stdout. Throws `OutputClosed`, or `Error` (Io) when the medium is full.
+void print(std::string_view text);
+
+/// Hands over what is buffered. Throws as `print`.
+void flush();
+
+}  // namespace plumb::app

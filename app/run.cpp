@@ -1,0 +1,118 @@
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/guard.h"
+#include "app/output.h"
+#include "app/report_error.h"
+#include "app/settings.h"
+#include "app/source.h"
+#include "app/trajectory_writer.h"
+#include "app/usage.h"
+#include "engine/scene/error.h"
+#include "harness/interrupt.h"
+#include "harness/truth_table.h"
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+  std::string name, engine = "plumb", format = "csv", duration, rate;
+  int size = 0;
+  SettingsOptions settings;
+};
+
+/// Thrown out of a run that the user has stopped.
+struct Interrupted {};
+
+// Steps from one sample to the next.
+int steps_a_sample(const std::string& rate, double dt) {
+  if (rate.empty()) return 1;
+  const double wanted = parse_positive("--rate", rate), steps = 1 / (wanted * dt), whole = std::round(steps);
+  if (whole < 1 || whole > 1e9 || std::abs(steps - whole) > 1e-6 * steps) {
+    throw UsageError(fmt::format(
+        "--rate is '{}': samples lie on steps, so with this dt give {:g}, {:g}, {:g}, ... (or another --dt)",
+        rate, 1 / dt, 1 / (2 * dt), 1 / (3 * dt)));
+  }
+  return static_cast<int>(whole);
+}
+
+int sample_count(double duration, double dt, int every) {
+  if (duration / dt > 1e9)
+    throw UsageError(fmt::format("{:g} s at dt = {:g} s are too many steps", duration, dt));
+  return harness::step_count(duration, dt) / every;
+}
+
+int run(const Options& options, const reference::Backend& backend, const reference::StepSettings& settings,
+        const Source& source, int every, int samples) {
+  const auto simulator = backend.create(source.scene, settings);
+  const TrajectoryWriter writer(source.scene, options.format == "json" ? TrajectoryWriter::Format::Json
+                                                                       : TrajectoryWriter::Format::Csv);
+  std::vector<BodyState> states(source.scene.bodies.size());
+  simulator->read(states);
+  writer.write(0, states);
+  long step = 0;
+  const auto sink = [&](double, std::span<const BodyState> now) {
+    if (harness::interrupted()) throw Interrupted{};
+    step += every;
+    writer.write(static_cast<double>(step) * settings.dt, now);
+  };
+  try {
+    simulator->record(samples, every, states.size(), sink);
+  } catch (const Interrupted&) {
+    flush();
+    return kInterrupted;
+  }
+  return kOk;
+}
+
+int start(const Options& options) {
+  const reference::Backend& backend = reference::find_backend(options.engine);
+  const Source source = load(options.name, options.size);
+  const reference::Identity identity = backend.identity();
+  if (!identity.available)
+    throw UsageError(fmt::format("engine '{}' is not installed: {}", options.engine, identity.reason));
+  const reference::StepSettings settings = options.settings.settings(backend);
+  if (const std::string reason = backend.unsupported(source.scene, settings); !reason.empty())
+    throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", options.engine), "", "", reason);
+  const int every = steps_a_sample(options.rate, settings.dt);
+  const double duration =
+      options.duration.empty() ? source.duration : parse_positive("--duration", options.duration);
+  const int samples = sample_count(duration, settings.dt, every);
+  return guarded(options.engine, [&] {
+    return reporting_errors([&] { return run(options, backend, settings, source, every, samples); });
+  });
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("run", "run a scene on an engine; the trajectory goes to stdout");
+  auto options = std::make_shared<Options>();
+  command->add_option("name", options->name, "a scenario or a scene file (- reads stdin)")
+      ->required()
+      ->type_name("NAME|FILE");
+  command->add_option("--engine", options->engine, "see `plumb engines` (default plumb)");
+  command->add_option("--size", options->size, "how large, where the scenario scales")
+      ->check(CLI::PositiveNumber);
+  options->settings.add_to(*command);
+  command
+      ->add_option("--duration", options->duration, "s (default: the scenario's, 10 for a file's own scene)")
+      ->type_name("T");
+  command->add_option("--rate", options->rate, "samples a second (default: every step)")->type_name("HZ");
+  command->add_option("--format", options->format, "csv or json, a line a sample (default csv)")
+      ->check(CLI::IsMember({"csv", "json"}));
+  command->footer(
+      "Examples:\n  plumb run free_fall/vacuum --engine box2d --rate 10\n"
+      "  plumb run pendulum_chain[20] --engine plumb-precise --tolerance 1e-10 --format json\n"
+      "  plumb scene pendulum_chain --size 5 > chain.json && plumb run chain.json --dt 1/240\n"
+      "  plumb run free_fall --set integrator=explicit_euler --substeps 1");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

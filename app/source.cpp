@@ -1,0 +1,74 @@
+#include "app/source.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+#include "engine/scene/json.h"
+
+namespace plumb::app {
+namespace {
+
+std::string read_file(const std::string& path) {
+  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  const std::string subject = fmt::format("file '{}'", path);
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    throw Error(Error::Kind::Io, subject, "", "",
+                "is a directory; give a scene as JSON, like `plumb scene NAME` prints");
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(Error::Kind::Io, subject, "", "", fmt::format("cannot be read: {}", std::strerror(errno)));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool is_file(const std::string& text) {
+  std::error_code code;
+  return text == "-" || text.ends_with(".json") || std::filesystem::is_regular_file(text, code) ||
+         text.starts_with("/") || text.starts_with("./") || text.starts_with("../");
+}
+
+// How long a scene from a file runs: as long as the scenario whose name it bears.
+double duration_of(const Scene& scene, double otherwise) {
+  try {
+    return scenarios::select(scene.name).front().build().duration;
+  } catch (const Error&) {
+    return otherwise;
+  }
+}
+
+}  // namespace
+
+scenarios::Instance one_instance(const std::string& name, int size) {
+  const std::vector<scenarios::Instance> members = scenarios::select(name, size);
+  if (members.size() > 1) {
+    std::string others;
+    for (const auto& member : members) others += (others.empty() ? "" : ", ") + member.label();
+    fmt::print(stderr, "plumb: '{}' is {} scenes: {}; this is the first\n", name, members.size(), others);
+  }
+  return members.front();
+}
+
+Source load(const std::string& name_or_file, int size) {
+  if (!is_file(name_or_file)) {
+    scenarios::Problem problem = one_instance(name_or_file, size).build();
+    return {std::move(problem.scene), problem.duration};
+  }
+  if (size > 0)
+    throw Error(Error::Kind::Value, "--size", "", std::to_string(size),
+                "goes with a scenario's name, not with a file");
+  Source source;
+  source.scene = scene_from_json(read_file(name_or_file));
+  source.duration = duration_of(source.scene, source.duration);
+  return source;
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "engine/scene/scene.h"
+#include "scenarios/scenario.h"
+
+namespace plumb::app {
+
+/// A scene to run, and for how long if nothing else is said.
+struct Source {
+  Scene scene;
+  double duration = 10;  ///< s
+};
+
+/// The one instance that `name` means. Where it means several, the first, with a word about the others on
+/// stderr.
+scenarios::Instance one_instance(const std::string& name, int size);
+
+/// A scenario by name, or a scene from a file ("-": stdin). A file is what exists as one, has a '/' before a
+/// name that is no scenario's, or ends in ".json". A scene that bears a scenario's name runs as long as that
+/// does. Throws `Error`.
+Source load(const std::string& name_or_file, int size);
+
+}  // namespace plumb::app
