@@ -58,7 +58,8 @@ def wrong_includes(root):
         for match in INCLUDE.finditer(text):
             target = match.group(1)
             line = text.count("\n", 0, match.start()) + 1
-            if not (root / target).is_file():
+            generated = (root / f"{target}.in").is_file()
+            if not generated and not (root / target).is_file():
                 problems.append(f'{path}:{line}: "{target}" is not a path from the root of the project')
             elif not any(target.startswith(prefix) for prefix in allowed):
                 problems.append(f'{path}:{line}: must not include "{target}"; may: {" ".join(allowed)}')
