@@ -57,7 +57,7 @@ JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const 
     }
   }
   find_pattern(below);
-  find_couplings(rows, place);
+  find_terms(rows, place);
   inverse_diagonal_.assign(rows.size(), 0);
   work_.assign(rows.size(), 0);
   residual_.assign(rows.size(), 0);
@@ -83,43 +83,49 @@ void JointSystem<Real>::find_pattern(const std::vector<std::vector<int>>& below)
 }
 
 template <class Real>
-void JointSystem<Real>::find_couplings(std::span<const Row<Real>> rows, const std::vector<int>& place) {
-  std::vector<std::vector<int>> rows_at(inverse_mass_.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const int body : {rows[i].a, rows[i].b}) {
-      if (body != kFixedFrame) rows_at[body].push_back(static_cast<int>(i));
-    }
-  }
-  coupling_start_.assign(1, 0);
-  std::vector<int> earlier;
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    const Row<Real>& row = rows[order_[k]];
-    earlier.clear();
-    for (const int body : {row.a, row.b}) {
+void JointSystem<Real>::find_terms(std::span<const Row<Real>> rows, const std::vector<int>& place) {
+  struct Side {
+    int row, begin;
+  };
+  std::vector<std::vector<Side>> sides_at(inverse_mass_.size());
+  const auto each_side = [&](int i, const auto& visit) {
+    const int bodies[2] = {rows[i].a, rows[i].b};
+    for (int side = 0; side < 2; ++side) {
+      const int body = bodies[side];
       if (body == kFixedFrame || (inverse_mass_[body] == 0 && inverse_inertia_[body] == 0)) continue;
-      for (const int other : rows_at[body]) {
-        if (place[other] < static_cast<int>(k)) earlier.push_back(place[other]);
-      }
+      visit(body, Side{i, 6 * i + 3 * side});
     }
-    std::sort(earlier.begin(), earlier.end());
-    earlier.erase(std::unique(earlier.begin(), earlier.end()), earlier.end());
-    for (const int j : earlier) couplings_.push_back({j, order_[j], order_[k]});
-    coupling_start_.push_back(couplings_.size());
+  };
+  const int n = static_cast<int>(rows.size());
+  for (int i = 0; i < n; ++i) {
+    each_side(i, [&](int body, Side side) { sides_at[body].push_back(side); });
   }
+  term_start_.assign(1, 0);
+  for (int k = 0; k < n; ++k) {
+    each_side(order_[k], [&](int body, Side side) {
+      for (const Side& other : sides_at[body]) {
+        if (place[other.row] <= k) terms_.push_back({place[other.row], side.begin, other.begin});
+      }
+    });
+    term_start_.push_back(terms_.size());
+  }
+  jacobian_.assign(6 * rows.size(), 0);
+  weighted_.assign(6 * rows.size(), 0);
 }
 
-/// The entry of J M^-1 J^T for two rows: a sum over the bodies that they share.
 template <class Real>
-Real JointSystem<Real>::coupling(const Row<Real>& a, const Row<Real>& b) const {
-  const auto shared = [&](int body, Vec2<Real> linear, Real angular, int other_body, Vec2<Real> other_linear,
-                          Real other_angular) {
-    if (body != other_body || body == kFixedFrame) return Real{0};
-    return inverse_mass_[body] * dot(linear, other_linear) + inverse_inertia_[body] * angular * other_angular;
+void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
+  const auto put = [&](std::size_t at, int body, Vec2<Real> linear, Real angular) {
+    const Real mass = body == kFixedFrame ? 0 : inverse_mass_[body];
+    const Real inertia = body == kFixedFrame ? 0 : inverse_inertia_[body];
+    jacobian_[at] = linear.x, jacobian_[at + 1] = linear.y, jacobian_[at + 2] = angular;
+    weighted_[at] = mass * linear.x, weighted_[at + 1] = mass * linear.y,
+    weighted_[at + 2] = inertia * angular;
   };
-  return (shared(a.a, a.linear_a, a.angular_a, b.a, b.linear_a, b.angular_a) +
-          shared(a.b, a.linear_b, a.angular_b, b.b, b.linear_b, b.angular_b)) +
-         (shared(a.a, a.linear_a, a.angular_a, b.b, b.linear_b, b.angular_b) +
-          shared(a.b, a.linear_b, a.angular_b, b.a, b.linear_a, b.angular_a));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    put(6 * i, rows[i].a, rows[i].linear_a, rows[i].angular_a);
+    put(6 * i + 3, rows[i].b, rows[i].linear_b, rows[i].angular_b);
+  }
 }
 
 // Up-looking (T. A. Davis, Algorithm 849: a concise sparse Cholesky factorization package, ACM TOMS 31,
@@ -130,12 +136,16 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
   constexpr Real kDependent = 64 * std::numeric_limits<Real>::epsilon();
   int dependent = 0;
+  take_jacobian(rows);
   std::copy(column_start_.begin(), column_start_.end() - 1, filled_.begin());
   for (std::size_t k = 0; k < order_.size(); ++k) {
-    for (std::size_t p = coupling_start_[k]; p < coupling_start_[k + 1]; ++p) {
-      work_[couplings_[p].earlier] = coupling(rows[couplings_[p].row_a], rows[couplings_[p].row_b]);
+    for (std::size_t p = term_start_[k]; p < term_start_[k + 1]; ++p) {
+      const Real* m = &weighted_[terms_[p].left];
+      const Real* j = &jacobian_[terms_[p].right];
+      work_[terms_[p].place] += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
     }
-    const Real own = coupling(rows[order_[k]], rows[order_[k]]);
+    const Real own = work_[k];
+    work_[k] = 0;
     Real pivot = own;
     for (std::size_t q = row_start_[k]; q < row_start_[k + 1]; ++q) {
       const int j = column_of_[q];

@@ -37,15 +37,15 @@ class JointSystem {
   std::size_t nonzeros() const { return row_of_.size(); }
 
  private:
-  /// An entry of A above the diagonal, by position in the elimination order.
-  struct Coupling {
-    int earlier = 0;
-    int row_a = 0, row_b = 0;  // the two rows as numbered by the caller
+  /// A body's part in an entry of A: row `place` and the row being factorised share it.
+  struct Term {
+    int place = 0;            // of the earlier row in the elimination order, or of the row itself
+    int left = 0, right = 0;  // where the two rows' three numbers for that body begin
   };
 
-  Real coupling(const Row<Real>& a, const Row<Real>& b) const;
   void find_pattern(const std::vector<std::vector<int>>& below);
-  void find_couplings(std::span<const Row<Real>> rows, const std::vector<int>& place);
+  void take_jacobian(std::span<const Row<Real>> rows);
+  void find_terms(std::span<const Row<Real>> rows, const std::vector<int>& place);
 
   std::vector<Real> inverse_mass_, inverse_inertia_;  // by body
   std::vector<int> order_;                            // the caller's row at each place of the order
@@ -59,9 +59,11 @@ class JointSystem {
   std::vector<std::size_t> row_start_;
   std::vector<int> column_of_;
 
-  // A by rows of its lower triangle, in the same way.
-  std::vector<std::size_t> coupling_start_;
-  std::vector<Coupling> couplings_;
+  // A's lower triangle by rows, as sums over shared bodies.
+  std::vector<std::size_t> term_start_;
+  std::vector<Term> terms_;
+  // J and J M^-1: x, y and angle of body a, then of body b, row after row.
+  std::vector<Real> jacobian_, weighted_;
 
   std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
   std::vector<std::size_t> filled_;     // while factorising: the end of what is known of a column

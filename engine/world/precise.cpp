@@ -24,8 +24,8 @@ namespace plumb::precise {
 namespace {
 
 /// Of `Precise::tolerance`: what a step's estimated error may be. Errors add up over thousands of steps and
-/// grow along chaotic motion; a method of order 8 pays 2.4 times the steps for three digits.
-constexpr double kLocalShare = 1e-3;
+/// grow along chaotic motion; a method of order 8 pays 1.8 times the steps for these two digits.
+constexpr double kLocalShare = 1e-2;
 /// Below this the estimate is rounding.
 constexpr double kLeastTolerance = 1e-15;
 /// Impacts, and steps, within one max_dt: more of them do not end.
