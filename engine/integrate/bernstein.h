@@ -36,7 +36,7 @@ double only_descent(Bernstein<N> c, double low, double high) {
 }
 
 /// The first s in [low, high] where the polynomial, given by its coefficients on that interval, goes from
-/// positive to not positive. A root that is touched, not crossed, to within 2^-`depth` is none.
+/// positive to not positive. Two roots closer together than 2^-`depth` count as none.
 template <std::size_t N>
 std::optional<double> first_descent(const Bernstein<N>& c, double low = 0, double high = 1, int depth = 40) {
   // By Descartes' rule there are at most as many roots as changes of sign among the coefficients; one change
