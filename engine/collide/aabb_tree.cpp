@@ -18,8 +18,8 @@ void AabbTree<Real>::place(int leaf, const Aabb<Real>& box) {
   insert(leaf);
 }
 
-/// Walks down to where joining `box` costs least: a node's cost is the half perimeter that it adds there and to
-/// all nodes above.
+/// Walks down to where joining `box` costs least: a node's cost is the half perimeter that it adds there and
+/// to all nodes above.
 template <class Real>
 int AabbTree<Real>::best_sibling(const Aabb<Real>& box) const {
   int index = root_;
@@ -104,8 +104,8 @@ void AabbTree<Real>::rotate(int index) {
     if (other < leaf_count_) continue;
     for (int j = 0; j < 2; ++j) {
       const int grandchild = nodes_[other].children[j], stays = nodes_[other].children[1 - j];
-      const Real gain = nodes_[other].box.half_perimeter() -
-                        merged(nodes_[child].box, nodes_[stays].box).half_perimeter();
+      const Real gain =
+          nodes_[other].box.half_perimeter() - merged(nodes_[child].box, nodes_[stays].box).half_perimeter();
       if (gain > best_gain) best_gain = gain, best_child = child, best_grandchild = grandchild;
     }
   }

@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// A binary tree of boxes: each node's box surrounds its children's. Leaves are named by their caller. Insertion
-/// follows the surface-area heuristic (Goldsmith and Salmon, 1987) and rotates nodes on the way back up
-/// (Kopta et al., 2012), so that queries stay near logarithmic.
+/// A binary tree of boxes: each node's box surrounds its children's. Leaves are named by their caller.
+/// Insertion follows the surface-area heuristic (Goldsmith and Salmon, 1987) and rotates nodes on the way
+/// back up (Kopta et al., 2012), so that queries stay near logarithmic.
 template <class Real>
 class AabbTree {
  public:
@@ -19,9 +19,11 @@ class AabbTree {
   /// Puts `leaf` into the tree with `box`, or moves it there.
   void place(int leaf, const Aabb<Real>& box);
 
+  bool holds(int leaf) const { return nodes_[leaf].used; }
   const Aabb<Real>& box(int leaf) const { return nodes_[leaf].box; }
 
-  /// Calls `visit(leaf)` for every leaf whose box overlaps `box`, in an order that depends on the tree's history.
+  /// Calls `visit(leaf)` for every leaf whose box overlaps `box`, in an order that depends on the tree's
+  /// history.
   template <class Visit>
   void query(const Aabb<Real>& box, Visit&& visit) {
     stack_.clear();

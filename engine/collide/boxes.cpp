@@ -93,8 +93,8 @@ Manifold<Real> clip_to_face(const SolidShape<Real>& box, const Placement<Real>& 
 }  // namespace
 
 template <class Real>
-Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& at_a, const SolidShape<Real>& b,
-                             const Placement<Real>& at_b, Real reach) {
+Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& at_a,
+                             const SolidShape<Real>& b, const Placement<Real>& at_b, Real reach) {
   const Face<Real> of_a = best_face(a, at_a, b, at_b);
   const Face<Real> of_b = best_face(b, at_b, a, at_a);
   if (of_a.separation > reach || of_b.separation > reach) return {};
@@ -113,8 +113,8 @@ Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& a
   return out;
 }
 
-template Manifold<float> collide_boxes(const SolidShape<float>&, const Placement<float>&, const SolidShape<float>&,
-                                       const Placement<float>&, float);
+template Manifold<float> collide_boxes(const SolidShape<float>&, const Placement<float>&,
+                                       const SolidShape<float>&, const Placement<float>&, float);
 template Manifold<double> collide_boxes(const SolidShape<double>&, const Placement<double>&,
                                         const SolidShape<double>&, const Placement<double>&, double);
 

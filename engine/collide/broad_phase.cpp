@@ -8,7 +8,9 @@ bool BroadPhase<Real>::place(int shape, const Aabb<Real>& swept, Real margin) {
   const Aabb<Real>& stored = tree_.box(shape);
   // A box that a fast motion has left behind would find pairs that are far away.
   constexpr Real kNeedlesslyLarge = 2;
-  if (stored.contains(swept) && stored.half_perimeter() <= kNeedlesslyLarge * wanted.half_perimeter()) return false;
+  if (holds(shape) && stored.contains(swept) &&
+      stored.half_perimeter() <= kNeedlesslyLarge * wanted.half_perimeter())
+    return false;
   put(shape, wanted);
   if (!moved_flag_[shape]) moved_.push_back(shape);
   moved_flag_[shape] = true;

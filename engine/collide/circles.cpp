@@ -5,8 +5,8 @@
 namespace plumb {
 
 template <class Real>
-Manifold<Real> collide_circles(const SolidShape<Real>& a, const Placement<Real>& at_a, const SolidShape<Real>& b,
-                               const Placement<Real>& at_b) {
+Manifold<Real> collide_circles(const SolidShape<Real>& a, const Placement<Real>& at_a,
+                               const SolidShape<Real>& b, const Placement<Real>& at_b) {
   const Vec2<Real> between = at_b.center - at_a.center;
   const Real distance = std::sqrt(length_squared(between));
   Manifold<Real> out;
@@ -54,7 +54,8 @@ Manifold<Real> collide_box_circle(const SolidShape<Real>& a, const Placement<Rea
   Manifold<Real> out;
   out.normal = at_a.rotation * normal;
   out.count = 1;
-  out.points[0] = {at_a.center + at_a.rotation * on_box, at_b.center - b.radius * out.normal, gap - b.radius, 0};
+  out.points[0] = {at_a.center + at_a.rotation * on_box, at_b.center - b.radius * out.normal, gap - b.radius,
+                   0};
   return out;
 }
 
@@ -70,12 +71,12 @@ Manifold<Real> collide(const SolidShape<Real>& a, const Placement<Real>& at_a, c
   return out;
 }
 
-#define PLUMB_INSTANTIATE(Real)                                                                               \
-  template Manifold<Real> collide_circles(const SolidShape<Real>&, const Placement<Real>&,                    \
-                                          const SolidShape<Real>&, const Placement<Real>&);                   \
-  template Manifold<Real> collide_box_circle(const SolidShape<Real>&, const Placement<Real>&,                 \
-                                             const SolidShape<Real>&, const Placement<Real>&);                \
-  template Manifold<Real> collide(const SolidShape<Real>&, const Placement<Real>&, const SolidShape<Real>&,   \
+#define PLUMB_INSTANTIATE(Real)                                                                             \
+  template Manifold<Real> collide_circles(const SolidShape<Real>&, const Placement<Real>&,                  \
+                                          const SolidShape<Real>&, const Placement<Real>&);                 \
+  template Manifold<Real> collide_box_circle(const SolidShape<Real>&, const Placement<Real>&,               \
+                                             const SolidShape<Real>&, const Placement<Real>&);              \
+  template Manifold<Real> collide(const SolidShape<Real>&, const Placement<Real>&, const SolidShape<Real>&, \
                                   const Placement<Real>&, Real);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)

@@ -9,9 +9,9 @@ namespace plumb {
 /// Where two shapes touch, or will touch first.
 template <class Real>
 struct ManifoldPoint {
-  Vec2<Real> on_a{}, on_b{};   ///< m, in the world, on either surface; on_b - on_a = separation normal
-  Real separation = 0;         ///< m, negative where they overlap
-  std::uint32_t feature = 0;   ///< which corner or edge met which: the same while the touching goes on
+  Vec2<Real> on_a{}, on_b{};  ///< m, in the world, on either surface; on_b - on_a = separation normal
+  Real separation = 0;        ///< m, negative where they overlap
+  std::uint32_t feature = 0;  ///< which corner or edge met which: the same while the touching goes on
 };
 
 /// Up to two points with one normal.
@@ -25,19 +25,20 @@ struct Manifold {
 
 /// Circle against circle: along the line of centres.
 template <class Real>
-Manifold<Real> collide_circles(const SolidShape<Real>& a, const Placement<Real>& at_a, const SolidShape<Real>& b,
-                               const Placement<Real>& at_b);
+Manifold<Real> collide_circles(const SolidShape<Real>& a, const Placement<Real>& at_a,
+                               const SolidShape<Real>& b, const Placement<Real>& at_b);
 
-/// Box a against circle b: from the box's point nearest to the centre, or its nearest face if the centre is inside.
+/// Box a against circle b: from the box's point nearest to the centre, or its nearest face if the centre is
+/// inside.
 template <class Real>
 Manifold<Real> collide_box_circle(const SolidShape<Real>& a, const Placement<Real>& at_a,
                                   const SolidShape<Real>& b, const Placement<Real>& at_b);
 
-/// Box against box: the axis of greatest separation (separating axes), then the other's facing edge clipped to the
-/// reference face. Points farther apart than `reach` are left out.
+/// Box against box: the axis of greatest separation (separating axes), then the other's facing edge clipped
+/// to the reference face. Points farther apart than `reach` are left out.
 template <class Real>
-Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& at_a, const SolidShape<Real>& b,
-                             const Placement<Real>& at_b, Real reach);
+Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& at_a,
+                             const SolidShape<Real>& b, const Placement<Real>& at_b, Real reach);
 
 /// Any two shapes.
 template <class Real>

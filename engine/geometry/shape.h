@@ -17,11 +17,11 @@ template <class Real>
 struct SolidShape {
   ShapeKind kind = ShapeKind::Circle;
   int body = 0;
-  Vec2<Real> center{};         ///< m, in the body's frame
-  Rotation<Real> rotation{};   ///< in the body's frame
-  Vec2<Real> half{};           ///< m, a box's half width and half height
-  Real radius = 0;             ///< m, a circle's
-  Real reach = 0;              ///< m, from the shape's centre to its farthest point
+  Vec2<Real> center{};        ///< m, in the body's frame
+  Rotation<Real> rotation{};  ///< in the body's frame
+  Vec2<Real> half{};          ///< m, a box's half width and half height
+  Real radius = 0;            ///< m, a circle's
+  Real reach = 0;             ///< m, from the shape's centre to its farthest point
 };
 
 /// Where a shape is in the world.

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/joints/row.h"
+#include "engine/math/trigonometry.h"
+
+namespace plumb {
+
+/// What moves and how hard it is to move: one array a quantity, indexed by body in the scene's order. Static
+/// and kinematic bodies have no inverse mass, bodies of fixed rotation no inverse inertia.
+template <class Real>
+struct Bodies {
+  std::vector<Pose<Real>> pose;           ///< m
+  std::vector<Real> angle;                ///< rad, whole turns counted
+  std::vector<Twist<Real>> twist;         ///< m/s, rad/s
+  std::vector<Twist<Real>> acceleration;  ///< m/s^2, rad/s^2: by forces, at the substep's start
+  std::vector<Real> inverse_mass;         ///< 1/kg
+  std::vector<Real> inverse_inertia;      ///< 1/(kg m^2)
+
+  std::size_t size() const { return pose.size(); }
+
+  void apply(int body, Vec2<Real> impulse, Real angular_impulse) {
+    twist[body].velocity += inverse_mass[body] * impulse;
+    twist[body].angular_velocity += inverse_inertia[body] * angular_impulse;
+  }
+};
+
+/// Velocity of the point at `arm` from the centre of mass.
+template <class Real>
+Vec2<Real> velocity_at(const Twist<Real>& twist, Vec2<Real> arm) {
+  return twist.velocity + cross(twist.angular_velocity, arm);
+}
+
+/// Where the body is `t` into a substep of length `h` that started at `start`, if nothing touches it: `twist`
+/// is the velocity at mid-step, so x(t) = x + v t - a t (h - t) / 2, exact for constant acceleration.
+template <class Real>
+Vec2<Real> position_after(const Vec2<Real>& start, Vec2<Real> velocity, Vec2<Real> acceleration, Real t,
+                          Real h) {
+  return start + t * (velocity - Real(0.5) * (h - t) * acceleration);
+}
+
+template <class Real>
+Pose<Real> pose_after(const Bodies<Real>& bodies, int body, Real t, Real h) {
+  const Twist<Real>& twist = bodies.twist[body];
+  const Twist<Real>& acceleration = bodies.acceleration[body];
+  const Real turn = t * (twist.angular_velocity - Real(0.5) * (h - t) * acceleration.angular_velocity);
+  return {position_after(bodies.pose[body].position, twist.velocity, acceleration.velocity, t, h),
+          turn == 0 ? bodies.pose[body].rotation : rotation_of(bodies.angle[body] + turn)};
+}
+
+/// The velocity at that time: v(t) = v + a (t - h/2).
+template <class Real>
+Twist<Real> twist_after(const Bodies<Real>& bodies, int body, Real t, Real h) {
+  const Real since_middle = t - Real(0.5) * h;
+  return {bodies.twist[body].velocity + since_middle * bodies.acceleration[body].velocity,
+          bodies.twist[body].angular_velocity + since_middle * bodies.acceleration[body].angular_velocity};
+}
+
+}  // namespace plumb

@@ -1,0 +1,236 @@
+#include "engine/solve/contact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/world/constants.h"
+
+namespace plumb {
+namespace {
+
+/// The two bodies' velocities while a contact works on them.
+template <class Real>
+struct Pair {
+  Twist<Real> a, b;
+};
+
+template <class Real>
+void push(const Contact<Real>& contact, const ContactPoint<Real>& point, Vec2<Real> impulse,
+          Pair<Real>& pair) {
+  pair.a.velocity -= contact.inverse_mass_a * impulse;
+  pair.a.angular_velocity -= contact.inverse_inertia_a * cross(point.arm_a, impulse);
+  pair.b.velocity += contact.inverse_mass_b * impulse;
+  pair.b.angular_velocity += contact.inverse_inertia_b * cross(point.arm_b, impulse);
+}
+
+template <class Real>
+Vec2<Real> along(const Contact<Real>& contact, ContactImpulse<Real> impulse) {
+  return impulse.normal * contact.normal + impulse.friction * perpendicular(contact.normal);
+}
+
+/// One sweep: friction, then the normal, which matters more and so has the last word. `Pass` names the
+/// impulse that changes; `before` is what earlier passes of this substep gave, so that the laws hold for the
+/// sum.
+template <class Real, class Changing, class Before>
+void sweep(std::vector<Contact<Real>>& contacts, const std::vector<int>& active, Bodies<Real>& bodies,
+           bool friction, Changing changing, Before before) {
+  for (const int index : active) {
+    Contact<Real>& contact = contacts[index];
+    Pair<Real> pair{bodies.twist[contact.a], bodies.twist[contact.b]};
+    if (friction && contact.friction > 0) {
+      const Vec2<Real> tangent = perpendicular(contact.normal);
+      for (int i = 0; i < contact.count; ++i) {
+        ContactPoint<Real>& point = contact.points[i];
+        if (!point.in_pass) continue;
+        ContactImpulse<Real>& impulse = changing(point);
+        const ContactImpulse<Real> earlier = before(point);
+        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T)
+        const Real limit = contact.friction * (impulse.normal + earlier.normal);
+        const Real speed = dot(relative_velocity(point, pair.a, pair.b), tangent);
+        const Real total =
+            std::clamp(impulse.friction + earlier.friction - point.tangent_mass * speed, -limit, limit);
+        const Real change = (total - earlier.friction) - impulse.friction;
+        impulse.friction += change;
+        push(contact, point, change * tangent, pair);
+      }
+    }
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint<Real>& point = contact.points[i];
+      if (!point.in_pass) continue;
+      ContactImpulse<Real>& impulse = changing(point);
+      // P_n >= 0, and P_n -= (v_n - bound) / (J M^-1 J^T)
+      const Real speed = dot(relative_velocity(point, pair.a, pair.b), contact.normal);
+      const Real wanted = impulse.normal - point.normal_mass * (speed - point.lower_bound);
+      const Real change = std::max(wanted, -before(point).normal) - impulse.normal;
+      impulse.normal += change;
+      push(contact, point, change * contact.normal, pair);
+    }
+    bodies.twist[contact.a] = pair.a;
+    bodies.twist[contact.b] = pair.b;
+  }
+}
+
+template <class Real>
+void warm_start(const Contact<Real>& contact, const ContactPoint<Real>& point, ContactImpulse<Real> guess,
+                Bodies<Real>& bodies) {
+  Pair<Real> pair{bodies.twist[contact.a], bodies.twist[contact.b]};
+  push(contact, point, along(contact, guess), pair);
+  bodies.twist[contact.a] = pair.a;
+  bodies.twist[contact.b] = pair.b;
+}
+
+/// The normal velocity that keeps apart what is apart, and pushes out what overlaps.
+template <class Real>
+Real bound_of(const Contact<Real>& contact, const ContactPoint<Real>& point, Real h) {
+  if (point.separation >= 0) return -point.separation / h;
+  const Real push_out = Real(constants::kPushOut) * -point.separation / h;
+  return std::min(push_out, Real(constants::kPushSpeed) * contact.reach);
+}
+
+template <class Real>
+void forget_impulses(Contact<Real>& contact) {
+  for (ContactPoint<Real>& point : contact.points) point.hold = point.relax = {};
+}
+
+}  // namespace
+
+template <class Real>
+Real ContactSolver<Real>::impact_speed(const Contact<Real>& contact, const Bodies<Real>& bodies,
+                                       Real h) const {
+  const Vec2<Real> pressing =
+      bodies.acceleration[contact.b].velocity - bodies.acceleration[contact.a].velocity;
+  const Real kick = std::max(settings_.gravity, std::abs(dot(pressing, contact.normal))) * h;
+  return std::max(settings_.restitution_threshold, Real(constants::kRestingKicks) * kick);
+}
+
+/// Whether the pair comes together in this substep faster than what rests does. If so, normal and arms become
+/// those of the time of contact, and the separation the way left to it along that normal.
+template <class Real>
+bool ContactSolver<Real>::meets(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
+  const Real threshold = impact_speed(contact, bodies, h);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint<Real>& point = contact.points[i];
+    const Real speed =
+        dot(relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]), contact.normal);
+    if (-speed > threshold && point.separation + h * speed < 0) return true;
+  }
+  return false;
+}
+
+template <class Real>
+void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
+                                     std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies, Real h) {
+  active_.clear();
+  for (std::size_t index = 0; index < contacts.size(); ++index) {
+    Contact<Real>& contact = contacts[index];
+    if (contact.impact) forget_impulses(contact);  // those of an impact are no guess for what comes after it
+    contact.impact = false;
+    if (contact.count == 0 || contact.bounced) continue;
+    if (!contact.placed) follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
+    contact.impact = meets(contact, bodies, h);
+    if (contact.impact && !contact.two_boxes && contact.points[0].separation > 0) {
+      Contact<Real> then = contact;
+      const Real t = time_of_contact(then, 0, shapes, bodies, Real{0}, h);
+      if (t <= h) {
+        const ContactPoint<Real>& point = then.points[0];
+        const Real speed =
+            dot(relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]), then.normal);
+        contact = then;
+        contact.points[0].separation = -speed * t;
+      }
+      contact.placed = false;
+    }
+    weigh(contact);
+    bool active = false;
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint<Real>& point = contact.points[i];
+      const Vec2<Real> relative = relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]);
+      const Real approach = Real(constants::kApproachReserve) * h * std::sqrt(length_squared(relative));
+      point.in_pass = point.separation < Real(constants::kContactMargin) * contact.reach + approach;
+      active = active || point.in_pass;
+      if (!point.in_pass) point.hold = point.relax = {};
+      point.lower_bound = bound_of(contact, point, h);
+    }
+    if (active) active_.push_back(static_cast<int>(index));
+  }
+  for (const int index : active_)
+    for (int i = 0; i < contacts[index].count; ++i)
+      if (contacts[index].points[i].in_pass)
+        warm_start(contacts[index], contacts[index].points[i], contacts[index].points[i].hold, bodies);
+}
+
+template <class Real>
+void ContactSolver<Real>::sweep_hold(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies) {
+  sweep(
+      contacts, active_, bodies, settings_.friction,
+      [](ContactPoint<Real>& point) -> ContactImpulse<Real>& { return point.hold; },
+      [](const ContactPoint<Real>&) { return ContactImpulse<Real>{}; });
+}
+
+template <class Real>
+void ContactSolver<Real>::begin_relax(std::vector<Contact<Real>>& contacts,
+                                      std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies) {
+  active_.clear();
+  for (std::size_t index = 0; index < contacts.size(); ++index) {
+    Contact<Real>& contact = contacts[index];
+    if (contact.count == 0) continue;
+    // Round shapes that met in this substep part along the normal that they met with.
+    if (contact.two_boxes || !contact.impact) {
+      follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
+      weigh(contact);
+    }
+    if (contact.bounced) forget_impulses(contact);
+    contact.bounced = false;
+    bool active = false;
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint<Real>& point = contact.points[i];
+      point.in_pass = point.hold.normal > 0 || point.separation <= 0;
+      active = active || point.in_pass;
+      if (!point.in_pass) point.relax = {};
+      if (contact.impact) point.relax = {};
+      point.lower_bound = 0;
+    }
+    if (active) active_.push_back(static_cast<int>(index));
+  }
+  for (const int index : active_) {
+    Contact<Real>& contact = contacts[index];
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint<Real>& point = contact.points[i];
+      if (!point.in_pass) continue;
+      point.relax.normal = std::max(point.relax.normal, -point.hold.normal);
+      warm_start(contact, point, point.relax, bodies);
+    }
+  }
+}
+
+template <class Real>
+void ContactSolver<Real>::sweep_relax(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies) {
+  sweep(
+      contacts, active_, bodies, settings_.friction,
+      [](ContactPoint<Real>& point) -> ContactImpulse<Real>& { return point.relax; },
+      [](const ContactPoint<Real>& point) { return point.hold; });
+}
+
+template <class Real>
+void ContactSolver<Real>::begin_collide(std::vector<Contact<Real>>& contacts,
+                                        std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies,
+                                        Real h, bool restitution) {
+  for (Contact<Real>& contact : contacts) contact.placed = false;
+  begin_hold(contacts, shapes, bodies, h);
+  for (const int index : active_) {
+    Contact<Real>& contact = contacts[index];
+    if (!restitution || !contact.impact || !(contact.restitution > 0)) continue;
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint<Real>& point = contact.points[i];
+      const Real speed =
+          dot(relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]), contact.normal);
+      if (point.separation + h * speed < 0)
+        point.lower_bound = std::max(point.lower_bound, -contact.restitution * speed);
+    }
+  }
+}
+
+template class ContactSolver<float>;
+template class ContactSolver<double>;
+
+}  // namespace plumb

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/joints/joints.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/joint_method.h"
+
+namespace plumb {
+
+/// One row after another with impulses that carry over to the next substep: sequential impulses (Catto 2006),
+/// soft while holding positions (a damped spring as fast as the substep allows, Catto 2011), rigid while
+/// relaxing.
+template <class Real>
+class IterativeJoints final : public JointMethod<Real> {
+ public:
+  IterativeJoints(const Scene& scene, const Bodies<Real>& bodies);
+
+  void begin_hold(Bodies<Real>& bodies, Real h) override;
+  void sweep_hold(Bodies<Real>& bodies, Real h) override;
+  void finish_hold(Bodies<Real>&, Real) override {}
+  void begin_relax(Bodies<Real>& bodies) override;
+  void sweep_relax(Bodies<Real>& bodies) override;
+  void begin_follow(Bodies<Real>& bodies, Real h) override;
+  void sweep_follow(Bodies<Real>& bodies) override;
+  bool passes_on(int) const override { return false; }
+  void pass_on(const Bodies<Real>&, std::span<Twist<Real>>) override {}
+  void forget() override;
+  std::span<Real> memory() override { return impulses_; }
+
+ private:
+  /// What turns a row's error into its impulse: P -= m scale (J v + rate C) + leak P.
+  struct Spring {
+    Real rate = 0;  ///< 1/s
+    Real scale = 1;
+    Real leak = 0;
+  };
+
+  void place(const Bodies<Real>& bodies);
+  void warm_start(Bodies<Real>& bodies, std::span<const Real> impulses);
+  void sweep(Bodies<Real>& bodies, const Spring& spring, std::span<Real> impulses);
+  std::span<Real> hold_impulses() { return {impulses_.data(), rows_.size()}; }
+  std::span<Real> relax_impulses() { return {impulses_.data() + rows_.size(), rows_.size()}; }
+
+  Joints<Real> joints_;
+  std::vector<Row<Real>> rows_;
+  std::vector<Real> mass_;      // kg, 1 / (J M^-1 J^T) by row
+  std::vector<Real> impulses_;  // N s, of the hold passes by row, then of the relax passes
+  Spring spring_;
+};
+
+}  // namespace plumb

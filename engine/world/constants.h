@@ -1,0 +1,54 @@
+#pragma once
+
+/// The numbers that Realtime's methods are tuned with, each with its unit and its reason. None is a length or
+/// a speed of its own: they scale with the shapes, the step and gravity.
+namespace plumb::constants {
+
+/// Broad-phase margin, as a share of a shape's reach. Larger: fewer updates of the tree, more pairs to look
+/// at.
+inline constexpr double kBoxMargin = 0.1;
+
+/// A contact is prepared when its separation is below this share of the smaller shape's reach, besides the
+/// way that the shapes may come closer in the step. Not a gap that is kept: contacts hold at separation 0.
+inline constexpr double kContactMargin = 0.05;
+
+/// How many times the approach in a step contacts are prepared for: impulses may speed bodies up.
+inline constexpr double kApproachReserve = 2;
+
+/// Share of an overlap that a substep pushes out. 1 would be all at once; below 0.5 stacks do not tremble
+/// while the sweeps have not converged.
+inline constexpr double kPushOut = 0.2;
+
+/// Fastest push out of an overlap, in reaches of the smaller shape a second: deep overlaps dissolve without a
+/// burst.
+inline constexpr double kPushSpeed = 4;
+
+/// Slower approaches than this many times |acceleration| * substep are not impacts but rest: a body at rest
+/// gains half of it in each half kick, so that a bounce would be one of the method, not of the body.
+inline constexpr double kRestingKicks = 2;
+
+/// Share of a joint's gap that one substep of the Euler steppers takes back (Baumgarte, 1972).
+inline constexpr double kJointFeedback = 0.2;
+
+/// Natural frequency of an iterative joint's error, as a share of the substep's rate: beyond 1/4 the discrete
+/// spring is not stable. Its damping ratio is over-critical, so that errors die without a swing.
+inline constexpr double kJointFrequencyShare = 0.25;
+inline constexpr double kJointDampingRatio = 2;
+
+/// Most quasi-Newton corrections of the joints' positions a substep; they end sooner, when the gap is at
+/// rounding or no longer falls.
+inline constexpr int kPositionCorrections = 30;
+
+/// Fastest closing of a joint's gap that was there at the substep's start, in spans of the jointed bodies a
+/// second: a scene that starts with its joints apart is pulled together without a burst.
+inline constexpr double kGapSpeed = 4;
+
+/// Most impacts a substep, for each contact and in all: beyond, bodies chatter faster than anybody can see,
+/// and what is left is resolved as rest.
+inline constexpr int kImpactsPerContact = 16;
+inline constexpr int kImpactsAtLeast = 1024;
+
+/// Newton iterations for the time of a contact; they converge quadratically and end at rounding.
+inline constexpr int kTimeIterations = 12;
+
+}  // namespace plumb::constants
