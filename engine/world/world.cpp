@@ -1,7 +1,9 @@
 #include "engine/world/world.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "engine/scene/error.h"
@@ -99,10 +101,9 @@ std::vector<std::byte> World::save() const {
   header.identity = identity_;
   header.size = payload.size();
   header.checksum = checksum(payload);
-  SnapshotWriter out;
-  out.put(header);
-  std::vector<std::byte> bytes = out.bytes();
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  std::vector<std::byte> bytes(sizeof header + payload.size());
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::copy(payload.begin(), payload.end(), bytes.begin() + sizeof header);
   return bytes;
 }
 
