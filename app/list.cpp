@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "harness/known_limits_page.h"
 #include "harness/style.h"
 #include "scenarios/scenario.h"
 
@@ -62,9 +63,16 @@ void add_list(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("list", "the scenarios, with their variants and sizes");
   auto format = std::make_shared<std::string>("console");
   command->add_option("--format", *format, "console or json")->check(CLI::IsMember({"console", "json"}));
+  auto limits = std::make_shared<bool>(false);
+  command->add_flag("--known-limits", *limits,
+                    "the bounds that engines are known to miss, as docs/known-limits.md");
   command->footer("Examples:\n  plumb list\n  plumb list --format json");
-  command->callback([&chosen, format] {
-    chosen = [format] {
+  command->callback([&chosen, format, limits] {
+    chosen = [format, limits] {
+      if (*limits) {
+        print(harness::known_limits_page());
+        return kOk;
+      }
       print(*format == "json" ? as_json() : as_text(Style::of_file(STDOUT_FILENO)));
       return kOk;
     };

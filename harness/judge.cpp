@@ -6,8 +6,8 @@
 namespace plumb::harness {
 namespace {
 
-void judge_check(Result& result, Check& check, bool defaults) {
-  const KnownLimit* limit = find_known_limit(result.engine, result.label, check.name);
+void judge_check(Result& result, Check& check, bool defaults, std::span<const KnownLimit> limits) {
+  const KnownLimit* limit = find_known_limit(limits, result.engine, result.label, check.name);
   check.known_limit = limit != nullptr && !check.pass ? std::string(limit->reason) : "";
   if (!check.pass && limit == nullptr) {
     result.unexpected.push_back(
@@ -21,11 +21,11 @@ void judge_check(Result& result, Check& check, bool defaults) {
 
 }  // namespace
 
-void judge(Result& result, bool defaults) {
+void judge(Result& result, bool defaults, std::span<const KnownLimit> limits) {
   result.unexpected.clear();
   if (result.status == Status::Failed || result.status == Status::Crashed || result.status == Status::Timeout)
     result.unexpected.push_back(result.reason);
-  for (Check& check : result.checks) judge_check(result, check, defaults);
+  for (Check& check : result.checks) judge_check(result, check, defaults, limits);
 }
 
 }  // namespace plumb::harness

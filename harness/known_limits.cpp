@@ -30,9 +30,9 @@ bool matches(std::string_view pattern, std::string_view text) {
   }
 }
 
-const KnownLimit* find_known_limit(std::string_view engine, std::string_view instance,
-                                   std::string_view check) {
-  for (const KnownLimit& limit : known_limits())
+const KnownLimit* find_known_limit(std::span<const KnownLimit> limits, std::string_view engine,
+                                   std::string_view instance, std::string_view check) {
+  for (const KnownLimit& limit : limits)
     if (matches(limit.engine, engine) && matches(limit.instance, instance) && matches(limit.check, check))
       return &limit;
   return nullptr;

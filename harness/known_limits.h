@@ -21,8 +21,8 @@ struct KnownLimit {
 std::span<const KnownLimit> known_limits();
 
 /// The first that speaks of this check; null if none does.
-const KnownLimit* find_known_limit(std::string_view engine, std::string_view instance,
-                                   std::string_view check);
+const KnownLimit* find_known_limit(std::span<const KnownLimit> limits, std::string_view engine,
+                                   std::string_view instance, std::string_view check);
 
 /// Whether `text` is what one of the alternatives in `pattern` says.
 bool matches(std::string_view pattern, std::string_view text);

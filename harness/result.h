@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "harness/check.h"
+#include "harness/known_limits.h"
 #include "harness/metrics.h"
 #include "reference/backend.h"
 
@@ -58,7 +60,7 @@ struct Result {
 /// What is wrong with `result` beyond what is declared: checks missed without a declared limit and statuses
 /// that are neither ok nor skipped. Also marks missed checks that are declared, and, where `defaults` says
 /// that the run used the settings that limits are declared for, declared limits that have gone.
-void judge(Result& result, bool defaults);
+void judge(Result& result, bool defaults, std::span<const KnownLimit> limits = known_limits());
 
 /// As one line of JSON, without and with the environment. `result_from_json` reads either.
 std::string to_json(const Result& result);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace plumb::harness {
+
+/// docs/known-limits.md: every declared limit, in Markdown.
+std::string known_limits_page();
+
+}  // namespace plumb::harness

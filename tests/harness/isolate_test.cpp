@@ -1,0 +1,102 @@
+#include "harness/isolate.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "harness/isolated_run.h"
+#include "tests/harness/fakes.h"
+
+namespace plumb::harness {
+namespace {
+
+using namespace fakes;
+
+TEST(Isolate, HandsOverWhatIsReturned) {
+  const std::string long_text(3'000'000, 'x');
+  const Outcome outcome = isolate([&] { return long_text; }, 10);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Done);
+  EXPECT_EQ(outcome.text, long_text);
+  EXPECT_EQ(isolate([] { return std::string(); }, 10).kind, Outcome::Kind::Done);
+}
+
+TEST(Isolate, AnExceptionIsAFailure) {
+  const Outcome outcome = isolate([]() -> std::string { throw std::runtime_error("no such law"); }, 10);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Failed);
+  EXPECT_EQ(outcome.text, "no such law");
+}
+
+TEST(Isolate, ACrashHasItsSignalAndLastWords) {
+  const Outcome outcome = isolate(
+      []() -> std::string {
+        std::fprintf(stderr, "first\nassertion failed: mass > 0\n");
+        std::signal(SIGABRT, SIG_DFL);
+        std::abort();
+      },
+      10);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Crashed);
+  EXPECT_EQ(outcome.text, "signal 6 (SIGABRT): assertion failed: mass > 0");
+  const Outcome left = isolate([]() -> std::string { _exit(3); }, 10);
+  EXPECT_EQ(left.kind, Outcome::Kind::Crashed);
+  EXPECT_EQ(left.text, "exit code 3 without an answer");
+}
+
+TEST(Isolate, AHangIsStopped) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = isolate(
+      []() -> std::string {
+        while (true) pause();
+      },
+      0.3);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Timeout);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(Isolate, PrintingDoesNotBlockTheChild) {
+  const Outcome outcome = isolate(
+      [] {
+        for (int i = 0; i < 200'000; ++i) std::printf("%d: a banner that nobody asked for\n", i);
+        return std::string("done");
+      },
+      20);
+  EXPECT_EQ(outcome.text, "done");
+}
+
+IsolatedRun run_fake(Motion motion, double seconds = 20) {
+  const scenarios::Scenario scenario = family(thrown);
+  const Case scene_case({&scenario, "", 1}, 1.0 / 60);
+  return run_isolated(scene_case, FakeBackend("fake", std::move(motion)), {}, nullptr, seconds);
+}
+
+TEST(IsolatedRun, ComesBackWhole) {
+  const IsolatedRun isolated = run_fake(exactly(thrown()));
+  const scenarios::Scenario scenario = family(thrown);
+  const Case scene_case({&scenario, "", 1}, 1.0 / 60);
+  const Result direct = run(scene_case, FakeBackend("fake", exactly(thrown())), {});
+  EXPECT_EQ(to_json(isolated.result), to_json(direct));
+  EXPECT_EQ(isolated.nanoseconds, 120 * 1000.0);
+}
+
+TEST(IsolatedRun, EveryEndHasAStatus) {
+  const IsolatedRun failed =
+      run_fake([](long, double, std::span<BodyState>) { throw std::runtime_error("too stiff"); });
+  EXPECT_EQ(failed.result.status, Status::Failed);
+  EXPECT_EQ(failed.result.reason, "too stiff");
+  EXPECT_EQ(failed.result.engine, "fake");
+  const IsolatedRun crashed = run_fake([](long, double, std::span<BodyState>) { raise(SIGKILL); });
+  EXPECT_EQ(crashed.result.status, Status::Crashed);
+  EXPECT_EQ(crashed.result.reason, "signal 9 (SIGKILL)");
+  const IsolatedRun hung = run_fake([](long, double, std::span<BodyState>) { sleep(100); }, 0.3);
+  EXPECT_EQ(hung.result.status, Status::Timeout);
+  const IsolatedRun diverged =
+      run_fake([](long, double, std::span<BodyState> out) { out[0].velocity.x = NAN; });
+  EXPECT_EQ(diverged.result.status, Status::Diverged);
+}
+
+}  // namespace
+}  // namespace plumb::harness
