@@ -69,7 +69,8 @@ std::vector<double> only(const std::vector<double>& values, const std::vector<st
 
 }  // namespace
 
-EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight)
+EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight,
+                                     bool every_stage)
     : bodies_(parts.integrated),
       flight_(flight),
       gravity_(scene.gravity),
@@ -88,6 +89,8 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
+      has_forces_(!forces_.empty() || every_stage),
+      has_joints_(!rows_.empty() || every_stage),
       length_(scales_of(scene, parts).length) {
   double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
   for (const Row<double>& row : rows_) {
@@ -168,16 +171,16 @@ double EquationsOfMotion::row_speed(const Row<double>& row, std::span<const Twis
 void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
   ++evaluations_;
   place(time, y);
-  {
+  for (const std::size_t body : bodies_) wrenches_[body] = {};
+  if (has_forces_) {
     const Clock clock(cost.on, cost.forces);
-    for (const std::size_t body : bodies_) wrenches_[body] = {};
     forces_.add(window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
-    for (const std::size_t body : bodies_) {
-      accelerations_[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
-                              inverse_inertia_[body] * wrenches_[body].torque};
-    }
   }
-  if (has_joints()) {
+  for (const std::size_t body : bodies_) {
+    accelerations_[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
+                            inverse_inertia_[body] * wrenches_[body].torque};
+  }
+  if (has_joints_) {
     const Clock clock(cost.on, cost.joints);
     linearise();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -198,7 +201,7 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
 }
 
 void EquationsOfMotion::project(double time, Compensated& y) {
-  if (!has_joints()) return;
+  if (!has_joints_) return;
   constexpr int kMost = 20;
   constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
   std::vector<Twist<double>>& shift = accelerations_;
@@ -262,7 +265,7 @@ void EquationsOfMotion::respond(double time, std::span<const double> y, const Ro
                          inverse_inertia_[contact.a] * contact.angular_a};
   response[contact.b] = {inverse_mass_[contact.b] * contact.linear_b,
                          inverse_inertia_[contact.b] * contact.angular_b};
-  if (!has_joints()) return;
+  if (!has_joints_) return;
   // Joints push back so that the anchors' velocities stay as they are: J dv = 0.
   place(time, y);
   linearise();

@@ -24,10 +24,10 @@ class EquationsOfMotion final : public Flow {
  public:
   static constexpr std::size_t kPerBody = 6;
 
-  EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight);
+  /// `every_stage`: forces and joints are gone through even where there are none.
+  EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage);
 
   std::size_t dimension() const { return kPerBody * bodies_.size(); }
-  bool has_joints() const { return !rows_.empty(); }
 
   /// Switched forces act with their share of this time in all that follows.
   void set_window(double start, double end) { window_start_ = start, window_end_ = end; }
@@ -86,7 +86,7 @@ class EquationsOfMotion final : public Flow {
   std::vector<Wrench<double>> wrenches_;
   JointSystem<double> system_;
   std::vector<double> right_side_, multipliers_;
-  bool wide_mass_ratio_ = false;
+  bool has_forces_, has_joints_, wide_mass_ratio_ = false;
   double window_start_ = 0, window_end_ = 0;
   double length_ = 1;
   std::int64_t evaluations_ = 0;
