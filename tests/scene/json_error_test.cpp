@@ -168,6 +168,19 @@ TEST(ReaderErrorLine, CountsCarriageReturnsWithTheirLineFeeds) {
   EXPECT_EQ(error.line(), 3);
 }
 
+TEST(ReaderErrorLine, OfDuplicateKeysIsTheFirstOne) {
+  const Error error = test::error_of([] { scene_from_json("{\"z\": 1,\n\"z\": 2,\n\"a\": 3,\n\"a\": 4}"); });
+  EXPECT_EQ(error.line(), 2);
+  EXPECT_EQ(error.field(), "z");
+}
+
+TEST(ReaderErrorValue, LeavesWhatWasExpected) {
+  const std::string text = "{\"" + std::string(100000, 'x') + "\n\": 1}";
+  const Error error = test::error_of([&] { scene_from_json(text); });
+  EXPECT_LT(error.problem().size(), 300u);
+  EXPECT_TRUE(error.problem().ends_with("; expected string literal")) << error.problem();
+}
+
 TEST(ReaderErrorValue, StaysShort) {
   const std::string text =
       "{\"name\": [" + std::string(100000, '1') + "e-100000, \"" + std::string(100000, 'x') + "\"]}";

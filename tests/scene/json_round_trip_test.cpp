@@ -135,6 +135,15 @@ TEST(Writer, LayoutAndOrderOfKeys) {
 })");
 }
 
+TEST(Writer, EscapesWhatJsonWants) {
+  std::string every;
+  for (int c = 0; c < 128; ++c) every += static_cast<char>(c);
+  json::Emitter emitter(-1);
+  emitter.string(every);
+  EXPECT_FALSE(emitter.failed());
+  EXPECT_EQ(nlohmann::json::parse(emitter.take()), every);
+}
+
 TEST(Writer, RefusesWhatJsonCannotHold) {
   const auto refused = [](auto spoil) {
     Scene scene = test::full_scene();

@@ -19,6 +19,13 @@ TEST(Suggest, ForgivesOneSlipOfEachKind) {
   EXPECT_EQ(nearest("pendulum-chian", kNames), "pendulum_chain");
 }
 
+TEST(Suggest, ForgivesOneThirdOfTheLetters) {
+  const std::array<std::string, 1> names{"box"};
+  EXPECT_EQ(nearest("obx", names), "box");  // a swap is one slip, not two
+  EXPECT_EQ(nearest("fox", names), "box");
+  EXPECT_EQ(nearest("fix", names), "");
+}
+
 TEST(Suggest, TakesTheNearestAndTheFirstOfEquals) {
   const std::array<std::string, 3> names{"cart", "card", "cord"};
   EXPECT_EQ(nearest("carp", names), "cart");
