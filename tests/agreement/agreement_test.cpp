@@ -1,0 +1,75 @@
+// Every scenario on every engine, from the registries: a new one of either is tested without an edit here.
+#include <cctype>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "harness/compare.h"
+#include "harness/isolated_run.h"
+#include "harness/run.h"
+#include "reference/backend.h"
+#include "scenarios/scenario.h"
+
+namespace plumb::harness {
+namespace {
+
+constexpr int kSlowSize = 100;  // from here on a run takes seconds
+
+struct Pairing {
+  scenarios::Instance instance;
+  const reference::Backend* backend;
+};
+
+void PrintTo(const Pairing& pairing, std::ostream* out) {
+  *out << pairing.instance.label() << " on " << pairing.backend->name();
+}
+
+std::vector<Pairing> pairings(bool slow) {
+  std::vector<Pairing> out;
+  for (const scenarios::Scenario& scenario : scenarios::all())
+    for (const scenarios::Instance& instance : scenarios::select(scenario.name))
+      for (const reference::Backend* backend : reference::backends())
+        if ((instance.size >= kSlowSize) == slow) out.push_back({instance, backend});
+  return out;
+}
+
+// GoogleTest's names hold letters, digits and underscores alone.
+std::string name_of_test(const testing::TestParamInfo<Pairing>& info) {
+  std::string name = fmt::format("{}__on__{}", info.param.instance.label(), info.param.backend->name());
+  std::string out;
+  for (const char c : name) {
+    if (c == ']') continue;
+    out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  }
+  return out;
+}
+
+// Kept from one engine to the next: the truth may take long.
+const Case& case_of(const scenarios::Instance& instance) {
+  static std::unique_ptr<Case> kept;
+  if (!kept || kept->label != instance.label())
+    kept = std::make_unique<Case>(instance, reference::StepSettings{}.dt);
+  return *kept;
+}
+
+class Agreement : public testing::TestWithParam<Pairing> {};
+
+TEST_P(Agreement, KeepsEveryBound) {
+  const Pairing& pairing = GetParam();
+  const reference::StepSettings settings;
+  IsolatedRun isolated = run_isolated(case_of(pairing.instance), *pairing.backend, settings, nullptr, 600);
+  Result& result = isolated.result;
+  if (result.status == Status::Skipped) GTEST_SKIP() << result.reason;
+  judge(result, is_default(settings));
+  for (const std::string& sentence : result.unexpected) ADD_FAILURE() << sentence;
+  EXPECT_FALSE(result.checks.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Quick, Agreement, testing::ValuesIn(pairings(false)), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Slow, Agreement, testing::ValuesIn(pairings(true)), name_of_test);
+
+}  // namespace
+}  // namespace plumb::harness

@@ -1,0 +1,160 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "tests/app/program.h"
+
+namespace plumb::app {
+namespace {
+
+TEST(Usage, HelpAndVersion) {
+  const Ran help = plumb({"--help"});
+  EXPECT_EQ(help.code, 0);
+  EXPECT_NE(help.out.find("Examples:"), std::string::npos);
+  for (const char* command : {"list", "engines", "explain", "run", "scene", "compare", "bench"}) {
+    EXPECT_NE(help.out.find(command), std::string::npos) << command;
+    if (std::string(command) == "bench") continue;
+    const Ran own = plumb({command, "--help"});
+    EXPECT_EQ(own.code, 0) << command;
+    EXPECT_NE(own.out.find("Examples:"), std::string::npos) << command;
+    EXPECT_EQ(own.err, "") << command;
+  }
+  const Ran version = plumb({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.substr(0, 6), "plumb ");
+  EXPECT_EQ(plumb({}).code, 2);
+}
+
+struct Bad {
+  const char* name;
+  std::vector<std::string> arguments;
+  std::vector<std::string> says;  // parts of the one line on stderr
+};
+
+class BadInput : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadInput, IsOneLineOnStderrAndExitCode2) {
+  const Ran ran = plumb(GetParam().arguments);
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  EXPECT_EQ(ran.out, "");
+  const auto lines = lines_of(ran.err);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines.size(), 1u) << ran.err;
+  EXPECT_EQ(lines.back().substr(0, 7), "plumb: ") << ran.err;
+  for (const std::string& part : GetParam().says)
+    EXPECT_NE(lines.back().find(part), std::string::npos) << part << "\n" << ran.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    plumb, BadInput,
+    testing::Values(
+        Bad{"subcommand", {"comprae"}, {"comprae", "did you mean 'compare'"}},
+        Bad{"option",
+            {"run", "free_fall/vacuum", "--duraton", "1"},
+            {"--duraton", "--duration", "plumb run --help"}},
+        Bad{"option_of_none", {"--verion"}, {"--verion", "--version"}},
+        Bad{"no_name", {"run"}, {"plumb run --help"}},
+        Bad{"scenario", {"run", "free_fal"}, {"free_fal", "did you mean 'free_fall'", "plumb list"}},
+        Bad{"variant", {"scene", "free_fall/vacum"}, {"vacum", "did you mean 'vacuum'"}},
+        Bad{"size_zero", {"scene", "pendulum_chain[0]"}, {"size", "'0'"}},
+        Bad{"size_negative", {"scene", "pendulum_chain", "--size", "-3"}, {"--size"}},
+        Bad{"size_not_taken", {"scene", "free_fall", "--size", "7"}, {"size"}},
+        Bad{"engine",
+            {"run", "free_fall/vacuum", "--engine", "box2e"},
+            {"box2e", "did you mean 'box2d'", "plumb engines"}},
+        Bad{"engine_of_compare",
+            {"compare", "free_fall", "--engine", "plum"},
+            {"plum", "did you mean 'plumb'"}},
+        Bad{"dt_zero", {"run", "free_fall/vacuum", "--dt", "0"}, {"--dt", "'0'"}},
+        Bad{"dt_negative", {"compare", "--dt", "-0.1"}, {"--dt"}},
+        Bad{"dt_nan", {"run", "free_fall/vacuum", "--dt", "nan"}, {"--dt", "'nan'"}},
+        Bad{"dt_infinite", {"run", "free_fall/vacuum", "--dt", "inf"}, {"--dt", "'inf'"}},
+        Bad{"dt_by_zero", {"run", "free_fall/vacuum", "--dt", "1/0"}, {"--dt", "'1/0'"}},
+        Bad{"dt_words", {"run", "free_fall/vacuum", "--dt", "fast"}, {"--dt", "'fast'"}},
+        Bad{"dt_tiny", {"run", "free_fall/vacuum", "--dt", "1e-300"}, {"too many"}},
+        Bad{"substeps", {"run", "free_fall/vacuum", "--substeps", "0"}, {"--substeps", "'0'"}},
+        Bad{"substeps_huge", {"run", "free_fall/vacuum", "--substeps", "99999999999"}, {"--substeps"}},
+        Bad{"tolerance",
+            {"run", "free_fall/vacuum", "--engine", "plumb-precise", "--tolerance", "0"},
+            {"--tolerance", "'0'"}},
+        Bad{"tolerance_of_fixed",
+            {"run", "free_fall/vacuum", "--engine", "plumb", "--tolerance", "1e-9"},
+            {"tolerance"}},
+        Bad{"substeps_of_adaptive",
+            {"run", "free_fall/vacuum", "--engine", "plumb-precise", "--substeps", "2"},
+            {"substeps"}},
+        Bad{"set_shape", {"run", "free_fall/vacuum", "--set", "integrator"}, {"--set", "OPTION=VALUE"}},
+        Bad{"set_name", {"run", "free_fall/vacuum", "--set", "integratr=explicit_euler"}, {"integratr"}},
+        Bad{"set_value", {"run", "free_fall/vacuum", "--set", "integrator=exlicit_euler"}, {"exlicit_euler"}},
+        Bad{"duration", {"run", "free_fall/vacuum", "--duration", "-1"}, {"--duration"}},
+        Bad{"rate_zero", {"run", "free_fall/vacuum", "--rate", "0"}, {"--rate", "'0'"}},
+        Bad{"rate_between", {"run", "free_fall/vacuum", "--rate", "25"}, {"--rate", "60, 30, 20"}},
+        Bad{"rate_high", {"run", "free_fall/vacuum", "--rate", "1000"}, {"--rate", "60"}},
+        Bad{"format", {"run", "free_fall/vacuum", "--format", "xml"}, {"--format"}},
+        Bad{"missing_file", {"run", "nowhere/scene.json"}, {"nowhere/scene.json", "No such file"}},
+        Bad{"folder", {"run", "/tmp"}, {"/tmp", "directory"}},
+        Bad{"size_of_file", {"run", "/dev/null", "--size", "3"}, {"--size"}},
+        Bad{"empty_file", {"run", "/dev/null"}, {"line 1"}},
+        Bad{"out_is_a_file", {"compare", "free_fall", "--out", "/dev/null"}, {"/dev/null", "--out"}},
+        Bad{"engine_command",
+            {"compare", "free_fall", "--engine-command", "mine"},
+            {"--engine-command", "NAME=COMMAND"}},
+        Bad{"engine_command_twice",
+            {"compare", "free_fall", "--engine-command", "plumb=true"},
+            {"plumb", "already"}},
+        Bad{"explain_a_rival", {"explain", "free_fall/vacuum", "--engine", "box2d"}, {"box2d", "plan"}}),
+    [](const auto& info) { return info.param.name; });
+
+// A broken scene file: the line, the body, the field and the value are named.
+struct Broken {
+  const char* name;
+  const char* text;
+  std::vector<std::string> says;
+};
+
+class BrokenScene : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenScene, NamesLineBodyFieldAndValue) {
+  const Folder folder;
+  const Ran ran = plumb({"run", folder.write("scene.json", GetParam().text), "--duration", "1"});
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  EXPECT_EQ(lines_of(ran.err).size(), 1u) << ran.err;
+  for (const std::string& part : GetParam().says)
+    EXPECT_NE(ran.err.find(part), std::string::npos) << part << "\n" << ran.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    plumb, BrokenScene,
+    testing::Values(Broken{"mass",
+                           "{\"name\": \"s\", \"bodies\": [\n{\"name\": \"ball\",\n \"mass\": -2}]}",
+                           {"line 3", "'ball'", "mass", "-2"}},
+                    Broken{"syntax", "{\"name\": \"s\",\n\"bodies\": [,]}", {"line 2"}},
+                    Broken{"radius",
+                           "{\"name\": \"s\", \"bodies\": [{\"name\": \"ball\", \"shapes\": [\n{\"type\": "
+                           "\"circle\", \"radius\": 0}]}]}",
+                           {"line 2", "radius", "0"}},
+                    Broken{"twice",
+                           "{\"name\": \"s\", \"bodies\": [{\"name\": \"ball\"},\n{\"name\": \"ball\"}]}",
+                           {"line 2", "'ball'"}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Output, AClosedPipeEndsQuietly) {
+  const Folder folder;
+  const std::string command = std::string(PLUMB_PROGRAM) + " run free_fall/vacuum --dt 1/10000 2>" +
+                              folder.path("err") + " | head -n 2 > " + folder.path("out");
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(lines_of(folder.read("out")).size(), 2u);
+  EXPECT_EQ(folder.read("err"), "");
+}
+
+TEST(Output, AFullMediumIsAnError) {
+  const Folder folder;
+  const std::string command = std::string(PLUMB_PROGRAM) + " list > /dev/full 2>" + folder.path("err");
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_NE(folder.read("err").find("plumb: stdout"), std::string::npos) << folder.read("err");
+}
+
+}  // namespace
+}  // namespace plumb::app
