@@ -257,6 +257,14 @@ TEST(Billiard, CountsTheDigitsOfPi) {
   }
 }
 
+TEST(Billiard, GivesTheVelocitiesAfterAnImpactAtItsTime) {
+  // Two metres of gap at 1 m/s: at 2 s, without rounding.
+  const Billiard billiard({on_a_line(1, 0, 1), on_a_line(1, 2.5L, 0)}, 1, 10);
+  ASSERT_EQ(billiard.impacts(), std::vector<double>{2});
+  EXPECT_EQ(billiard.at(std::nextafter(2.0L, 0.0L))[1].velocity.x, 0);
+  EXPECT_EQ(billiard.at(2)[1].velocity.x, 1);
+}
+
 TEST(Billiard, StopsWhereImpactsHaveNoEnd) {
   // Two heavy discs that close in on a light one crush it with infinitely many impacts in a finite time.
   EXPECT_THROW(Billiard({on_a_line(1e18L, -1, 1), on_a_line(1, 0, 0), on_a_line(1e18L, 1, -1)}, 0.9L, 10),
