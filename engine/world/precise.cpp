@@ -1,24 +1,12 @@
 #include "engine/world/precise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <optional>
-#include <type_traits>
-#include <utility>
 
-#include "engine/integrate/compensated.h"
-#include "engine/integrate/dop853.h"
-#include "engine/integrate/step_control.h"
 #include "engine/scene/error.h"
 #include "engine/world/precise_clock.h"
-#include "engine/world/precise_flight.h"
-#include "engine/world/precise_impacts.h"
-#include "engine/world/precise_motion.h"
-#include "engine/world/precise_parts.h"
-#include "engine/world/precise_plan.h"
+#include "engine/world/precise_driver.h"
 
 namespace plumb::precise {
 namespace {
@@ -29,132 +17,54 @@ constexpr double kLocalShare = 1e-2;
 /// Below this the estimate is rounding.
 constexpr double kLeastTolerance = 1e-15;
 /// Impacts, and steps, within one max_dt: more of them do not end.
-constexpr int kMostImpacts = 50000, kMostSteps = 200000;
+constexpr int kMostImpacts = 20000, kMostSteps = 200000;
 
-class PreciseDriver final : public Driver {
- public:
-  PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options)
-      : max_dt_(precise.max_dt),
-        tolerance_(std::max(kLocalShare * precise.tolerance, kLeastTolerance)),
-        parts_(divide(scene)),
-        scales_(scales_of(scene, parts_)),
-        plan_(plan_of(scene, parts_, options.every_stage)),
-        flight_(scene, parts_),
-        equations_(scene, parts_, flight_, options.every_stage),
-        runge_kutta_(equations_.dimension()),
-        y_(equations_.dimension()),
-        trial_(equations_.dimension()),
-        end_rate_(equations_.dimension()),
-        error_scale_(equations_.dimension()),
-        impacts_(scene, parts_),
-        start_(scene.bodies.size()),
-        end_(scene.bodies.size()),
-        normal_response_(scene.bodies.size()),
-        tangent_response_(scene.bodies.size()) {
-    for (const Body& body : scene.bodies) names_.push_back(body.name);
-    for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-      EquationsOfMotion::set_state(y_, slot, initial_state(scene.bodies[parts_.integrated[slot]]));
-    }
+}  // namespace
+
+void PreciseDriver::step() {
+  const double end = static_cast<double>(grid_steps_ + 1) * max_dt_;
+  impacts_in_step_ = steps_in_step_ = 0;
+  close_joints();
+  while (time_ < end) {
+    if (active(kResolve)) resolve_impacts();
+    double next = std::min(end, next_switch());
+    if (active(kImpactSearch)) next = std::min(next, time_ + impacts_.longest_step(start_));
+    if (active(kRungeKutta)) next = integrate(next);         // what is not on a polynomial; often less far
+    if (active(kImpactSearch)) next = stop_at_impact(next);  // the first one on the way
+    move_to(next);
   }
+  ++grid_steps_;
+  check_finite();
+  report_cost();
+}
 
-  void step() override {
-    const double end = static_cast<double>(grid_steps_ + 1) * max_dt_;
-    impacts_in_step_ = steps_in_step_ = 0;
-    close_joints();
-    while (time_ < end) {
-      if (active(kResolve)) resolve_impacts();
-      double next = std::min(end, next_switch());
-      if (active(kImpactSearch)) next = std::min(next, time_ + impacts_.longest_step(start_));
-      if (active(kRungeKutta)) next = integrate(next);
-      if (active(kImpactSearch)) next = stop_at_impact(next);
-      move_to(next);
-    }
-    ++grid_steps_;
-    check_finite();
-    report_cost();
+PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options)
+    : max_dt_(precise.max_dt),
+      tolerance_(std::max(kLocalShare * precise.tolerance, kLeastTolerance)),
+      parts_(divide(scene)),
+      scales_(scales_of(scene, parts_)),
+      plan_(plan_of(scene, parts_, options.every_stage)),
+      flight_(scene, parts_),
+      equations_(scene, parts_, flight_, options.every_stage),
+      runge_kutta_(equations_.dimension()),
+      y_(equations_.dimension()),
+      trial_(equations_.dimension()),
+      end_rate_(equations_.dimension()),
+      error_scale_(equations_.dimension()),
+      impacts_(scene, parts_),
+      start_(scene.bodies.size()),
+      end_(scene.bodies.size()),
+      normal_response_(scene.bodies.size()),
+      tangent_response_(scene.bodies.size()) {
+  for (const Body& body : scene.bodies) {
+    names_.push_back(body.name);
+    at_rest_.push_back(body.type == BodyType::Static);
+    locked_.push_back(body.fixed_rotation);
   }
-
-  double time() const override { return time_; }
-
-  void read(std::span<BodyState> out) const override {
-    for (const std::size_t body : parts_.flying) out[body] = flight_.at(body, time_).state;
-    for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-      out[parts_.integrated[slot]] = EquationsOfMotion::state(y_.value(), slot);
-    }
+  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
+    EquationsOfMotion::set_state(y_, slot, initial_state(scene.bodies[parts_.integrated[slot]]));
   }
-
-  void write(std::size_t body, const BodyState& state) override {
-    if (flight_.holds(body)) {
-      flight_.restart(body, time_, state);
-    } else {
-      EquationsOfMotion::set_state(y_, slot_of(body), state);
-    }
-    joints_closed_ = false;
-    proposed_step_ = 0;
-  }
-
-  std::vector<std::byte> save() const override;
-  void restore(std::span<const std::byte> snapshot) override;
-
-  const Plan& plan() const override { return plan_; }
-  void profile(bool on) override {
-    profiling_ = equations_.cost.on = on;
-    equations_.cost.forces = equations_.cost.joints = 0;
-    for (Stage& stage : plan_.stages) stage.nanoseconds = 0;
-    cost_ = {};
-  }
-  Statistics statistics() const override {
-    Statistics all = statistics_;
-    all.evaluations = equations_.evaluations();
-    return all;
-  }
-
- private:
-  bool active(StageIndex stage) const { return plan_.stages[stage].active; }
-
-  void close_joints();
-  void resolve_impacts();
-  double integrate(double limit);
-  double stop_at_impact(double next);
-  void move_to(double next);
-
-  double next_switch() const;
-  void take_increment(double end);
-  double first_step() const;
-  void set_error_scale();
-  void motions(double time, std::span<const double> y, std::span<const double> rate,
-               std::span<Motion> out) const;
-  void strike(const Impact& impact);
-  std::size_t slot_of(std::size_t body) const;
-  void check_finite();
-  void report_cost();
-  [[noreturn]] void blame_fastest() const;
-  [[noreturn]] void fail(std::size_t body, const std::string& field, const std::string& problem) const;
-
-  double max_dt_, tolerance_;
-  Parts parts_;
-  Scales scales_;
-  Plan plan_;
-  Flight flight_;
-  EquationsOfMotion equations_;
-  Dop853 runge_kutta_;
-  StepControl control_;
-  Compensated y_, trial_;  // of the integrated bodies: now, and at the end of the step that is being tried
-  std::vector<double> end_rate_, error_scale_;
-  Impacts impacts_;
-  std::vector<Motion> start_, end_;  // by body, of those with discs
-  std::vector<Twist<double>> normal_response_, tangent_response_;
-  std::vector<std::string> names_;
-
-  double time_ = 0;
-  std::int64_t grid_steps_ = 0;
-  double proposed_step_ = 0;  // s; 0: none yet
-  bool joints_closed_ = false;
-  Statistics statistics_{};
-  int impacts_in_step_ = 0, steps_in_step_ = 0;
-  bool profiling_ = false;
-  std::array<double, kStageCount> cost_{};
-};
+}
 
 /// Once, and after bodies were moved from outside: closes joints and their velocities.
 void PreciseDriver::close_joints() {
@@ -340,92 +250,6 @@ std::size_t PreciseDriver::slot_of(std::size_t body) const {
   return static_cast<std::size_t>(place - parts_.integrated.begin());
 }
 
-void PreciseDriver::check_finite() {
-  const auto finite = [](const BodyState& s) {
-    return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
-           std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
-  };
-  if (active(kPolynomialFlight)) {
-    const Clock clock(profiling_, cost_[kPolynomialFlight]);
-    for (const std::size_t body : parts_.flying) {
-      if (!finite(flight_.at(body, time_).state)) fail(body, "state", "is not finite");
-    }
-  }
-  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    if (!finite(EquationsOfMotion::state(y_.value(), slot)))
-      fail(parts_.integrated[slot], "state", "is not finite");
-  }
-}
-
-void PreciseDriver::fail(std::size_t body, const std::string& field, const std::string& problem) const {
-  throw Error(Error::Kind::Run, "body '" + names_[body] + "'", field,
-              "step " + std::to_string(grid_steps_ + 1) + ", " + std::to_string(time_) + " s", problem);
-}
-
-/// A step cannot be made small enough: names the body that changes fastest, or is not finite.
-void PreciseDriver::blame_fastest() const {
-  std::size_t worst = 0;
-  double fastest = -1;
-  for (std::size_t i = 0; i < y_.size(); ++i) {
-    const double change = std::abs(runge_kutta_.first_rate()[i]) / error_scale_[i];
-    if (change <= fastest) continue;
-    worst = parts_.integrated[i / EquationsOfMotion::kPerBody];
-    if (!std::isfinite(change)) fail(worst, "acceleration", "is not finite");
-    fastest = change;
-  }
-  fail(worst, "step size", "changes too fast for any step: a larger tolerance or a Realtime run may do");
-}
-
-void PreciseDriver::report_cost() {
-  if (!profiling_) return;
-  cost_[kForces] = equations_.cost.forces;
-  cost_[kJointAccelerations] = equations_.cost.joints;
-  for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
-  double& rest =
-      plan_.stages[kRungeKutta].nanoseconds;  // what its evaluations and the projection did not take
-  rest = std::max(0.0, rest - cost_[kForces] - cost_[kJointAccelerations] - cost_[kProjection]);
-}
-
-/// Snapshots are numbers of 8 bytes, one after the other.
-std::vector<std::byte> PreciseDriver::save() const {
-  std::vector<double> numbers{time_, static_cast<double>(grid_steps_), proposed_step_, control_.previous(),
-                              joints_closed_ ? 1.0 : 0.0};
-  for (const std::int64_t n :
-       {statistics_.steps, statistics_.rejected, statistics_.impacts, equations_.evaluations()}) {
-    numbers.push_back(static_cast<double>(n));
-  }
-  numbers.insert(numbers.end(), y_.value().begin(), y_.value().end());
-  numbers.insert(numbers.end(), y_.carry().begin(), y_.carry().end());
-  const auto arcs = std::as_bytes(std::span(flight_.arcs()));
-  const auto head = std::as_bytes(std::span(numbers));
-  std::vector<std::byte> snapshot(head.begin(), head.end());
-  snapshot.insert(snapshot.end(), arcs.begin(), arcs.end());
-  return snapshot;
-}
-
-void PreciseDriver::restore(std::span<const std::byte> snapshot) {
-  constexpr std::size_t kHead = 9;
-  std::vector<double> numbers(kHead + 2 * y_.size());
-  const std::size_t head_size = numbers.size() * sizeof(double);
-  std::vector<Flight::Arc>& arcs = flight_.arcs();
-  if (snapshot.size() != head_size + arcs.size() * sizeof(Flight::Arc)) {
-    throw Error(Error::Kind::Value, "snapshot", "size", std::to_string(snapshot.size()),
-                "is not of this scene and accuracy");
-  }
-  std::memcpy(numbers.data(), snapshot.data(), head_size);
-  if (!arcs.empty()) std::memcpy(arcs.data(), snapshot.data() + head_size, arcs.size() * sizeof(Flight::Arc));
-  time_ = numbers[0];
-  grid_steps_ = static_cast<std::int64_t>(numbers[1]);
-  proposed_step_ = numbers[2];
-  control_.reset(numbers[3]);
-  joints_closed_ = numbers[4] != 0;
-  statistics_ = {static_cast<std::int64_t>(numbers[5]), static_cast<std::int64_t>(numbers[6]),
-                 static_cast<std::int64_t>(numbers[7]), 0};
-  equations_.set_evaluations(static_cast<std::int64_t>(numbers[8]));
-  for (std::size_t i = 0; i < y_.size(); ++i) y_.set(i, numbers[kHead + i], numbers[kHead + y_.size() + i]);
-}
-
-}  // namespace
 }  // namespace plumb::precise
 
 namespace plumb {

@@ -16,7 +16,6 @@ Flight::Flight(const Scene& scene, const Parts& parts)
     const double inertia = inertia_of(body);
     inverse_mass_.push_back(dynamic ? 1 / body.mass : 0);
     inverse_inertia_.push_back(dynamic && inertia > 0 ? 1 / inertia : 0);
-    is_static_.push_back(body.type == BodyType::Static);
   }
   laws_.resize(arcs_.size());
   for (const ForceLaw& law : scene.forces) {
@@ -42,10 +41,6 @@ void Flight::restart(std::size_t body, double time, const BodyState& state) {
   Arc& arc = arcs_[slot_[body]];
   arc.start = time;
   arc.motion.state = state;
-  if (is_static_[slot_[body]]) {
-    arc.motion.state.velocity = {};
-    arc.motion.state.angular_velocity = 0;
-  }
   accelerate(body, time);
 }
 

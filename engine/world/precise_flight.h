@@ -42,7 +42,6 @@ class Flight {
   std::vector<Arc> arcs_;
   std::vector<double> inverse_mass_, inverse_inertia_;
   std::vector<std::vector<ForceLaw>> laws_;  // by slot: constant between switching times
-  std::vector<char> is_static_;              // by slot
   Vec2d gravity_;
 };
 

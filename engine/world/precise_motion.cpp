@@ -202,6 +202,18 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
 
 void EquationsOfMotion::project(double time, Compensated& y) {
   if (!has_joints_) return;
+  close_gaps(time, y);
+  // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
+  system_.factor(rows_);
+  for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
+  solve_joints();
+  std::fill(accelerations_.begin(), accelerations_.end(), Twist<double>{});
+  pull(accelerations_);
+  kick(accelerations_, 1, y);
+}
+
+/// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
+void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   constexpr int kMost = 20;
   constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
   std::vector<Twist<double>>& shift = accelerations_;
@@ -209,26 +221,20 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   for (int i = 0;; ++i) {
     place(time, y.value());
     joints_.rows(poses_, twists_, rows_);
-    // What the gap cannot be less than: the rounding of the positions that it is the difference of.
-    double worst = 0, extent = length_;
-    std::size_t worst_row = 0;
-    for (const std::size_t body : bodies_) {
-      extent = std::max({extent, std::abs(poses_[body].position.x), std::abs(poses_[body].position.y)});
-    }
+    double gap = 0;
+    std::size_t worst = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (std::abs(rows_[r].residual) <= worst) continue;
-      worst = std::abs(rows_[r].residual);
-      worst_row = r;
+      if (std::abs(rows_[r].residual) <= gap) continue;
+      gap = std::abs(rows_[r].residual);
+      worst = r;
     }
-    const double rounding = 4 * std::numeric_limits<double>::epsilon() * extent;
-    const bool stuck = worst > 0.5 * before || i == kMost;
-    if (worst <= rounding || (stuck && worst <= kOpen * length_)) break;
-    if (i == kMost || !std::isfinite(worst)) {
-      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst_row] + "'", "gap",
-                  std::to_string(worst) + " m",
+    const bool stuck = gap > 0.5 * before || i == kMost;
+    if (gap <= rounding_of_gaps() || (stuck && gap <= kOpen * length_)) return;
+    if (i == kMost || !std::isfinite(gap)) {
+      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst] + "'", "gap", std::to_string(gap) + " m",
                   "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
     }
-    before = worst;
+    before = gap;
     system_.factor(rows_);
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
     solve_joints();
@@ -241,12 +247,15 @@ void EquationsOfMotion::project(double time, Compensated& y) {
       y.add(kPerBody * slot + 2, s.angular_velocity);
     }
   }
-  system_.factor(rows_);
-  for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
-  solve_joints();
-  std::fill(shift.begin(), shift.end(), Twist<double>{});
-  pull(shift);
-  kick(shift, 1, y);
+}
+
+/// What gaps cannot be less than: the rounding of the positions that they are differences of.
+double EquationsOfMotion::rounding_of_gaps() const {
+  double extent = length_;
+  for (const std::size_t body : bodies_) {
+    extent = std::max({extent, std::abs(poses_[body].position.x), std::abs(poses_[body].position.y)});
+  }
+  return 4 * std::numeric_limits<double>::epsilon() * extent;
 }
 
 void EquationsOfMotion::kick(std::span<const Twist<double>> response, double scale, Compensated& y) const {

@@ -66,6 +66,8 @@ class EquationsOfMotion final : public Flow {
  private:
   void place(double time, std::span<const double> y);
   void linearise();
+  void close_gaps(double time, Compensated& y);
+  double rounding_of_gaps() const;
   void solve_joints();
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;

@@ -33,8 +33,8 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
   stage(kResolve, "impacts", discs,
         "circles that touch and approach get Newton's restitution and Coulomb's friction",
         "no circles may touch");
-  stage(kForces, "forces", laws > 0, count(laws, "force law depends", "force laws depend") + " on the motion",
-        "constant forces are in the polynomials");
+  stage(kForces, "forces", laws > 0, count(laws, "force law", "force laws") + " on integrated bodies",
+        "no force depends on the motion");
   stage(kJointAccelerations, "joint_accelerations", joints,
         count(scene.joints.size(), "joint is", "joints are") + " held by accelerations, solved directly",
         "no joints");
