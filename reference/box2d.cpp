@@ -88,11 +88,7 @@ class Box2dSimulator final : public Simulator {
       world_.Step(settings_.substep, settings_.velocity_iterations, settings_.position_iterations);
       ++substeps_done_;
     }
-    const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
-    std::vector<BodyState> states(bodies_.size());
-    read(states);
-    require_finite(kName, scene_, states, time());
-    return spent.count();
+    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
   }
 
   double time() const override { return static_cast<double>(substeps_done_) * settings_.exact_substep; }

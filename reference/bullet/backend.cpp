@@ -33,7 +33,8 @@ class BulletBackend final : public Backend {
   std::vector<Option> options() const override {
     return {{"iterations", "10", "sweeps over all constraints a substep"},
             {"joint_erp", "0.2", "share of a joint's gap that a substep corrects"},
-            {"contact_erp", "0.2", "share of a penetration that a substep corrects"}};
+            {"contact_erp", "0.2", "share of a penetration that a substep corrects"},
+            {"speculative", "off", "on or off: contacts act before shapes touch, which swallows bounces"}};
   }
 
   Method method(const StepSettings& settings) const override {
@@ -59,6 +60,7 @@ class BulletBackend final : public Backend {
                  {"iterations", std::to_string(chosen.iterations)},
                  {"joint_erp", shortest(chosen.joint_erp)},
                  {"contact_erp", shortest(chosen.contact_erp)},
+                 {"speculative", chosen.speculative ? "on" : "off"},
                  {"split_impulse", "on, for any penetration"},
                  {"warm_starting", "contacts 0.85, joints none"},
                  {"sleeping", "off"},
@@ -84,7 +86,7 @@ class BulletBackend final : public Backend {
   }
 
   std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
-    return make_bullet_simulator(std::string(name_), scene, read_settings(settings));
+    return make_bullet_simulator(scene, read_settings(settings));
   }
 
  private:
@@ -116,6 +118,7 @@ class BulletBackend final : public Backend {
     out.iterations = given.integer("iterations", 1);
     out.joint_erp = given.number("joint_erp", 0);
     out.contact_erp = given.number("contact_erp", 0);
+    out.speculative = given.toggle("speculative");
     // The double build, too, takes a step below the roundoff for none at all, but a far smaller one.
     if (kFloat) require_float_step(name_, out.substep);
     return out;

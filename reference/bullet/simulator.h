@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "engine/scene/scene.h"
 #include "reference/simulator.h"
@@ -15,10 +14,10 @@ struct BulletSettings {
   int iterations = 10;       ///< sweeps over all constraints a substep
   double joint_erp = 0.2;    ///< share of a joint's gap that a substep corrects
   double contact_erp = 0.2;  ///< share of a penetration that a substep corrects
+  bool speculative = false;  ///< whether contacts act before shapes touch
 };
 
-/// `scene` in a btDiscreteDynamicsWorld that is held to the plane z = 0. `engine` is what errors call it.
-std::unique_ptr<Simulator> make_bullet_simulator(std::string engine, const Scene& scene,
-                                                 const BulletSettings& settings);
+/// `scene` in a btDiscreteDynamicsWorld that is held to the plane z = 0.
+std::unique_ptr<Simulator> make_bullet_simulator(const Scene& scene, const BulletSettings& settings);
 
 }  // namespace plumb::reference

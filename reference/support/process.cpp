@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,8 +18,6 @@
 #include <thread>
 
 #include "engine/scene/text.h"
-
-extern char** environ;
 
 namespace plumb::reference {
 namespace {
@@ -73,37 +71,65 @@ std::string locate(const std::string& name) {
     const fs::path candidate = folder / name;
     if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) return candidate.string();
   }
-  return name;  // posix_spawnp looks in PATH
+  return name;  // execvp looks in PATH
 }
 
-/// Starts `command` with its standard streams on the given pipe ends, in a process group of its own and with
-/// default signal handling. Returns 0 or an errno.
+/// What a child does between fork and exec: only calls that are safe there. Reports an errno through
+/// `problem`.
+[[noreturn]] void become(const char* program, char** arguments, const std::array<int, 3>& streams,
+                         pid_t parent, int problem) {
+  setpgid(0, 0);
+  // When the host is killed, nothing else would end an engine that hangs.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
+  bool ready = true;
+  for (int target = 0; target < 3; ++target) {
+    ready = dup2(streams[static_cast<std::size_t>(target)], target) == target && ready;
+  }
+  signal(SIGPIPE, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (ready) execvp(program, arguments);
+  const int number = errno;
+  if (write(problem, &number, sizeof number) < 0) _exit(126);
+  _exit(127);
+}
+
+/// Starts `command` with its standard streams on the given pipe ends, in a process group of its own. Returns
+/// 0 or an errno.
 int spawn(const std::vector<std::string>& command, const std::array<int, 3>& streams, pid_t& pid) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const std::string program = locate(command[0]);
+  Pipe problem = make_pipe();
+  if (!problem.write.open()) return errno;
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (int target = 0; target < 3; ++target) {
-    posix_spawn_file_actions_adddup2(&actions, streams[static_cast<std::size_t>(target)], target);
+  // No handler of the host may run in the child.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) become(program.c_str(), arguments.data(), streams, parent, problem.write.get());
+  const int fork_problem = errno;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (child < 0) return fork_problem;
+
+  setpgid(child, child);  // the child does the same; whoever comes first
+  problem.write.close();
+  int number = 0;
+  ssize_t count = 0;
+  while ((count = read(problem.read.get(), &number, sizeof number)) < 0 && errno == EINTR) {
   }
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, piped;
-  sigemptyset(&none);
-  sigemptyset(&piped);
-  sigaddset(&piped, SIGPIPE);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &piped);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  const int problem = posix_spawnp(&pid, program.c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return problem;
+  if (count == 0) {  // closed by the exec
+    pid = child;
+    return 0;
+  }
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return number;
 }
 
 /// write(2) to a pipe whose reader may be gone: EPIPE, but no signal, whatever the program's handlers are.
@@ -134,7 +160,7 @@ void FileDescriptor::close() {
 }
 
 Process::Process(std::string engine, std::vector<std::string> command, ProcessLimits limits)
-    : engine_(std::move(engine)), limits_(limits), request_("start") {
+    : engine_(std::move(engine)), limits_(limits), request_("start"), owner_(getpid()) {
   if (command.empty() || command[0].empty()) {
     throw ProcessError(Fault::Start, engine_, "command", "no program is given");
   }
@@ -155,10 +181,13 @@ Process::Process(std::string engine, std::vector<std::string> command, ProcessLi
 }
 
 Process::~Process() {
+  if (!owned()) return;
   input_.close();
   if (pid_ > 0) wait_for_end(kGrace);
   kill_and_reap();
 }
+
+bool Process::owned() const { return getpid() == owner_; }
 
 void Process::write_line(std::string_view line, const std::string& request) {
   request_ = request;
@@ -306,7 +335,7 @@ bool Process::wait_for_end(milliseconds limit) const {
 }
 
 void Process::kill_and_reap() {
-  if (pid_ <= 0) return;
+  if (pid_ <= 0 || !owned()) return;
   // The group before the wait: until the leader is reaped, no other group can have its number.
   kill(-pid_, SIGKILL);
   while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {

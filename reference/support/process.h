@@ -34,7 +34,8 @@ class FileDescriptor {
 
 /// A running program that is talked to in lines, over its standard input and output. Its standard error is
 /// read along and its last lines go into every `ProcessError`. The program leads a process group of its own:
-/// when the owner is done with it, it and whatever it started are gone, and reaped.
+/// when the owner is done with it, it and whatever it started are gone, and reaped. It also dies with the
+/// thread that started it. A copy that a fork of the owner inherits leaves the program alone.
 class Process {
  public:
   /// Starts `command`. Throws `ProcessError` (Start).
@@ -44,6 +45,9 @@ class Process {
 
   /// Closes the program's input, waits a moment for it to end, and kills it if it does not.
   ~Process();
+
+  /// Whether this process started the program, and did not inherit it through a fork.
+  bool owned() const;
 
   /// Sends `line` and a newline; `request` says in errors what is being asked. Throws `ProcessError`.
   void write_line(std::string_view line, const std::string& request);
@@ -72,6 +76,7 @@ class Process {
   std::string engine_;
   ProcessLimits limits_;
   std::string request_;
+  pid_t owner_;
   pid_t pid_ = -1;
   int status_ = 0;  ///< of wait(2), once reaped
   FileDescriptor input_, output_, errors_;

@@ -42,6 +42,7 @@ class Session {
   }
 
   ~Session() {
+    if (!owned()) return;
     try {
       process_.write_line(Json{{"request", "quit"}}.dump(), "quit");
     } catch (const Error&) {
@@ -50,6 +51,7 @@ class Session {
   }
 
   const protocol::Hello& hello() const { return hello_; }
+  bool owned() const { return process_.owned(); }
 
   /// `request` is a whole "load" message.
   Loaded load(const std::string& request) {
@@ -232,12 +234,13 @@ class ProcessBackend final : public Backend {
     const std::string request = load_request(scene, settings);
     const std::lock_guard lock(mutex_);
     if (request == asked_) return answer_;
-    if (!session_) session_ = std::make_unique<Session>(launch_);
+    // What a fork inherited is the parent's to talk to.
+    if (!session_ || !session_->owned()) session_ = std::make_unique<Session>(launch_);
+    asked_.clear();
     try {
       answer_ = session_->load(request);
     } catch (const Error&) {
       session_.reset();
-      asked_.clear();
       throw;
     }
     asked_ = request;

@@ -176,6 +176,7 @@ Error error_from_json(const Json& message, const std::string& engine) {
   }
   Error::Kind kind = Error::Kind::Run;
   const auto given = member<std::string>(message, "kind", "run");
+  if (given == kDiverged) throw NotFinite(member<std::string>(message, "problem", "its state is not finite"));
   for (const auto& [value, name] : kKinds) {
     if (given == name) kind = value;
   }

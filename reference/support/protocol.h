@@ -15,6 +15,9 @@ namespace plumb::reference::protocol {
 
 inline constexpr int kVersion = 1;
 
+/// The kind of an error that stands for a state that is not finite.
+inline constexpr const char* kDiverged = "diverged";
+
 /// What an engine says about itself in answer to "hello".
 struct Hello {
   std::string name, version, precision, summary;
@@ -43,7 +46,7 @@ StepSettings settings_from_json(const nlohmann::ordered_json& message);
 nlohmann::ordered_json to_json(const Settings& effective);
 Settings effective_from_json(const nlohmann::ordered_json& message);
 
-/// An error as its parts; a bare string is read as a problem.
+/// An error as its parts; a bare string is read as a problem. Throws `NotFinite` for one of kind `kDiverged`.
 nlohmann::ordered_json to_json(const Error& error);
 Error error_from_json(const nlohmann::ordered_json& message, const std::string& engine);
 

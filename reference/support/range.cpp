@@ -3,7 +3,6 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "engine/scene/error.h"
 #include "engine/scene/text.h"
 
 namespace plumb::reference {
@@ -76,19 +75,6 @@ std::string out_of_range(const Scene& scene, const Range& range) {
   for (const Body& body : scene.bodies) check(body, checker);
   for (const Joint& joint : scene.joints) check(joint, checker);
   return checker.reason;
-}
-
-void require_finite(std::string_view engine, const Scene& scene, std::span<const BodyState> states,
-                    double time) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const BodyState& s = states[i];
-    const double sum =
-        s.position.x + s.position.y + s.angle + s.velocity.x + s.velocity.y + s.angular_velocity;
-    if (std::isfinite(sum)) continue;
-    throw Error(Error::Kind::Run, "engine '" + std::string(engine) + "'", "body",
-                plumb::quoted(scene.bodies[i].name),
-                "its state is not finite at t = " + shortest(time) + " s");
-  }
 }
 
 }  // namespace plumb::reference

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "engine/scene/scene.h"
 
@@ -20,9 +18,5 @@ inline constexpr Range kDoubleRange{.smallest = 1e-150, .largest = 1e150};
 
 /// Empty, or which of the scene's quantities is out of `range`, for `Backend::unsupported`.
 std::string out_of_range(const Scene& scene, const Range& range);
-
-/// Throws `Error` (Run) that names the first body whose state is not finite.
-void require_finite(std::string_view engine, const Scene& scene, std::span<const BodyState> states,
-                    double time);
 
 }  // namespace plumb::reference

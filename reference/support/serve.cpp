@@ -80,6 +80,9 @@ class Server {
   }
 
   void report(const Error& error) { output_.answer({{"error", protocol::to_json(error)}}); }
+  void report_divergence(const char* problem) {
+    output_.answer({{"error", {{"kind", protocol::kDiverged}, {"problem", problem}}}});
+  }
 
  private:
   void hello() {
@@ -142,6 +145,8 @@ int serve(const Backend& backend) {
       if (!server.handle(line)) break;
     } catch (const Error& error) {
       server.report(error);
+    } catch (const protocol::NotFinite& error) {
+      server.report_divergence(error.what());
     } catch (const std::exception& error) {
       const std::string subject = "engine '" + std::string(backend.name()) + "'";
       server.report(Error(Error::Kind::Run, subject, "", "", error.what()));
