@@ -15,10 +15,10 @@ namespace plumb::reference {
 
 /// What a run asks of an engine; what is absent is the engine's own default.
 struct StepSettings {
-  double dt = 1.0 / 60;                        ///< s, > 0; also the sampling grid of an adaptive engine
-  std::optional<int> substeps;                 ///< equal parts of dt, >= 1
-  std::optional<double> tolerance;             ///< of an adaptive engine, > 0
-  std::map<std::string, std::string> options;  ///< the engine's own, by name: see `Backend::options`
+  double dt = 1.0 / 60;                          ///< s, > 0; also the sampling grid of an adaptive engine
+  std::optional<int> substeps{};                 ///< equal parts of dt, >= 1
+  std::optional<double> tolerance{};             ///< of an adaptive engine, > 0
+  std::map<std::string, std::string> options{};  ///< the engine's own, by name: see `Backend::options`
 };
 
 /// An engine's own option, for help and for checking.
@@ -32,10 +32,10 @@ struct Option {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct Identity {
-  std::string version;    ///< "2.4.1"
-  std::string precision;  ///< "float" or "double"
+  std::string version{};    ///< "2.4.1"
+  std::string precision{};  ///< "float" or "double"
   bool available = true;
-  std::string reason;  ///< why it is not available and what to install
+  std::string reason{};  ///< why it is not available and what to install
 };
 
 /// How an engine's time stepping works: what error bounds are derived from.

@@ -206,9 +206,7 @@ class Box2dBackend final : public Backend {
  public:
   std::string_view name() const override { return kName; }
   std::string_view summary() const override { return "Box2D 2.4: sequential impulses"; }
-  Identity identity() const override {
-    return {.version = PLUMB_BOX2D_VERSION, .precision = "float", .reason = ""};
-  }
+  Identity identity() const override { return {.version = PLUMB_BOX2D_VERSION, .precision = "float"}; }
 
   std::vector<Option> options() const override {
     return {{"velocity_iterations", "8", "sweeps over velocity constraints a substep"},

@@ -42,7 +42,7 @@ class PlumbBackend : public Backend {
   std::string_view name() const override { return name_; }
   std::string_view summary() const override { return summary_; }
   Identity identity() const override {
-    return {.version = PLUMB_VERSION, .precision = std::string(name_of(precision_)), .reason = ""};
+    return {.version = PLUMB_VERSION, .precision = std::string(name_of(precision_))};
   }
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     return plumb::unsupported(scene, accuracy(settings));

@@ -26,8 +26,7 @@ class BulletBackend final : public Backend {
   Identity identity() const override {
     const int version = btGetVersion();  // 324: 3.24
     return {.version = std::to_string(version / 100) + "." + std::to_string(version % 100),
-            .precision = kFloat ? "float" : "double",
-            .reason = ""};
+            .precision = kFloat ? "float" : "double"};
   }
 
   std::vector<Option> options() const override {

@@ -163,8 +163,8 @@ class ProcessBackend final : public Backend {
 
   Identity identity() const override {
     const Known& known = ask_once();
-    if (!known.hello) return {.version = "", .precision = "", .available = false, .reason = known.reason};
-    return {.version = known.hello->version, .precision = known.hello->precision, .reason = ""};
+    if (!known.hello) return {.available = false, .reason = known.reason};
+    return {.version = known.hello->version, .precision = known.hello->precision};
   }
 
   std::vector<Option> options() const override {

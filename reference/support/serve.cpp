@@ -86,7 +86,7 @@ class Server {
 
  private:
   void hello() {
-    const StepSettings unit{.dt = 1, .substeps = {}, .tolerance = {}, .options = {}};
+    const StepSettings unit{.dt = 1};
     const Identity identity = backend_.identity();
     protocol::Hello out;
     out.name = backend_.name();

@@ -18,9 +18,7 @@ class Unavailable final : public Backend {
 
   std::string_view name() const override { return name_; }
   std::string_view summary() const override { return "not available in this build"; }
-  Identity identity() const override {
-    return {.version = "", .precision = "", .available = false, .reason = reason_};
-  }
+  Identity identity() const override { return {.available = false, .reason = reason_}; }
   Method method(const StepSettings&) const override { throw error(); }
   std::string unsupported(const Scene&, const StepSettings&) const override { return reason_; }
   Settings effective_settings(const Scene&, const StepSettings&) const override { return {}; }
