@@ -71,6 +71,8 @@ std::vector<const reference::Backend*> chosen_engines(
             fmt::format("--engine-command: there is an engine '{}' already; choose another name", name));
     programs.push_back(reference::make_process_backend(name, command));
     out.push_back(programs.back().get());
+    if (const reference::Identity identity = out.back()->identity(); !identity.available)
+      throw UsageError(fmt::format("--engine-command {}: {}", text, identity.reason));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace plumb::harness {
@@ -60,6 +61,32 @@ StateBound total(const Parts& parts) {
   return {magnitude(parts.position), parts.angle, magnitude(parts.velocity), parts.angular_velocity};
 }
 
+// The moving bodies that joints connect, directly or through each other: every group of more than one.
+std::vector<std::vector<std::size_t>> jointed_groups(const Scene& scene) {
+  std::vector<std::size_t> parent(scene.bodies.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto moving = [&](const std::string& name) {
+    const auto body = find_body(scene, name);
+    return body && scene.bodies[*body].type == BodyType::Dynamic ? body : std::nullopt;
+  };
+  for (const Joint& joint : scene.joints) {
+    std::visit(
+        [&](const auto& j) {
+          const auto a = moving(j.body_a), b = moving(j.body_b);
+          if (a && b) parent[root(*a)] = root(*b);
+        },
+        joint);
+  }
+  std::vector<std::vector<std::size_t>> by_root(scene.bodies.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) by_root[root(i)].push_back(i);
+  std::erase_if(by_root, [](const auto& group) { return group.size() < 2; });
+  return by_root;
+}
+
 class Growth {
  public:
   Growth(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
@@ -72,6 +99,8 @@ class Growth {
     const std::size_t bodies = truth.bodies();
     now_.resize(bodies);
     differences_.resize(bodies);
+    growth_.resize(bodies);
+    groups_ = jointed_groups(problem.scene);
     has_turning_force_.resize(bodies, false);
     for (const ForceLaw& law : problem.scene.forces)
       if (const auto* force = std::get_if<PointForce>(&law))
@@ -103,11 +132,28 @@ class Growth {
     const double from = truth_.fine_time(i - 1), to = truth_.fine_time(i);
     const auto before = truth_.fine(i - 1), after = truth_.fine(i);
     for (std::size_t body = 0; body < now_.size(); ++body) {
-      if (problem_.scene.bodies[body].type != BodyType::Dynamic) continue;
-      smooth(body, before[body], after[body], from, to);
+      const bool moves = problem_.scene.bodies[body].type == BodyType::Dynamic;
+      growth_[body] = moves ? growth_of(body, before[body], after[body], from, to) : Parts{};
     }
+    for (const std::vector<std::size_t>& group : groups_) share(group);
+    for (std::size_t body = 0; body < now_.size(); ++body) grow(body, from, to);
     while (next_impact_ < impacts_.size() && impacts_[next_impact_].time <= to + kImpactMargin)
       collide(impacts_[next_impact_++]);
+  }
+
+  // Jointed bodies: each may be off by as much as the worst of them.
+  void share(const std::vector<std::size_t>& group) {
+    Parts worst;
+    for (const std::size_t body : group) {
+      const Parts& own = growth_[body];
+      worst.position = {std::max(worst.position.x, own.position.x),
+                        std::max(worst.position.y, own.position.y)};
+      worst.velocity = {std::max(worst.velocity.x, own.velocity.x),
+                        std::max(worst.velocity.y, own.velocity.y)};
+      worst.angle = std::max(worst.angle, own.angle);
+      worst.angular_velocity = std::max(worst.angular_velocity, own.angular_velocity);
+    }
+    for (const std::size_t body : group) growth_[body] = worst;
   }
 
   bool jumps_within(std::size_t body, double from, double to) const {
@@ -121,51 +167,56 @@ class Growth {
     return false;
   }
 
-  void smooth(std::size_t body, const BodyState& before, const BodyState& after, double from, double to) {
+  // What the method adds to the bounds from one sample of the truth to the next, without what it had before.
+  Parts growth_of(std::size_t body, const BodyState& before, const BodyState& after, double from, double to) {
     const double span = to - from, h = substep();
-    Parts& bound = now_[body];
     Differences& last = differences_[body];
-    Vec2d velocity{}, position{};
-    double spin = 0, angle = 0;
     if (adaptive()) {
-      const double share = Envelope::kAdaptiveSteps * tolerance_ * span / truth_.dt();
-      velocity = share * truth_.scale().speed * Vec2d{1, 1};
-      spin = share * truth_.scale().angular_speed;
-      position = share * truth_.scale().extent * Vec2d{1, 1};
-      angle = share * truth_.scale().angle;
-    } else if (jumps_within(body, from, to)) {
-      last = {};
-    } else {
-      const Vec2d acceleration = (1 / span) * (after.velocity - before.velocity);
-      const double angular_acceleration = (after.angular_velocity - before.angular_velocity) / span;
-      const Vec2d change = last.acceleration ? acceleration - *last.acceleration : Vec2d{};
-      const double angular_change =
-          last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
-      if (method_.order == 1) {
-        velocity = h * absolute(change);
-        spin = h * std::abs(angular_change);
-        position = h * span * absolute(acceleration);
-        angle = h * span * std::abs(angular_acceleration);
-      } else {
-        const Vec2d jerk = (1 / span) * change;
-        const double angular_jerk = angular_change / span;
-        if (last.jerk) velocity = h * h * absolute(jerk - *last.jerk);
-        spin = last.angular_jerk ? h * h * std::abs(angular_jerk - *last.angular_jerk) : 0;
-        position = h * h * absolute(change);
-        angle = h * h * std::abs(angular_change);
-        if (last.acceleration) last.jerk = jerk;
-        if (last.angular_acceleration) last.angular_jerk = angular_jerk;
-      }
-      last.acceleration = acceleration;
-      last.angular_acceleration = angular_acceleration;
+      const double part = Envelope::kAdaptiveSteps * tolerance_ * span / truth_.dt();
+      const Scale& scale = truth_.scale();
+      return {part * scale.extent * Vec2d{1, 1}, part * scale.speed * Vec2d{1, 1}, part * scale.angle,
+              part * scale.angular_speed};
     }
+    if (jumps_within(body, from, to)) {
+      last = {};
+      return {};
+    }
+    const Vec2d acceleration = (1 / span) * (after.velocity - before.velocity);
+    const double angular_acceleration = (after.angular_velocity - before.angular_velocity) / span;
+    const Vec2d change = last.acceleration ? acceleration - *last.acceleration : Vec2d{};
+    const double angular_change =
+        last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
+    Parts growth;
+    if (method_.order == 1) {
+      growth = {h * span * absolute(acceleration), h * absolute(change),
+                h * span * std::abs(angular_acceleration), h * std::abs(angular_change)};
+    } else {
+      const Vec2d jerk = (1 / span) * change;
+      const double angular_jerk = angular_change / span;
+      growth.position = h * h * absolute(change);
+      growth.angle = h * h * std::abs(angular_change);
+      if (last.jerk) growth.velocity = h * h * absolute(jerk - *last.jerk);
+      if (last.angular_jerk) growth.angular_velocity = h * h * std::abs(angular_jerk - *last.angular_jerk);
+      if (last.acceleration) last.jerk = jerk;
+      if (last.angular_acceleration) last.angular_jerk = angular_jerk;
+    }
+    last.acceleration = acceleration;
+    last.angular_acceleration = angular_acceleration;
+    return growth;
+  }
+
+  void grow(std::size_t body, double from, double to) {
+    const double span = to - from;
+    const Parts& growth = growth_[body];
+    Parts& bound = now_[body];
     const Feedback feedback =
         has_turning_force_[body] ? feedback_at(problem_.scene, body, from, to) : Feedback{};
-    bound.angular_velocity += spin + feedback.angular_acceleration_per_rad * bound.angle * span;
-    bound.angle += angle + bound.angular_velocity * span;
+    bound.angular_velocity +=
+        growth.angular_velocity + feedback.angular_acceleration_per_rad * bound.angle * span;
+    bound.angle += growth.angle + bound.angular_velocity * span;
     const double turned = feedback.acceleration_per_rad * bound.angle * span;
-    bound.velocity += velocity + Vec2d{turned, turned};
-    bound.position += position + bound.velocity * span;
+    bound.velocity += growth.velocity + Vec2d{turned, turned};
+    bound.position += growth.position + bound.velocity * span;
   }
 
   void collide(const Impact& impact) {
@@ -188,11 +239,26 @@ class Growth {
       const double share = (turn * jump.sliding + along(velocity, normal)) / closing;
       const double size = magnitude(jump.velocity);
       bound.velocity += size * (share * absolute(normal) + turn * absolute(tangent));
-      bound.angular_velocity += jump.angular_velocity * (share + turn);
+      bound.angular_velocity +=
+          jump.angular_velocity * (share + turn) + size * spin_of_arm(jump, delay, position);
       bound.position += delay * absolute(jump.velocity);
       bound.angle += jump.angular_velocity * delay;
       windows_.push_back({jump.body, time, delay, jump.velocity, jump.angular_velocity});
     }
+  }
+
+  // Angular velocity a unit of jump: the arm of the impulse is off by what the contact's place is off. A
+  // disc's arm lies along the normal wherever it is hit, so only the rounding of the coordinates is left.
+  double spin_of_arm(const Jump& jump, double delay, Vec2d position) const {
+    const Body& body = problem_.scene.bodies[jump.body];
+    if (body.fixed_rotation || body.type != BodyType::Dynamic) return 0;
+    double arm = kRoundings * method_.epsilon * (truth_.scale().length + truth_.scale().extent);
+    const auto central = [](const Shape& shape) {
+      return std::holds_alternative<Circle>(shape.geometry) && shape.position == Vec2d{};
+    };
+    if (!std::all_of(body.shapes.begin(), body.shapes.end(), central))
+      arm += jump.sliding * delay + along(position, perpendicular(jump.normal));
+    return arm * body.mass / inertia_of(body);
   }
 
   void open(const Window& window, std::vector<StateBound>& out) const {
@@ -220,6 +286,8 @@ class Growth {
   std::size_t next_impact_ = 0;
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
+  std::vector<Parts> growth_;
+  std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> has_turning_force_;
   std::vector<Window> windows_;
 };

@@ -46,7 +46,9 @@ inline constexpr double kRoundings = 4;
 ///   turn = (sliding speed D + P_i + P_j across the normal) / (distance of the centres - closing speed D).
 /// The jump is |jump| (u.n) n / closing in the relative velocity u and the normal n, so it is off by
 ///   |jump|/closing ((turn sliding + V_i + V_j along n) along n + turn closing across n).
-/// V and P are kept by component, x and y: what is off along a line of impacts does not turn their normals.
+/// The arm of the impulse is off by what the place of the contact is off (a disc's only by rounding), which
+/// turns the body by m/I |jump| a unit of arm. V and P are kept by component, x and y: what is off along a
+/// line of impacts does not turn their normals.
 class Envelope {
  public:
   Envelope(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,

@@ -135,9 +135,11 @@ void Observer::invariants(int sample, std::span<const BodyState> states) {
 
 void Observer::follow(int sample, std::span<const BodyState> states) {
   if (track_ == nullptr || !track_->keeps(sample)) return;
-  for (std::size_t i = 0; i < states.size(); ++i)
+  for (std::size_t i = 0; i < states.size(); ++i) {
     track_->put(sample, i,
-                {states[i].position.x, states[i].position.y, tolerances_.position(sample, i).value_or(-1)});
+                {states[i].position.x, states[i].position.y, states[i].angle,
+                 tolerances_.position(sample, i).value_or(-1), tolerances_.angle(sample, i).value_or(-1)});
+  }
 }
 
 void Observer::finish(Result& result) const {

@@ -59,7 +59,8 @@ std::string figure(double value) {
   if (value == 0) return "0";
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
   const double size = std::abs(value);
-  if (size >= 0.01 && size < 1000) return fmt::format("{:.2g}", value);
+  if (size >= 100 && size < 1e5) return fmt::format("{:.0f}", value);
+  if (size >= 0.01 && size < 100) return fmt::format("{:.2g}", value);
   return fmt::format("{:.1e}", value);
 }
 

@@ -36,12 +36,16 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : std::sqrt(values[middle - 1] * values[middle]);
 }
 
+// "12 x", "1.1e3 x"
 std::string times(double ratio) {
-  return ratio >= 1e4 ? fmt::format("{:.0e} x", ratio) : fmt::format("{:.3g} x", ratio);
+  if (ratio < 1000) return fmt::format("{:.3g} x", ratio);
+  const double power = std::floor(std::log10(ratio));
+  return fmt::format("{:.1f}e{:.0f} x", ratio / std::pow(10, power), power);
 }
 
 std::string range(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (values.size() == 1) return times(values.front());
   return fmt::format("median {}, from {} to {}", times(median(values)), times(*low), times(*high));
 }
 

@@ -32,11 +32,16 @@ std::optional<Track::Difference> Track::worst_difference(const Track& other) con
   for (std::size_t i = 0; i < std::min(count_, other.count_); ++i) {
     const Point &a = points_[i], &b = other.points_[i];
     if (a.bound < 0 || b.bound < 0) return {};
-    const double distance = std::hypot(a.x - b.x, a.y - b.y), tolerance = a.bound + b.bound;
-    const double share = distance == 0 ? 0 : distance / tolerance;
-    if (!(share <= worst_share)) {
+    const double angle_tolerance =
+        std::min(a.angle_bound, b.angle_bound) < 0 ? -1 : a.angle_bound + b.angle_bound;
+    const Difference differences[] = {{std::hypot(a.x - b.x, a.y - b.y), a.bound + b.bound},
+                                      {std::abs(a.angle - b.angle), angle_tolerance}};
+    for (const Difference& difference : differences) {
+      if (difference.tolerance < 0) continue;
+      const double share = difference.distance == 0 ? 0 : difference.distance / difference.tolerance;
+      if (share <= worst_share) continue;
       worst_share = share;
-      worst = {distance, tolerance};
+      worst = difference;
     }
   }
   return worst;
