@@ -55,7 +55,7 @@ double promised(int count) {
 }
 
 Problem build(std::string_view, int count) {
-  Problem problem{.scene = {.name = "pendulum_chain"}, .duration = 1};
+  Problem problem{.scene = {.name = "pendulum_chain[" + std::to_string(count) + "]"}, .duration = 1};
   Scene& scene = problem.scene;
   const Shape shape = untouchable(Box{kLength, 0.05});
   for (int i = 0; i < count; ++i) {

@@ -57,7 +57,7 @@ class EveryScenario : public ::testing::TestWithParam<Instance> {
 TEST_P(EveryScenario, IsAValidSceneThatSurvivesJson) {
   EXPECT_NO_THROW(validate(problem.scene));
   EXPECT_EQ(scene_from_json(to_json(problem.scene)), problem.scene);
-  EXPECT_FALSE(problem.scene.name.empty());
+  EXPECT_EQ(problem.scene.name, GetParam().label());
   EXPECT_FALSE(GetParam().scenario->summary.empty());
   EXPECT_GT(problem.duration, 0);
 }
