@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/scene/error.h"
 #include "engine/world/precise_clock.h"
 #include "engine/world/precise_driver.h"
 
@@ -33,8 +32,8 @@ void PreciseDriver::step() {
     if (active(kImpactSearch)) next = stop_at_impact(next);  // the first one on the way
     move_to(next);
   }
-  ++grid_steps_;
   check_finite();
+  ++grid_steps_;
   report_cost();
 }
 
@@ -81,12 +80,10 @@ void PreciseDriver::resolve_impacts() {
   motions(time_, y_.value(), {}, start_);
   while (const auto impact = impacts_.touching(time_, start_)) {
     if (++impacts_in_step_ > kMostImpacts) {
-      throw Error(
-          Error::Kind::Run,
-          "bodies '" + names_[impacts_.discs()[impact->disc_a].body] + "' and '" +
-              names_[impacts_.discs()[impact->disc_b].body] + "'",
-          "time", std::to_string(time_) + " s",
-          "do not stop hitting each other: Precise has no resting contact; use Realtime for this scene");
+      const auto name = [&](std::size_t disc) { return "'" + names_[impacts_.discs()[disc].body] + "'"; };
+      fail("bodies " + name(impact->disc_a) + " and " + name(impact->disc_b), "impacts",
+           std::to_string(kMostImpacts) + " and more",
+           "they do not stop: Precise has no resting contact; use Realtime");
     }
     strike(*impact);
     motions(time_, y_.value(), {}, start_);
@@ -107,7 +104,9 @@ void PreciseDriver::strike(const Impact& impact) {
     return Twist<double>{start_[body].state.velocity, start_[body].state.angular_velocity};
   };
   const double nn = along(normal, normal_response_[a], normal_response_[b]);
-  if (!(nn > 0)) fail(a, "time", "is hit where its joints hold it fast: nothing can give way");
+  if (!(nn > 0))
+    fail("body '" + names_[a] + "'", "effective mass", "infinite",
+         "an impact meets joints that hold everything fast: nothing can give way");
   const auto [push, rub] =
       impacts_.impulse(impact, along(normal, twist(a), twist(b)), along(tangent, twist(a), twist(b)), nn,
                        along(tangent, normal_response_[a], normal_response_[b]),

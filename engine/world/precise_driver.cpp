@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "engine/scene/error.h"
+#include "engine/scene/text.h"
 #include "engine/world/precise_clock.h"
 
 // The driver apart from its step: reading and writing, snapshots, errors, costs.
@@ -44,39 +46,46 @@ Statistics PreciseDriver::statistics() const {
 }
 
 void PreciseDriver::check_finite() {
-  const auto finite = [](const BodyState& s) {
-    return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
-           std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
+  const auto check = [&](std::size_t body, const BodyState& s) {
+    const std::pair<const char*, double> parts[] = {
+        {"position.x", s.position.x}, {"position.y", s.position.y}, {"angle", s.angle},
+        {"velocity.x", s.velocity.x}, {"velocity.y", s.velocity.y}, {"angular_velocity", s.angular_velocity}};
+    for (const auto& [field, value] : parts) {
+      if (!std::isfinite(value)) fail("body '" + names_[body] + "'", field, shortest(value), "not finite");
+    }
   };
   if (active(kPolynomialFlight)) {
     const Clock clock(profiling_, cost_[kPolynomialFlight]);
-    for (const std::size_t body : parts_.flying) {
-      if (!finite(flight_.at(body, time_).state)) fail(body, "state", "is not finite");
-    }
+    for (const std::size_t body : parts_.flying) check(body, flight_.at(body, time_).state);
   }
   for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    if (!finite(EquationsOfMotion::state(y_.value(), slot)))
-      fail(parts_.integrated[slot], "state", "is not finite");
+    check(parts_.integrated[slot], EquationsOfMotion::state(y_.value(), slot));
   }
 }
 
-void PreciseDriver::fail(std::size_t body, const std::string& field, const std::string& problem) const {
-  throw Error(Error::Kind::Run, "body '" + names_[body] + "'", field,
-              "step " + std::to_string(grid_steps_ + 1) + ", " + std::to_string(time_) + " s", problem);
+void PreciseDriver::fail(const std::string& subject, const std::string& field, const std::string& value,
+                         const std::string& problem) const {
+  throw Error(Error::Kind::Run, subject, field, value,
+              problem + ", in step " + std::to_string(grid_steps_ + 1) + " at t = " + shortest(time_) +
+                  " s; the world is left at that time");
 }
 
 /// A step cannot be made small enough: names the body that changes fastest, or is not finite.
 void PreciseDriver::blame_fastest() const {
   std::size_t worst = 0;
   double fastest = -1;
-  for (std::size_t i = 0; i < y_.size(); ++i) {
+  for (std::size_t i = 0; i < y_.size() && !std::isnan(fastest); ++i) {
     const double change = std::abs(runge_kutta_.first_rate()[i]) / error_scale_[i];
     if (change <= fastest) continue;
-    worst = parts_.integrated[i / EquationsOfMotion::kPerBody];
-    if (!std::isfinite(change)) fail(worst, "acceleration", "is not finite");
+    worst = i;
     fastest = change;
   }
-  fail(worst, "step size", "changes too fast for any step: a larger tolerance or a Realtime run may do");
+  const std::string subject =
+      y_.size() == 0 ? "the scene"
+                     : "body '" + names_[parts_.integrated[worst / EquationsOfMotion::kPerBody]] + "'";
+  if (!std::isfinite(fastest)) fail(subject, "acceleration", shortest(fastest), "not finite");
+  fail(subject, "step", shortest(proposed_step_) + " s",
+       "the motion changes too fast for any step; a larger tolerance or Realtime may do");
 }
 
 void PreciseDriver::report_cost() {

@@ -59,7 +59,8 @@ class PreciseDriver final : public Driver {
   void check_finite();
   void report_cost();
   [[noreturn]] void blame_fastest() const;
-  [[noreturn]] void fail(std::size_t body, const std::string& field, const std::string& problem) const;
+  [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
+                         const std::string& problem) const;
 
   const double max_dt_, tolerance_;
   Parts parts_;

@@ -8,6 +8,7 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/scene/text.h"
 #include "engine/world/precise_clock.h"
 
 namespace plumb::precise {
@@ -231,7 +232,7 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
     const bool stuck = gap > 0.5 * before || i == kMost;
     if (gap <= rounding_of_gaps() || (stuck && gap <= kOpen * length_)) return;
     if (i == kMost || !std::isfinite(gap)) {
-      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst] + "'", "gap", std::to_string(gap) + " m",
+      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst] + "'", "gap", shortest(gap) + " m",
                   "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
     }
     before = gap;

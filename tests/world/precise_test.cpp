@@ -281,7 +281,7 @@ TEST(Precise, StateThatGrowsWithoutBoundIsAnError) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), Error::Kind::Run);
     EXPECT_EQ(error.subject(), "body 'shell'");
-    EXPECT_NE(error.value().find("step 1"), std::string::npos);
+    EXPECT_NE(error.problem().find("step 1"), std::string::npos);
   }
 }
 
