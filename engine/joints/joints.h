@@ -39,7 +39,8 @@ struct Joints {
   std::size_t row_count() const { return 2 * revolute.size() + distance.size(); }
 
   /// Every joint's rows at the given poses and twists (indexed by body). `out` has `row_count()` elements.
-  void rows(std::span<const Pose<Real>> poses, std::span<const Twist<Real>> twists, std::span<Row<Real>> out) const;
+  void rows(std::span<const Pose<Real>> poses, std::span<const Twist<Real>> twists,
+            std::span<Row<Real>> out) const;
 };
 
 /// The scene's joints with names resolved to body indices. The scene is valid.

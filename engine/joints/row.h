@@ -25,10 +25,10 @@ struct Twist {
 template <class Real>
 struct Row {
   int a = kFixedFrame, b = kFixedFrame;
-  Vec2<Real> linear_a{}, linear_b{};      ///< dC/d(position), per body
-  Real angular_a = 0, angular_b = 0;      ///< dC/d(angle), per body
-  Real residual = 0;                      ///< C, m
-  Real bias_acceleration = 0;             ///< (dJ/dt) v, m/s^2: C'' = J a + this
+  Vec2<Real> linear_a{}, linear_b{};  ///< dC/d(position), per body
+  Real angular_a = 0, angular_b = 0;  ///< dC/d(angle), per body
+  Real residual = 0;                  ///< C, m
+  Real bias_acceleration = 0;         ///< (dJ/dt) v, m/s^2: C'' = J a + this
 };
 
 }  // namespace plumb
