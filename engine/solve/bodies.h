@@ -24,6 +24,15 @@ struct Bodies {
     twist[body].velocity += inverse_mass[body] * impulse;
     twist[body].angular_velocity += inverse_inertia[body] * angular_impulse;
   }
+
+  /// The same in positions: x += M^-1 push, for a push in kg m.
+  void move(int body, Vec2<Real> push, Real turning_push) {
+    pose[body].position += inverse_mass[body] * push;
+    const Real turn = inverse_inertia[body] * turning_push;
+    if (turn == 0) return;
+    angle[body] += turn;
+    pose[body].rotation = rotation_of(angle[body]);
+  }
 };
 
 /// Velocity of the point at `arm` from the centre of mass.

@@ -22,9 +22,9 @@ struct ContactPoint {
   Real separation = 0;                     ///< m
   Real normal_mass = 0, tangent_mass = 0;  ///< kg, 1 / (J M^-1 J^T)
   Real lower_bound = 0;                    ///< m/s: the pass keeps the normal velocity above it
-  ContactImpulse<Real> hold{};             ///< of the position pass; kept as the next substep's first guess
-  ContactImpulse<Real> relax{};            ///< of the velocity pass; likewise
-  Vec2<Real> local{};                      ///< m, of two boxes: the point in the incident body's frame
+  ContactImpulse<Real> hold{};             ///< of the pass before the bodies move
+  ContactImpulse<Real> relax{};  ///< of the pass after; the last pass's is the next one's first guess
+  Vec2<Real> local{};            ///< m, of two boxes: the point in the incident body's frame
   std::uint32_t feature = 0;
   bool in_pass = false;
 };

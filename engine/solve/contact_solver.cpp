@@ -79,12 +79,13 @@ void warm_start(const Contact<Real>& contact, const ContactPoint<Real>& point, C
   bodies.twist[contact.b] = pair.b;
 }
 
-/// The normal velocity that keeps apart what is apart, and pushes out what overlaps.
+/// The normal velocity that lets the gap close within the substep, and no more. Where the shapes pressed on
+/// each other already, a gap is an error of this method: it closes gently, so that rest does not turn into
+/// small falls.
 template <class Real>
-Real bound_of(const Contact<Real>& contact, const ContactPoint<Real>& point, Real h) {
-  if (point.separation >= 0) return -point.separation / h;
-  const Real push_out = Real(constants::kPushOut) * -point.separation / h;
-  return std::min(push_out, Real(constants::kPushSpeed) * contact.reach);
+Real bound_of(const ContactPoint<Real>& point, bool pressed, Real h) {
+  if (point.separation <= 0) return 0;
+  return (pressed ? Real(constants::kGapClosing) : Real{1}) * -point.separation / h;
 }
 
 template <class Real>
@@ -103,10 +104,9 @@ Real ContactSolver<Real>::impact_speed(const Contact<Real>& contact, const Bodie
   return std::max(settings_.restitution_threshold, Real(constants::kRestingKicks) * kick);
 }
 
-/// Whether the pair comes together in this substep faster than what rests does. If so, normal and arms become
-/// those of the time of contact, and the separation the way left to it along that normal.
+/// Whether the pair comes together in this substep faster than what rests does.
 template <class Real>
-bool ContactSolver<Real>::meets(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
+bool ContactSolver<Real>::meets(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
   const Real threshold = impact_speed(contact, bodies, h);
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint<Real>& point = contact.points[i];
@@ -116,6 +116,27 @@ bool ContactSolver<Real>::meets(Contact<Real>& contact, const Bodies<Real>& bodi
   }
   return false;
 }
+
+namespace {
+
+/// Round shapes that are to meet: normal and arms become those of the time of contact, and the separation the
+/// way left to it along that normal. Returns false when they pass each other.
+template <class Real>
+bool look_ahead(Contact<Real>& contact, std::span<const SolidShape<Real>> shapes, const Bodies<Real>& bodies,
+                Real h) {
+  Contact<Real> then = contact;
+  const Real t = time_of_contact(then, 0, shapes, bodies, Real{0}, h);
+  contact.placed = false;
+  if (t > h) return false;
+  const Vec2<Real> relative =
+      relative_velocity(then.points[0], bodies.twist[contact.a], bodies.twist[contact.b]);
+  contact = then;
+  contact.points[0].separation = -dot(relative, then.normal) * t;
+  contact.placed = false;
+  return true;
+}
+
+}  // namespace
 
 template <class Real>
 void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
@@ -128,35 +149,38 @@ void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
     if (contact.count == 0 || contact.bounced) continue;
     if (!contact.placed) follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
     contact.impact = meets(contact, bodies, h);
-    if (contact.impact && !contact.two_boxes && contact.points[0].separation > 0) {
-      Contact<Real> then = contact;
-      const Real t = time_of_contact(then, 0, shapes, bodies, Real{0}, h);
-      if (t <= h) {
-        const ContactPoint<Real>& point = then.points[0];
-        const Real speed =
-            dot(relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]), then.normal);
-        contact = then;
-        contact.points[0].separation = -speed * t;
-      }
-      contact.placed = false;
+    if (contact.impact && !contact.two_boxes && contact.points[0].separation > 0 &&
+        !look_ahead(contact, shapes, bodies, h)) {
+      forget_impulses(contact);
+      contact.impact = false;
+      continue;
     }
     weigh(contact);
-    bool active = false;
-    for (int i = 0; i < contact.count; ++i) {
-      ContactPoint<Real>& point = contact.points[i];
-      const Vec2<Real> relative = relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]);
-      const Real approach = Real(constants::kApproachReserve) * h * std::sqrt(length_squared(relative));
-      point.in_pass = point.separation < Real(constants::kContactMargin) * contact.reach + approach;
-      active = active || point.in_pass;
-      if (!point.in_pass) point.hold = point.relax = {};
-      point.lower_bound = bound_of(contact, point, h);
-    }
-    if (active) active_.push_back(static_cast<int>(index));
+    if (admit(contact, bodies, h)) active_.push_back(static_cast<int>(index));
   }
   for (const int index : active_)
-    for (int i = 0; i < contacts[index].count; ++i)
-      if (contacts[index].points[i].in_pass)
-        warm_start(contacts[index], contacts[index].points[i], contacts[index].points[i].hold, bodies);
+    for (const ContactPoint<Real>& point : contacts[index].points)
+      if (point.in_pass) warm_start(contacts[index], point, point.hold, bodies);
+}
+
+/// Decides which of the contact's points are in the hold pass, with which bound and which first guess. At
+/// rest both passes of a substep, and those of the next, have the same impulse: half the weight each.
+template <class Real>
+bool ContactSolver<Real>::admit(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
+  bool any = false;
+  for (ContactPoint<Real>& point : contact.points) point.in_pass = false;
+  for (int i = 0; i < contact.count; ++i) {
+    ContactPoint<Real>& point = contact.points[i];
+    const Vec2<Real> relative = relative_velocity(point, bodies.twist[contact.a], bodies.twist[contact.b]);
+    const Real approach = Real(constants::kApproachReserve) * h * std::sqrt(length_squared(relative));
+    point.in_pass = point.separation < Real(constants::kContactMargin) * contact.reach + approach;
+    const bool pressed = point.hold.normal + point.relax.normal > 0;
+    point.lower_bound = bound_of(point, pressed, h);
+    if (settings_.two_passes) point.hold = point.relax;
+    if (!point.in_pass || !(point.hold.normal > 0)) point.hold = {};
+    any = any || point.in_pass;
+  }
+  return any;
 }
 
 template <class Real>
@@ -186,21 +210,15 @@ void ContactSolver<Real>::begin_relax(std::vector<Contact<Real>>& contacts,
       ContactPoint<Real>& point = contact.points[i];
       point.in_pass = point.hold.normal > 0 || point.separation <= 0;
       active = active || point.in_pass;
-      if (!point.in_pass) point.relax = {};
-      if (contact.impact) point.relax = {};
+      point.relax = point.in_pass && !contact.impact ? point.hold : ContactImpulse<Real>{};
       point.lower_bound = 0;
     }
     if (active) active_.push_back(static_cast<int>(index));
   }
-  for (const int index : active_) {
-    Contact<Real>& contact = contacts[index];
-    for (int i = 0; i < contact.count; ++i) {
-      ContactPoint<Real>& point = contact.points[i];
-      if (!point.in_pass) continue;
-      point.relax.normal = std::max(point.relax.normal, -point.hold.normal);
-      warm_start(contact, point, point.relax, bodies);
-    }
-  }
+  for (const int index : active_)
+    for (int i = 0; i < contacts[index].count; ++i)
+      if (contacts[index].points[i].in_pass)
+        warm_start(contacts[index], contacts[index].points[i], contacts[index].points[i].relax, bodies);
 }
 
 template <class Real>
@@ -228,6 +246,30 @@ void ContactSolver<Real>::begin_collide(std::vector<Contact<Real>>& contacts,
         point.lower_bound = std::max(point.lower_bound, -contact.restitution * speed);
     }
   }
+}
+
+template <class Real>
+bool ContactSolver<Real>::push_out(std::vector<Contact<Real>>& contacts,
+                                   std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies,
+                                   Real h) const {
+  bool pushed = false;
+  for (const int index : active_) {
+    Contact<Real>& contact = contacts[index];
+    if (contact.impact) continue;  // apart, or about to part
+    follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
+    const Real most = Real(constants::kPushSpeed) * contact.reach * h;
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint<Real>& point = contact.points[i];
+      if (!point.in_pass || !(point.separation < 0)) continue;
+      const Real way = std::min(Real(constants::kPushOut) * -point.separation, most);
+      const Vec2<Real> push = (way * point.normal_mass) * contact.normal;
+      bodies.move(contact.a, -push, -cross(point.arm_a, push));
+      bodies.move(contact.b, push, cross(point.arm_b, push));
+      pushed = true;
+    }
+  }
+  for (Contact<Real>& contact : contacts) contact.placed = false;
+  return pushed;
 }
 
 template class ContactSolver<float>;

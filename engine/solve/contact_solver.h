@@ -11,6 +11,7 @@ namespace plumb {
 template <class Real>
 struct ContactSettings {
   bool friction = true;            ///< false where no pair has any
+  bool two_passes = true;          ///< hold and relax in turn; false: collide alone
   Real gravity = 0;                ///< m/s^2, its size
   Real restitution_threshold = 0;  ///< m/s, slower impacts do not bounce
 };
@@ -30,6 +31,13 @@ class ContactSolver {
   void begin_hold(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
                   Bodies<Real>& bodies, Real h);
   void sweep_hold(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies);
+
+  /// Moves bodies apart that overlap, by a share of it. Not their velocities, and nothing is remembered: an
+  /// impulse that pushes out and is carried over to the next substep would swing tall stacks. Returns whether
+  /// anything moved.
+  bool push_out(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
+                Bodies<Real>& bodies, Real h) const;
+
   void begin_relax(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
                    Bodies<Real>& bodies);
   void sweep_relax(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies);
@@ -43,7 +51,8 @@ class ContactSolver {
   Real impact_speed(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
 
  private:
-  bool meets(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
+  bool meets(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
+  bool admit(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
 
   ContactSettings<Real> settings_;
   std::vector<int> active_;  // contacts of the present pass, in order

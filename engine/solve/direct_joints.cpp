@@ -149,6 +149,23 @@ void DirectJoints<Real>::finish_hold(Bodies<Real>& bodies, Real h) {
   }
 }
 
+/// x += M^-1 J^T lambda with J M^-1 J^T lambda = -C; J is that of the substep's start.
+template <class Real>
+void DirectJoints<Real>::settle(Bodies<Real>& bodies) {
+  for (int k = 0; k < constants::kSettlings; ++k) {
+    joints_.rows(bodies.pose, bodies.twist, ahead_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) multiplier_[i] = kept_gap_[i] - ahead_[i].residual;
+    system_.solve(multiplier_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const Row<Real>& row = rows_[i];
+      if (row.a != kFixedFrame)
+        bodies.move(row.a, multiplier_[i] * row.linear_a, multiplier_[i] * row.angular_a);
+      if (row.b != kFixedFrame)
+        bodies.move(row.b, multiplier_[i] * row.linear_b, multiplier_[i] * row.angular_b);
+    }
+  }
+}
+
 template <class Real>
 void DirectJoints<Real>::begin_relax(Bodies<Real>& bodies) {
   factor(bodies);

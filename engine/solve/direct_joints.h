@@ -19,6 +19,7 @@ class DirectJoints final : public JointMethod<Real> {
   void begin_hold(Bodies<Real>& bodies, Real h) override;
   void sweep_hold(Bodies<Real>& bodies, Real h) override;
   void finish_hold(Bodies<Real>& bodies, Real h) override;
+  void settle(Bodies<Real>& bodies) override;
   void begin_relax(Bodies<Real>& bodies) override;
   void sweep_relax(Bodies<Real>& bodies) override;
   void begin_follow(Bodies<Real>& bodies, Real h) override;

@@ -19,6 +19,7 @@ class IterativeJoints final : public JointMethod<Real> {
   void begin_hold(Bodies<Real>& bodies, Real h) override;
   void sweep_hold(Bodies<Real>& bodies, Real h) override;
   void finish_hold(Bodies<Real>&, Real) override {}
+  void settle(Bodies<Real>&) override {}  // the springs of the next substep do
   void begin_relax(Bodies<Real>& bodies) override;
   void sweep_relax(Bodies<Real>& bodies) override;
   void begin_follow(Bodies<Real>& bodies, Real h) override;

@@ -18,6 +18,9 @@ class JointMethod {
   virtual void sweep_hold(Bodies<Real>& bodies, Real h) = 0;
   virtual void finish_hold(Bodies<Real>& bodies, Real h) = 0;
 
+  /// Closes the joints of bodies that were moved, by moving them: velocities stay.
+  virtual void settle(Bodies<Real>& bodies) = 0;
+
   virtual void begin_relax(Bodies<Real>& bodies) = 0;
   virtual void sweep_relax(Bodies<Real>& bodies) = 0;
 

@@ -19,6 +19,9 @@ inline constexpr double kApproachReserve = 2;
 /// while the sweeps have not converged.
 inline constexpr double kPushOut = 0.2;
 
+/// Share of a gap that shapes which pressed on each other may close in a substep.
+inline constexpr double kGapClosing = 0.2;
+
 /// Fastest push out of an overlap, in reaches of the smaller shape a second: deep overlaps dissolve without a
 /// burst.
 inline constexpr double kPushSpeed = 4;
@@ -39,6 +42,10 @@ inline constexpr double kJointDampingRatio = 2;
 /// rounding or no longer falls.
 inline constexpr int kPositionCorrections = 30;
 
+/// Quasi-Newton corrections of joints after overlaps have been pushed out: the way is short, each gains
+/// several digits.
+inline constexpr int kSettlings = 3;
+
 /// Fastest closing of a joint's gap that was there at the substep's start, in spans of the jointed bodies a
 /// second: a scene that starts with its joints apart is pulled together without a burst.
 inline constexpr double kGapSpeed = 4;
@@ -46,7 +53,11 @@ inline constexpr double kGapSpeed = 4;
 /// Most impacts a substep, for each contact and in all: beyond, bodies chatter faster than anybody can see,
 /// and what is left is resolved as rest.
 inline constexpr int kImpactsPerContact = 16;
-inline constexpr int kImpactsAtLeast = 1024;
+inline constexpr int kImpactsAtLeast = 1 << 17;
+
+/// How many times as many sweeps the first step makes, which starts without impulses of a step before: a stack that
+/// is built at rest stays there.
+inline constexpr int kColdSweeps = 20;
 
 /// Newton iterations for the time of a contact; they converge quadratically and end at rounding.
 inline constexpr int kTimeIterations = 12;

@@ -9,7 +9,8 @@ void RealtimeDriver<Real>::explicit_euler(double t, Real h) {
   stage(Forces, [&] { evaluate_forces(t, t + static_cast<double>(h), bodies_.twist); });  // a(x, v)
   drift(h);                                                                               // x += v h
   stage(Kick, [&] { kick(h); });                                                          // v += a h
-  collide(h);  // J v = 0, v_n >= -e v_n
+  collide(h);   // J v = 0, v_n >= -e v_n
+  push_out(h);  // s >= 0 where bodies overlap
 }
 
 template void RealtimeDriver<float>::explicit_euler(double, float);

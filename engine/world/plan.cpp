@@ -107,6 +107,7 @@ Plan plan_realtime(const Scene& scene, const Realtime& accuracy, bool every_stag
       joints ? count(scene.joints.size(), "joint") : no_joint);
   add(RealtimeStage::Drift, "drift", true, "positions follow from velocities");
   add(RealtimeStage::Turn, "turn", !turning.empty(), turning.empty() ? "nothing can turn a body" : turning);
+  add(RealtimeStage::PushOut, "push_out", touching.any, touching.any ? some_pair : no_pair);
   add(RealtimeStage::JointRelax, "joint_relax", joints && two_passes,
       !joints      ? no_joint
       : two_passes ? "velocities must fit the joints where the bodies arrived"

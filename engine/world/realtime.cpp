@@ -28,8 +28,9 @@ Bodies<Real> compile_bodies(const Scene& scene) {
 }
 
 template <class Real>
-ContactSettings<Real> contact_settings(const Scene& scene, const Plan& plan) {
-  return {is_active(plan, RealtimeStage::Friction), std::sqrt(length_squared(scene.gravity.as<Real>())),
+ContactSettings<Real> contact_settings(const Scene& scene, const Realtime& accuracy, const Plan& plan) {
+  return {is_active(plan, RealtimeStage::Friction), accuracy.integrator == Integrator::VelocityVerlet,
+          std::sqrt(length_squared(scene.gravity.as<Real>())),
           static_cast<Real>(scene.contact_rules.restitution_threshold)};
 }
 
@@ -42,7 +43,7 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
       bodies_(compile_bodies<Real>(scene)),
       gravity_(scene.gravity.as<Real>()),
       forces_(scene),
-      contact_solver_(contact_settings<Real>(scene, plan_)) {
+      contact_solver_(contact_settings<Real>(scene, accuracy, plan_)) {
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
     dynamic_.push_back(body.type == BodyType::Dynamic);
@@ -162,11 +163,19 @@ void RealtimeDriver<Real>::hold(Real h) {
   stage(ContactHold, [&] { contact_solver_.begin_hold(contacts_, finder_->shapes(), bodies_, h); });
   const bool touching = contacts_active() && !contact_solver_.idle();
   const bool iterated = joints_active() && (touching || accuracy_.joint_solver == JointSolver::Iterative);
-  for (int i = 0; i < accuracy_.iterations && (touching || iterated); ++i) {
+  for (int i = 0; i < sweeps() && (touching || iterated); ++i) {
     stage(ContactHold, [&] { contact_solver_.sweep_hold(contacts_, bodies_); });
     if (iterated) stage(JointHold, [&] { joints_->sweep_hold(bodies_, h); });
   }
   stage(JointHold, [&] { joints_->finish_hold(bodies_, h); });
+}
+
+template <class Real>
+void RealtimeDriver<Real>::push_out(Real h) {
+  stage(PushOut, [&] {
+    const bool pushed = contact_solver_.push_out(contacts_, finder_->shapes(), bodies_, h);
+    if (pushed && joints_) joints_->settle(bodies_);
+  });
 }
 
 /// Impulses after the bodies have moved, that make velocities fit the new positions.
@@ -175,8 +184,8 @@ void RealtimeDriver<Real>::relax() {
   stage(JointRelax, [&] { joints_->begin_relax(bodies_); });
   stage(ContactRelax, [&] { contact_solver_.begin_relax(contacts_, finder_->shapes(), bodies_); });
   const bool touching = contacts_active() && !contact_solver_.idle();
-  const int sweeps = touching || accuracy_.joint_solver == JointSolver::Iterative ? accuracy_.iterations : 1;
-  for (int i = 0; i < sweeps; ++i) {
+  const int rounds = touching || accuracy_.joint_solver == JointSolver::Iterative ? sweeps() : 1;
+  for (int i = 0; i < rounds; ++i) {
     if (touching) stage(ContactRelax, [&] { contact_solver_.sweep_relax(contacts_, bodies_); });
     stage(JointRelax, [&] { joints_->sweep_relax(bodies_); });
   }
@@ -189,7 +198,7 @@ void RealtimeDriver<Real>::collide(Real h) {
   stage(ContactHold, [&] {
     contact_solver_.begin_collide(contacts_, finder_->shapes(), bodies_, h, is_active(plan_, Restitution));
   });
-  for (int i = 0; i < accuracy_.iterations; ++i) {
+  for (int i = 0; i < sweeps(); ++i) {
     stage(ContactHold, [&] { contact_solver_.sweep_hold(contacts_, bodies_); });
     stage(JointHold, [&] { joints_->sweep_follow(bodies_); });
   }

@@ -9,6 +9,7 @@
 #include "engine/solve/contact_solver.h"
 #include "engine/solve/impact_stage.h"
 #include "engine/solve/joint_method.h"
+#include "engine/world/constants.h"
 #include "engine/world/contact_finder.h"
 #include "engine/world/driver.h"
 #include "engine/world/stages.h"
@@ -61,9 +62,15 @@ class RealtimeDriver final : public Driver {
   void resolve_impacts(Real h);
   void hold(Real h);
   void relax();
+  void push_out(Real h);
   void collide(Real h);
   void drift(Real h);
   void check();
+
+  /// The first step has no impulses to start from, and makes up for it.
+  int sweeps() const {
+    return step_ == 0 ? constants::kColdSweeps * accuracy_.iterations : accuracy_.iterations;
+  }
 
   void set_motion(std::size_t body, const BodyState& state);
   void roll_back();

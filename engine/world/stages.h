@@ -17,6 +17,7 @@ enum class RealtimeStage {
   JointHold,     ///< impulses that keep joints closed where the bodies arrive
   Drift,         ///< x += v h
   Turn,          ///< angle += w h, and all angular arithmetic
+  PushOut,       ///< overlaps, by moving bodies apart
   JointRelax,    ///< J v = 0
   ContactRelax,  ///< v_n >= 0
   Friction,      ///< impulses in the Coulomb cone; their time is part of the contact stages'

@@ -16,6 +16,7 @@ void RealtimeDriver<Real>::velocity_verlet(double t, Real h) {
   stage(Restitution, [&] { resolve_impacts(h); });                    // v_n -> -e v_n at the time of contact
   hold(h);                                                            // C(x + h v) = 0, s + h v_n >= 0
   drift(h);                                                           // x += v h
+  push_out(h);                                                        // s >= 0 where bodies overlap
   stage(Forces, [&] {
     predict_velocities(half);
     evaluate_forces(middle, end, predicted_);  // a(x', v + a h/2)
