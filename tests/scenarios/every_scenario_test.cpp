@@ -178,6 +178,29 @@ TEST_P(EveryScenario, KeepsWhatItSaysIsConserved) {
   expect_kept(problem.conserved.angular_momentum, &Totals::angular_momentum, "angular momentum");
 }
 
+TEST(Conserved, LeavesNothingOutInTheFirstFourScenarios) {
+  for (const char* name : {"elastic_collision", "free_fall", "off_centre_torque", "pendulum_chain"}) {
+    for (const Instance& instance : select(name)) {
+      const Problem problem = instance.build();
+      const auto at = [&](double time) {
+        std::vector<BodyState> states(problem.scene.bodies.size());
+        problem.truth.exact(time, states);
+        return totals(problem.scene, states);
+      };
+      const Totals start = at(0), later = at(0.9 * problem.duration);
+      const auto expect_change = [&](bool conserved, Total Totals::*total, const char* quantity) {
+        if (conserved) return;
+        const double change = std::fabs((later.*total).value - (start.*total).value);
+        EXPECT_GT(change, 1e-3 * (later.*total).scale) << quantity << " in " << instance.label();
+      };
+      expect_change(problem.conserved.energy, &Totals::energy, "energy");
+      expect_change(problem.conserved.momentum_x, &Totals::momentum_x, "momentum along x");
+      expect_change(problem.conserved.momentum_y, &Totals::momentum_y, "momentum along y");
+      expect_change(problem.conserved.angular_momentum, &Totals::angular_momentum, "angular momentum");
+    }
+  }
+}
+
 /// Where `anchor` of a joint's body is, and how it moves.
 BodyState anchor_of(const Scene& scene, std::span<const BodyState> states, std::string_view body,
                     Vec2d anchor) {

@@ -336,13 +336,5 @@ TEST(OffCentreTorque, CentresDoNotCareWhereTheyArePushed) {
   EXPECT_GT(end[0].angle, 1.1 * end[1].angle);
 }
 
-TEST(OffCentreTorque, WhatIsNotKeptChanges) {
-  // The flags of the scenarios are complete: see the generic test for the other direction.
-  const Problem push = problem("off_centre_torque/corner_force");
-  const auto end = exact(push, push.duration);
-  EXPECT_GT(std::fabs(end[0].velocity.x), 0.1);
-  EXPECT_GT(std::fabs(end[0].velocity.y), 0.1);
-}
-
 }  // namespace
 }  // namespace plumb::scenarios::truth
