@@ -94,15 +94,13 @@ class BulletBackend final : public Backend {
   template <class SceneJoint>
   static std::string ignored(const Scene& scene, const SceneJoint& joint) {
     double inverse_mass = 0;
-    bool moves = false;
     for (const std::string& name : {joint.body_a, joint.body_b}) {
       const auto index = find_body(scene, name);
       if (!index || scene.bodies[*index].type != BodyType::Dynamic) continue;
       inverse_mass += 1 / scene.bodies[*index].mass;
-      moves = true;
     }
     const double least = static_cast<double>(SIMD_EPSILON);
-    if (!moves || inverse_mass > 2 * least) return "";
+    if (inverse_mass > 2 * least) return "";
     return "joint " + plumb::quoted(joint.name) +
            ": its bodies are too heavy; Bullet ignores joints of more than " + shortest(1 / (2 * least)) +
            " kg";

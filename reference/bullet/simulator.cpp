@@ -226,27 +226,18 @@ class BulletSimulator final : public Simulator {
     return fixed_frame_;
   }
 
-  template <class SceneJoint>
-  bool moves(const SceneJoint& joint) {
-    return body_called(joint.body_a).getInvMass() > 0 || body_called(joint.body_b).getInvMass() > 0;
-  }
-
   void add_joint(const RevoluteJoint& joint) {
     // A hinge adds two rows against turning out of the plane, which nothing here can: same gaps, more work.
-    if (moves(joint)) {
-      add(std::make_unique<btPoint2PointConstraint>(body_called(joint.body_a), body_called(joint.body_b),
-                                                    to_bullet(joint.anchor_a), to_bullet(joint.anchor_b)),
-          joint.collide);
-    }
+    add(std::make_unique<btPoint2PointConstraint>(body_called(joint.body_a), body_called(joint.body_b),
+                                                  to_bullet(joint.anchor_a), to_bullet(joint.anchor_b)),
+        joint.collide);
   }
 
   void add_joint(const DistanceJoint& joint) {
-    if (moves(joint)) {
-      add(std::make_unique<BulletDistanceJoint>(body_called(joint.body_a), body_called(joint.body_b),
-                                                to_bullet(joint.anchor_a), to_bullet(joint.anchor_b),
-                                                static_cast<btScalar>(joint.length)),
-          joint.collide);
-    }
+    add(std::make_unique<BulletDistanceJoint>(body_called(joint.body_a), body_called(joint.body_b),
+                                              to_bullet(joint.anchor_a), to_bullet(joint.anchor_b),
+                                              static_cast<btScalar>(joint.length)),
+        joint.collide);
   }
 
   void add(std::unique_ptr<btTypedConstraint> joint, bool collide) {

@@ -105,14 +105,6 @@ TEST_P(RivalJoints, JoinedBodiesTouchOnlyWhereTheJointSaysSo) {
   }
 }
 
-TEST_P(RivalJoints, AJointOfBodiesThatDoNotMoveIsHarmless) {
-  Scene scene = falling({of_type(disc("a", {}), BodyType::Static), disc("b", {5, 0})});
-  scene.joints = {RevoluteJoint{.name = "pin", .body_a = "world", .body_b = "a"}};
-  const auto states = run(engine(), scene, 0.5, steps_of(0.01));
-  EXPECT_EQ(states[0], initial_state(scene.bodies[0]));
-  EXPECT_LT(states[1].position.y, -1);
-}
-
 INSTANTIATE_TEST_SUITE_P(All, RivalJoints, ::testing::Values("box2d", "bullet", "bullet-double"),
                          [](const auto& each) {
                            return std::string(each.param).substr(0, 6) +

@@ -91,8 +91,9 @@ TEST_P(Rivals, AnglesCountWholeTurns) {
     for (int second = 1; second <= 3; ++second) {
       simulator->advance(60);
       simulator->read({&state, 1});
-      // 720 additions to an angle of up to 304 rad.
-      EXPECT_NEAR(state.angle, 4 + w * second, 720 * 304 * epsilon() / 100) << w;
+      // 720 additions to an angle of up to 304 rad, each rounded by up to eps / 2 of it, and an eighth of
+      // that adds up.
+      EXPECT_NEAR(state.angle, 4 + w * second, 720 * 304 * epsilon() / 16) << w;
       EXPECT_NEAR(state.angular_velocity, w, 1000 * epsilon());
     }
   }
