@@ -1,6 +1,7 @@
 // Friction and the inertia that follows from shapes: closed forms for what no scenario holds yet. The ground
 // is level and gravity is tilted instead, which is the same motion in turned axes.
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "engine/world/world.h"
 
 namespace plumb {
+
+void PrintTo(Precision precision, std::ostream* out) { *out << name_of(precision); }
+
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
