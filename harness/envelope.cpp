@@ -91,11 +91,7 @@ class Growth {
  public:
   Growth(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
          double tolerance)
-      : problem_(problem),
-        truth_(truth),
-        method_(method),
-        tolerance_(tolerance),
-        impacts_(find_impacts(problem)) {
+      : problem_(problem), truth_(truth), method_(method), tolerance_(tolerance), impacts_(truth.impacts()) {
     const std::size_t bodies = truth.bodies();
     now_.resize(bodies);
     differences_.resize(bodies);
@@ -248,16 +244,15 @@ class Growth {
   }
 
   // Angular velocity a unit of jump: the arm of the impulse is off by what the contact's place is off. A
-  // disc's arm lies along the normal wherever it is hit, so only the rounding of the coordinates is left.
+  // disc's arm lies along the normal wherever it is hit.
   double spin_of_arm(const Jump& jump, double delay, Vec2d position) const {
     const Body& body = problem_.scene.bodies[jump.body];
     if (body.fixed_rotation || body.type != BodyType::Dynamic) return 0;
-    double arm = kRoundings * method_.epsilon * (truth_.scale().length + truth_.scale().extent);
     const auto central = [](const Shape& shape) {
       return std::holds_alternative<Circle>(shape.geometry) && shape.position == Vec2d{};
     };
-    if (!std::all_of(body.shapes.begin(), body.shapes.end(), central))
-      arm += jump.sliding * delay + along(position, perpendicular(jump.normal));
+    if (std::all_of(body.shapes.begin(), body.shapes.end(), central)) return 0;
+    const double arm = jump.sliding * delay + along(position, perpendicular(jump.normal));
     return arm * body.mass / inertia_of(body);
   }
 
@@ -282,7 +277,7 @@ class Growth {
   const TruthTable& truth_;
   const reference::Method& method_;
   double tolerance_;
-  std::vector<Impact> impacts_;
+  const std::vector<Impact>& impacts_;
   std::size_t next_impact_ = 0;
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
@@ -296,9 +291,9 @@ class Growth {
 
 StateBound rounding_bound(const Scale& scale, double epsilon, double steps, double time) {
   const double share = kRoundings * epsilon * (steps + 1);
-  return {share * (scale.length + scale.extent + scale.speed * time),
-          share * (scale.angle + scale.angular_speed * time), share * scale.speed,
-          share * scale.angular_speed};
+  const double spin = share * scale.angular_speed + kRoundings * epsilon * scale.impact_spin;
+  return {share * (scale.length + scale.extent + scale.speed * time), share * scale.angle + spin * time,
+          share * scale.speed, spin};
 }
 
 Envelope::Envelope(const scenarios::Problem& problem, const TruthTable& truth,

@@ -19,7 +19,8 @@ struct StateBound {
 /// by half of epsilon relative to what is updated, and a rounded velocity moves the body for the rest of the
 /// run:
 ///   velocity kRoundings eps n V,  position kRoundings eps n (X + V t)
-/// after n substeps, with X and V the largest coordinate and speed of the scene. Likewise for angles.
+/// after n substeps, with X and V the largest coordinate and speed of the scene. Likewise for angles; and the
+/// arm of an impact's impulse is a difference of coordinates, which turns a body that should not turn.
 StateBound rounding_bound(const Scale& scale, double epsilon, double steps, double time);
 
 inline constexpr double kRoundings = 4;

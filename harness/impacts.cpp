@@ -4,12 +4,16 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/truth_table.h"
-
 namespace plumb::harness {
 namespace {
 
 double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
+
+double radius_of(const Geometry& geometry) {
+  if (const auto* circle = std::get_if<Circle>(&geometry)) return circle->radius;
+  const auto& box = std::get<Box>(geometry);
+  return std::hypot(box.width, box.height) / 2;
+}
 
 struct Moment {
   std::vector<BodyState> before, after;
@@ -61,6 +65,13 @@ Jump jump_of(const Scene& scene, const Moment& moment, std::size_t body) {
 }
 
 }  // namespace
+
+double bounding_radius(const Body& body) {
+  double radius = 0;
+  for (const Shape& shape : body.shapes)
+    radius = std::max(radius, magnitude(shape.position) + radius_of(shape.geometry));
+  return radius;
+}
 
 std::vector<Impact> find_impacts(const scenarios::Problem& problem) {
   std::vector<Impact> impacts;

@@ -28,6 +28,9 @@ struct Impact {
 /// The impacts of the truth within the run, in order, read off its states just before and just after each.
 std::vector<Impact> find_impacts(const scenarios::Problem& problem);
 
+/// Radius about its centre of mass of the circle that holds all of a body's shapes, m.
+double bounding_radius(const Body& body);
+
 /// How far from an impact's time the states just before and after are taken, s.
 inline constexpr double kImpactMargin = 1e-9;
 

@@ -13,25 +13,12 @@ namespace {
 constexpr int kRefinement = 4;
 constexpr std::size_t kMemory = std::size_t{256} << 20;  // bytes
 
-double radius_of(const Geometry& geometry) {
-  if (const auto* circle = std::get_if<Circle>(&geometry)) return circle->radius;
-  const auto& box = std::get<Box>(geometry);
-  return std::hypot(box.width, box.height) / 2;
-}
-
 double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
 
 }  // namespace
 
 int step_count(double duration, double dt) {
   return std::max(1, static_cast<int>(std::floor(duration / dt + 1e-6)));
-}
-
-double bounding_radius(const Body& body) {
-  double radius = 0;
-  for (const Shape& shape : body.shapes)
-    radius = std::max(radius, magnitude(shape.position) + radius_of(shape.geometry));
-  return radius;
 }
 
 TruthTable::TruthTable(const scenarios::Problem& problem, double dt)
@@ -46,6 +33,7 @@ TruthTable::TruthTable(const scenarios::Problem& problem, double dt)
       problem.truth.exact(fine_time(i), {states_.data() + static_cast<std::size_t>(i) * bodies_, bodies_});
     }
   }
+  impacts_ = find_impacts(problem);
   measure(problem.scene);
 }
 
@@ -83,6 +71,15 @@ void TruthTable::measure(const Scene& scene) {
     high += Vec2d{scale_.speed * scale_.duration, 0};
   }
   scale_.extent = std::max(magnitude(high - low), 1e-3);
+  for (const Impact& impact : impacts_) {
+    double most = 0;
+    for (const Jump& jump : impact.jumps) {
+      const Body& body = scene.bodies[jump.body];
+      const double inertia = body.type == BodyType::Dynamic ? inertia_of(body) : 0;
+      if (inertia > 0) most = std::max(most, magnitude(jump.velocity) * body.mass / inertia);
+    }
+    scale_.impact_spin += most * (scale_.length + scale_.extent);
+  }
 }
 
 }  // namespace plumb::harness

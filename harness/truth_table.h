@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "harness/impacts.h"
 #include "scenarios/scenario.h"
 
 namespace plumb::harness {
@@ -19,7 +20,9 @@ struct Scale {
   double speed = 0;          ///< m/s
   double angle = 0;          ///< rad, largest |angle|, at least pi
   double angular_speed = 0;  ///< rad/s
-  double duration = 0;       ///< s
+  double impact_spin =
+      0;  ///< rad/s, what the impacts would add to a spin were their arms off by length + extent
+  double duration = 0;  ///< s
 };
 
 /// The exact states of all bodies, evaluated once and then shared by every engine's run: on each step's
@@ -35,6 +38,7 @@ class TruthTable {
   int refinement() const { return refinement_; }
   std::size_t bodies() const { return bodies_; }
   const Scale& scale() const { return scale_; }
+  const std::vector<Impact>& impacts() const { return impacts_; }
 
   /// At t = sample * dt.
   std::span<const BodyState> at(int sample) const { return fine(static_cast<long>(sample) * refinement_); }
@@ -49,10 +53,8 @@ class TruthTable {
   int steps_, refinement_ = 1;
   std::size_t bodies_;
   std::vector<BodyState> states_;
+  std::vector<Impact> impacts_;
   Scale scale_;
 };
-
-/// Radius about its centre of mass of the circle that holds all of a body's shapes, m.
-double bounding_radius(const Body& body);
 
 }  // namespace plumb::harness

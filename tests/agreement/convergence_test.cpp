@@ -80,14 +80,16 @@ TEST_P(PreciseConvergence, ErrorFallsWithTheTolerance) {
     reference::StepSettings settings;
     settings.tolerance = tolerance;
     const double error = error_of(GetParam(), "plumb-precise", settings, false);
-    if (last > 0) EXPECT_LT(error, std::max(last / 10, 1e-12)) << "at " << tolerance;
+    if (last > 0) {
+      EXPECT_LT(error, std::max(last / 10, 1e-12)) << "at " << tolerance;
+    }
     last = error;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(plumb, PreciseConvergence,
                          testing::Values("pendulum_chain[5]", "pendulum_chain[20]"),
-                         [](const auto& info) { return "chain" + std::to_string(info.index); });
+                         [](const auto& which) { return "chain" + std::to_string(which.index); });
 
 }  // namespace
 }  // namespace plumb::harness

@@ -137,7 +137,7 @@ TEST_P(ClosedForm, InertiaOfShapes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(plumb, ClosedForm, testing::Values(Precision::Float, Precision::Double),
-                         [](const auto& info) { return std::string(name_of(info.param)); });
+                         [](const auto& which) { return std::string(name_of(which.param)); });
 
 }  // namespace
 }  // namespace plumb

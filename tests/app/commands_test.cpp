@@ -33,7 +33,9 @@ TEST(Engines, NamesEveryEngineAndWhyOneIsMissing) {
     EXPECT_NE(text.find(engine["name"].get<std::string>()), std::string::npos);
     const std::string reason = engine["reason"];
     EXPECT_EQ(engine["installed"].get<bool>(), reason.empty());
-    if (engine["installed"]) EXPECT_FALSE(engine["version"].get<std::string>().empty());
+    if (engine["installed"]) {
+      EXPECT_FALSE(engine["version"].get<std::string>().empty());
+    }
   }
 }
 
@@ -43,7 +45,9 @@ TEST(Explain, ListsStagesWithReasonsAndShares) {
   double share = 0;
   for (const Json& stage : json["stages"]) {
     EXPECT_FALSE(stage["why"].get<std::string>().empty());
-    if (!stage["active"]) EXPECT_EQ(stage["share"], 0);
+    if (!stage["active"]) {
+      EXPECT_EQ(stage["share"], 0);
+    }
     share += stage["share"].get<double>();
   }
   EXPECT_NEAR(share, 1, 1e-9);

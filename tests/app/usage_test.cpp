@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"compare", "free_fall", "--engine-command", "plumb=true"},
             {"plumb", "already"}},
         Bad{"explain_a_rival", {"explain", "free_fall/vacuum", "--engine", "box2d"}, {"box2d", "plan"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& which) { return which.param.name; });
 
 // A broken scene file: the line, the body, the field and the value are named.
 struct Broken {
@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Broken{"twice",
                            "{\"name\": \"s\", \"bodies\": [{\"name\": \"ball\"},\n{\"name\": \"ball\"}]}",
                            {"line 2", "'ball'"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& which) { return which.param.name; });
 
 TEST(Output, AClosedPipeEndsQuietly) {
   const Folder folder;
