@@ -35,6 +35,7 @@ DirectJoints<Real>::DirectJoints(const Scene& scene, const Bodies<Real>& bodies)
       rows_(rows_at(joints_, bodies)),
       ahead_(rows_.size()),
       kept_gap_(rows_.size()),
+      feedback_(rows_.size()),
       right_side_(rows_.size()),
       multiplier_(rows_.size()),
       arrival_(bodies.pose),
@@ -85,7 +86,7 @@ void DirectJoints<Real>::project(const Bodies<Real>& bodies, std::span<Twist<Rea
 }
 
 template <class Real>
-void DirectJoints<Real>::begin_hold(Bodies<Real>& bodies, Real h) {
+void DirectJoints<Real>::begin_substep(const Bodies<Real>& bodies, Real h) {
   if (!factored_) factor(bodies);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Real most = Real(constants::kGapSpeed) * h * span_[i];
@@ -180,21 +181,20 @@ template <class Real>
 void DirectJoints<Real>::begin_follow(Bodies<Real>& bodies, Real h) {
   factor(bodies);
   for (std::size_t i = 0; i < rows_.size(); ++i)
-    kept_gap_[i] = -(Real(constants::kJointFeedback) / h) * rows_[i].residual;
+    feedback_[i] = -(Real(constants::kJointFeedback) / h) * rows_[i].residual;
 }
 
 /// J v = -feedback C / h.
 template <class Real>
 void DirectJoints<Real>::sweep_follow(Bodies<Real>& bodies) {
   for (std::size_t i = 0; i < rows_.size(); ++i)
-    multiplier_[i] = kept_gap_[i] - rate<Real>(rows_[i], bodies.twist);
+    multiplier_[i] = feedback_[i] - rate<Real>(rows_[i], bodies.twist);
   system_.solve(multiplier_);
   apply(bodies, bodies.twist, Real{1});
 }
 
 template <class Real>
 void DirectJoints<Real>::pass_on(const Bodies<Real>& bodies, std::span<Twist<Real>> jump) {
-  if (!factored_) factor(bodies);
   project(bodies, jump);
 }
 

@@ -16,7 +16,8 @@ class DirectJoints final : public JointMethod<Real> {
  public:
   DirectJoints(const Scene& scene, const Bodies<Real>& bodies);
 
-  void begin_hold(Bodies<Real>& bodies, Real h) override;
+  void begin_substep(const Bodies<Real>& bodies, Real h) override;
+  void begin_hold(Bodies<Real>&, Real) override {}
   void sweep_hold(Bodies<Real>& bodies, Real h) override;
   void finish_hold(Bodies<Real>& bodies, Real h) override;
   void settle(Bodies<Real>& bodies) override;
@@ -40,6 +41,7 @@ class DirectJoints final : public JointMethod<Real> {
   std::vector<Row<Real>> rows_;   // at the last factorisation's poses
   std::vector<Row<Real>> ahead_;  // where the bodies would arrive
   std::vector<Real> kept_gap_;    // m, what the present pass leaves open
+  std::vector<Real> feedback_;    // m/s, of the Euler steppers
   std::vector<Real> right_side_, multiplier_;
   std::vector<Pose<Real>> arrival_;
   std::vector<int> moving_;    // jointed bodies, in order

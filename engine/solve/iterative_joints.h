@@ -16,6 +16,7 @@ class IterativeJoints final : public JointMethod<Real> {
  public:
   IterativeJoints(const Scene& scene, const Bodies<Real>& bodies);
 
+  void begin_substep(const Bodies<Real>&, Real) override {}
   void begin_hold(Bodies<Real>& bodies, Real h) override;
   void sweep_hold(Bodies<Real>& bodies, Real h) override;
   void finish_hold(Bodies<Real>&, Real) override {}

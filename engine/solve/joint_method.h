@@ -14,6 +14,9 @@ class JointMethod {
  public:
   virtual ~JointMethod() = default;
 
+  /// Before anything changes in a substep.
+  virtual void begin_substep(const Bodies<Real>& bodies, Real h) = 0;
+
   virtual void begin_hold(Bodies<Real>& bodies, Real h) = 0;
   virtual void sweep_hold(Bodies<Real>& bodies, Real h) = 0;
   virtual void finish_hold(Bodies<Real>& bodies, Real h) = 0;

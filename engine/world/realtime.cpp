@@ -160,6 +160,7 @@ void RealtimeDriver<Real>::resolve_impacts(Real h) {
 /// Impulses before the bodies move: contacts and joints in turn, joints last.
 template <class Real>
 void RealtimeDriver<Real>::hold(Real h) {
+  stage(JointHold, [&] { joints_->begin_hold(bodies_, h); });
   stage(ContactHold, [&] { contact_solver_.begin_hold(contacts_, finder_->shapes(), bodies_, h); });
   const bool touching = contacts_active() && !contact_solver_.idle();
   const bool iterated = joints_active() && (touching || accuracy_.joint_solver == JointSolver::Iterative);
@@ -174,7 +175,9 @@ template <class Real>
 void RealtimeDriver<Real>::push_out(Real h) {
   stage(PushOut, [&] {
     const bool pushed = contact_solver_.push_out(contacts_, finder_->shapes(), bodies_, h);
-    if (pushed && joints_) joints_->settle(bodies_);
+    const bool rigid =
+        accuracy_.integrator == Integrator::VelocityVerlet;  // the Euler steppers have their feedback
+    if (pushed && joints_ && rigid) joints_->settle(bodies_);
   });
 }
 

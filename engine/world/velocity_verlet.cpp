@@ -12,7 +12,7 @@ void RealtimeDriver<Real>::velocity_verlet(double t, Real h) {
 
   stage(Forces, [&] { evaluate_forces(t, middle, bodies_.twist); });  // a(x, v)
   stage(Kick, [&] { kick(half); });                                   // v += a h/2
-  stage(JointHold, [&] { joints_->begin_hold(bodies_, h); });         // A = J M^-1 J^T at x
+  stage(JointHold, [&] { joints_->begin_substep(bodies_, h); });      // A = J M^-1 J^T at x
   stage(Restitution, [&] { resolve_impacts(h); });                    // v_n -> -e v_n at the time of contact
   hold(h);                                                            // C(x + h v) = 0, s + h v_n >= 0
   drift(h);                                                           // x += v h
