@@ -74,4 +74,8 @@ bool clearly_differ(const Cost& a, const Cost& b) {
   return a.ns_per_step_high < b.ns_per_step_low || b.ns_per_step_high < a.ns_per_step_low;
 }
 
+bool is_noisy(const Cost& cost) {
+  return cost.ns_per_step_high - cost.ns_per_step_low > 0.25 * cost.ns_per_step;
+}
+
 }  // namespace plumb::harness

@@ -33,4 +33,7 @@ Cost summarise(std::vector<CostSample> samples, double dt);
 /// Whether two costs' middle halves lie apart, so that one is really the smaller.
 bool clearly_differ(const Cost& a, const Cost& b);
 
+/// Whether the middle half of the repetitions spreads by more than a quarter of the median.
+bool is_noisy(const Cost& cost);
+
 }  // namespace plumb::harness

@@ -98,9 +98,19 @@ std::string costs(const std::vector<Pair>& pairs) {
   return text + "\n";
 }
 
+// Where one of the two has no figures.
+std::string not_compared(std::span<const Result> results, const std::string& rival) {
+  std::string text;
+  for (const Result& result : results) {
+    if (result.engine != rival || result.status == Status::Ok) continue;
+    text += fmt::format("  {}: {} is {}\n", result.label, rival, name_of(result.status));
+  }
+  return text;
+}
+
 std::string against(std::span<const Result> results, const std::string& rival, const Style& style) {
   const std::vector<Pair> pairs = pairs_with(results, rival);
-  if (pairs.empty()) return "";
+  if (pairs.empty()) return not_compared(results, rival);
   std::vector<std::string> worse, better;
   int figures = 0;
   for (const MetricField& field : kMetricFields) {
@@ -126,7 +136,7 @@ std::string against(std::span<const Result> results, const std::string& rival, c
     for (const std::string& line : worse) out += "    " + line + "\n";
   }
   for (const std::string& line : better) out += line + "\n";
-  return out + costs(pairs);
+  return out + costs(pairs) + not_compared(results, rival);
 }
 
 std::string count_of(std::span<const Result> results, const Style& style) {
@@ -160,6 +170,16 @@ std::string summary(std::span<const Result> results, const Style& style) {
   for (const std::string& rival : rivals) {
     const std::string text = against(results, rival, style);
     if (!text.empty()) out += text + "\n";
+  }
+  const bool noisy = std::any_of(results.begin(), results.end(),
+                                 [](const Result& result) { return result.cost && is_noisy(*result.cost); });
+  if (noisy) {
+    out +=
+        style.paint(
+            wrap("~ before a cost: noise; the middle half of its repetitions spreads by more than a quarter",
+                 style.width, 2),
+            Ink::Dim) +
+        "\n";
   }
   return out + count_of(results, style);
 }

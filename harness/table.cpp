@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/cost.h"
+
 namespace plumb::harness {
 namespace {
 
@@ -21,6 +23,7 @@ struct Column {
   std::function<std::optional<double>(const Result&)> value;
   std::function<std::string(double)> text;
   int priority = 0;  // the highest is dropped first on a narrow terminal
+  bool is_cost = false;
 };
 
 Column metric_column(const char* title, const char* unit, std::optional<double> Metrics::*member,
@@ -39,7 +42,7 @@ std::vector<Column> all_columns() {
            [](const Result& result) {
              return result.cost ? std::optional(result.cost->ns_per_step) : std::nullopt;
            },
-           duration_text, 0}};
+           duration_text, 0, true}};
 }
 
 // Columns that have something to say, as many as fit.
@@ -68,12 +71,40 @@ double best_of(std::span<const Result> results, const Column& column) {
   return best;
 }
 
+/// A footnote: engines that miss the same checks for the same reason share one, with the first one's figures.
+struct Note {
+  std::string engines, text, key;
+};
+
 /// What a row says about agreement, and the footnote that explains it.
 struct Verdict {
   std::string text;
   Ink ink = Ink::Plain;
   std::string note{};
 };
+
+// Every known limit of a result with the checks that it covers: equal for results that may share a footnote.
+std::string key_of(const Result& result) {
+  if (!result.unexpected.empty() || result.status != Status::Ok) return "only " + result.engine;
+  std::string key;
+  for (const Check& check : result.checks)
+    if (!check.known_limit.empty()) key += check.name + ": " + check.known_limit + "\n";
+  return key;
+}
+
+// The letter of the note, which is made where there is none like it.
+char refer_to(std::vector<Note>& notes, const Result& result, const std::string& text) {
+  const std::string key = key_of(result);
+  const auto same =
+      std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.key == key; });
+  const auto letter = static_cast<char>('a' + (same - notes.begin()) % 26);
+  if (same == notes.end()) {
+    notes.push_back({result.engine, text, key});
+  } else {
+    same->engines += ", " + result.engine;
+  }
+  return letter;
+}
 
 std::string kind_name(Oracle oracle) {
   switch (oracle) {
@@ -175,7 +206,7 @@ std::string header(const std::vector<Column>& columns, const Style& style) {
 }
 
 std::string row(const Result& result, const std::vector<Column>& columns, const std::vector<double>& best,
-                const Style& style, std::vector<std::string>& notes) {
+                const Style& style, std::vector<Note>& notes) {
   std::string line = pad_right(result.engine, kEngineWidth);
   if (!result.ran()) {
     const Ink ink = result.status == Status::Skipped ? Ink::Dim : Ink::Red;
@@ -184,7 +215,8 @@ std::string row(const Result& result, const std::vector<Column>& columns, const 
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto value = columns[i].value(result);
-    const std::string text = value ? columns[i].text(*value) : "-";
+    std::string text = value ? columns[i].text(*value) : "-";
+    if (columns[i].is_cost && value && is_noisy(*result.cost)) text = "~" + text;
     const bool is_best = value && *value <= best[i] && result.status == Status::Ok;
     line += pad_left("", kFigureWidth - static_cast<int>(text.size())) +
             style.paint(text, is_best ? Ink::Green : Ink::Plain);
@@ -194,10 +226,7 @@ std::string row(const Result& result, const std::vector<Column>& columns, const 
     said.text = "diverged";
     said.note = result.reason + (said.note.empty() ? "" : "; " + said.note);
   }
-  if (!said.note.empty()) {
-    notes.push_back(fmt::format("{}: {}", result.engine, said.note));
-    said.text += fmt::format(" ({})", static_cast<char>('a' + (notes.size() - 1) % 26));
-  }
+  if (!said.note.empty()) said.text += fmt::format(" ({})", refer_to(notes, result, said.note));
   return line + "  " + style.paint(said.text, said.ink) + "\n";
 }
 
@@ -209,10 +238,11 @@ std::string table(std::span<const Result> results, const Style& style) {
   std::vector<double> best;
   for (const Column& column : columns) best.push_back(best_of(results, column));
   std::string out = heading(results.front(), style) + header(columns, style);
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   for (const Result& result : results) out += row(result, columns, best, style, notes);
   for (std::size_t i = 0; i < notes.size(); ++i) {
-    const std::string note = fmt::format("({}) {}", static_cast<char>('a' + i % 26), notes[i]);
+    const std::string note =
+        fmt::format("({}) {}: {}", static_cast<char>('a' + i % 26), notes[i].engines, notes[i].text);
     out += "  " + style.paint(wrap(note, style.width - 2, 6), Ink::Dim) + "\n";
   }
   return out;
