@@ -48,8 +48,8 @@ MUTATIONS = [
              "arm_a.y, -arm_b.y", "arm_a.y, arm_b.y"),
     Mutation("centripetal bias the wrong way", "engine/joints/revolute.cpp",
              "spin_a * arm_a - spin_b * arm_b", "spin_b * arm_b - spin_a * arm_a"),
-    Mutation("no projection on the joints", "engine/world/precise_motion.cpp",
-             "if (gap <= rounding_of_gaps() ||", "if (gap <= length_ ||"),
+    Mutation("no projection on the joints", "engine/world/realtime.cpp",
+             "stage(JointHold, [&] { joints_->finish_hold(bodies_, h); });", ""),
 
     # Contacts.
     Mutation("normal flipped", "engine/collide/circles.cpp",

@@ -86,7 +86,7 @@ class Tests:
 
 def describe(names):
     """A few of the tests by name, and how many more."""
-    shown = ", ".join(names[:3])
+    shown = ", ".join(re.sub(r"^agreement/(.*KeepsEveryBound/)?", "", name) for name in names[:3])
     return shown + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
