@@ -291,9 +291,13 @@ class Growth {
 
 StateBound rounding_bound(const Scale& scale, double epsilon, double steps, double time) {
   const double share = kRoundings * epsilon * (steps + 1);
-  const double spin = share * scale.angular_speed + kRoundings * epsilon * scale.impact_spin;
-  return {share * (scale.length + scale.extent + scale.speed * time), share * scale.angle + spin * time,
-          share * scale.speed, spin};
+  const double once = kRoundings * epsilon;
+  const double gap_speed = time > 0 ? once * scale.joint_length * steps / time : 0;
+  const double spin = share * scale.angular_speed + once * scale.impact_spin;
+  return {.position = share * (scale.length + scale.extent + scale.speed * time),
+          .angle = share * (scale.angle + scale.joint_length / scale.joint_arm) + spin * time,
+          .velocity = share * scale.speed + gap_speed,
+          .angular_velocity = spin + gap_speed / scale.joint_arm};
 }
 
 Envelope::Envelope(const scenarios::Problem& problem, const TruthTable& truth,

@@ -7,7 +7,7 @@ namespace plumb::harness {
 namespace {
 
 void judge_check(Result& result, Check& check, bool defaults, std::span<const KnownLimit> limits) {
-  const KnownLimit* limit = find_known_limit(limits, result.engine, result.label, check.name);
+  const KnownLimit* limit = find_known_limit(limits, result.engine, result.label, check.name, defaults);
   check.known_limit = limit != nullptr && !check.pass ? std::string(limit->reason) : "";
   if (!check.pass && limit == nullptr) {
     result.unexpected.push_back(

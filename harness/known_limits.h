@@ -15,14 +15,15 @@ struct KnownLimit {
   std::string_view instance;  ///< labels: "pendulum_chain[20]|pendulum_chain[100]"
   std::string_view check;     ///< names of checks
   std::string_view reason;
+  bool elsewhere_only = false;  ///< not at the default settings
 };
 
 /// All of them: the one place.
 std::span<const KnownLimit> known_limits();
 
-/// The first that speaks of this check; null if none does.
+/// The first that speaks of this check at the default settings (`defaults`) or at others; null if none does.
 const KnownLimit* find_known_limit(std::span<const KnownLimit> limits, std::string_view engine,
-                                   std::string_view instance, std::string_view check);
+                                   std::string_view instance, std::string_view check, bool defaults);
 
 /// Whether `text` is what one of the alternatives in `pattern` says.
 bool matches(std::string_view pattern, std::string_view text);

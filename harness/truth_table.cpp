@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
@@ -71,6 +73,7 @@ void TruthTable::measure(const Scene& scene) {
     high += Vec2d{scale_.speed * scale_.duration, 0};
   }
   scale_.extent = std::max(magnitude(high - low), 1e-3);
+  measure_joints(scene);
   for (const Impact& impact : impacts_) {
     double most = 0;
     for (const Jump& jump : impact.jumps) {
@@ -80,6 +83,24 @@ void TruthTable::measure(const Scene& scene) {
     }
     scale_.impact_spin += most * (scale_.length + scale_.extent);
   }
+}
+
+void TruthTable::measure_joints(const Scene& scene) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto include = [&](const std::string& name, Vec2d anchor) {
+    const double arm = magnitude(anchor);
+    if (name != kWorld && arm > 0) nearest = std::min(nearest, arm);
+  };
+  for (const Joint& joint : scene.joints) {
+    std::visit(
+        [&](const auto& j) {
+          include(j.body_a, j.anchor_a);
+          include(j.body_b, j.anchor_b);
+        },
+        joint);
+  }
+  if (!scene.joints.empty()) scale_.joint_length = scale_.length + scale_.extent;
+  if (std::isfinite(nearest)) scale_.joint_arm = nearest;
 }
 
 }  // namespace plumb::harness

@@ -22,7 +22,10 @@ struct Scale {
   double angular_speed = 0;  ///< rad/s
   double impact_spin =
       0;  ///< rad/s, what the impacts would add to a spin were their arms off by length + extent
-  double duration = 0;  ///< s
+  double joint_length =
+      0;                 ///< m, length + extent where there are joints: their gaps are differences of these
+  double joint_arm = 1;  ///< m, from a body's centre to the nearest of its joints
+  double duration = 0;   ///< s
 };
 
 /// The exact states of all bodies, evaluated once and then shared by every engine's run: on each step's
@@ -48,6 +51,7 @@ class TruthTable {
 
  private:
   void measure(const Scene& scene);
+  void measure_joints(const Scene& scene);
 
   double dt_;
   int steps_, refinement_ = 1;

@@ -76,7 +76,8 @@ TEST(Judge, OnlyOkAndSkippedAreExpectedOfARun) {
   }
 }
 
-constexpr KnownLimit kLimits[] = {{"rival*", "chain[20]|chain[100]", "position_error", "its joints stretch"}};
+constexpr KnownLimit kLimits[] = {{"rival*", "chain[20]|chain[100]", "position_error", "its joints stretch"},
+                                  {"rival", "fall", "position_error", "it is clamped at long steps", true}};
 
 TEST(Judge, ADeclaredMissIsExpectedAndADeclaredOneThatHasGoneIsNot) {
   Result result = with_check("rival-float", "chain[20]", false);
@@ -87,11 +88,22 @@ TEST(Judge, ADeclaredMissIsExpectedAndADeclaredOneThatHasGoneIsNot) {
   judge(result, true, kLimits);
   ASSERT_EQ(result.unexpected.size(), 1u);
   EXPECT_NE(result.unexpected[0].find("known limit has gone"), std::string::npos);
-  judge(result, false, kLimits);  // limits are declared for the default settings
+  judge(result, false, kLimits);  // at other settings it may pass
   EXPECT_TRUE(result.unexpected.empty());
   result = with_check("rival-float", "chain[5]", false);
   judge(result, true, kLimits);
   EXPECT_EQ(result.unexpected.size(), 1u);
+}
+
+TEST(Judge, ALimitOfOtherSettingsIsNoneAtTheDefaultOnes) {
+  Result result = with_check("rival", "fall", false);
+  judge(result, false, kLimits);
+  EXPECT_TRUE(result.unexpected.empty());
+  judge(result, true, kLimits);
+  EXPECT_EQ(result.unexpected.size(), 1u);
+  result = with_check("rival", "fall", true);
+  judge(result, true, kLimits);
+  EXPECT_TRUE(result.unexpected.empty());
 }
 
 }  // namespace
