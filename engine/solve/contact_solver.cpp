@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/world/constants.h"
+#include "engine/solve/constants.h"
 
 namespace plumb {
 namespace {
@@ -117,6 +117,22 @@ bool ContactSolver<Real>::meets(const Contact<Real>& contact, const Bodies<Real>
   return false;
 }
 
+/// Whether an impact with restitution is due or just missed. It is the impact stage's, now or in the next
+/// substep: the passes would take the velocity that is to bounce.
+template <class Real>
+bool ContactSolver<Real>::bounces(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
+  if (!settings_.two_passes || !(contact.restitution > 0)) return false;
+  for (const ContactPoint<Real>& point : contact.points)
+    if (point.hold.normal + point.relax.normal > 0) return false;  // it rests
+  const Real threshold = impact_speed(contact, bodies, h);
+  for (int i = 0; i < contact.count; ++i) {
+    const Vec2<Real> relative =
+        relative_velocity(contact.points[i], bodies.twist[contact.a], bodies.twist[contact.b]);
+    if (-dot(relative, contact.normal) > threshold) return true;
+  }
+  return false;
+}
+
 namespace {
 
 /// Round shapes that are to meet: normal and arms become those of the time of contact, and the separation the
@@ -148,6 +164,10 @@ void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
     contact.impact = false;
     if (contact.count == 0 || contact.bounced) continue;
     if (!contact.placed) follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
+    if (bounces(contact, bodies, h)) {
+      forget_impulses(contact);
+      continue;
+    }
     contact.impact = meets(contact, bodies, h);
     if (contact.impact && !contact.two_boxes && contact.points[0].separation > 0 &&
         !look_ahead(contact, shapes, bodies, h)) {
@@ -193,7 +213,8 @@ void ContactSolver<Real>::sweep_hold(std::vector<Contact<Real>>& contacts, Bodie
 
 template <class Real>
 void ContactSolver<Real>::begin_relax(std::vector<Contact<Real>>& contacts,
-                                      std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies) {
+                                      std::span<const SolidShape<Real>> shapes, Bodies<Real>& bodies,
+                                      Real h) {
   active_.clear();
   for (std::size_t index = 0; index < contacts.size(); ++index) {
     Contact<Real>& contact = contacts[index];
@@ -205,10 +226,11 @@ void ContactSolver<Real>::begin_relax(std::vector<Contact<Real>>& contacts,
     }
     if (contact.bounced) forget_impulses(contact);
     contact.bounced = false;
+    const bool leave = bounces(contact, bodies, h);
     bool active = false;
     for (int i = 0; i < contact.count; ++i) {
       ContactPoint<Real>& point = contact.points[i];
-      point.in_pass = point.hold.normal > 0 || point.separation <= 0;
+      point.in_pass = !leave && (point.hold.normal > 0 || point.separation <= 0);
       active = active || point.in_pass;
       point.relax = point.in_pass && !contact.impact ? point.hold : ContactImpulse<Real>{};
       point.lower_bound = 0;

@@ -39,7 +39,7 @@ class ContactSolver {
                 Bodies<Real>& bodies, Real h) const;
 
   void begin_relax(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
-                   Bodies<Real>& bodies);
+                   Bodies<Real>& bodies, Real h);
   void sweep_relax(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies);
   void begin_collide(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
                      Bodies<Real>& bodies, Real h, bool restitution);
@@ -51,6 +51,7 @@ class ContactSolver {
   Real impact_speed(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
 
  private:
+  bool bounces(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
   bool meets(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
   bool admit(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
 

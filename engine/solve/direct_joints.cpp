@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/world/constants.h"
+#include "engine/solve/constants.h"
 
 namespace plumb {
 namespace {

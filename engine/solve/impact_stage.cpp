@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solve/constants.h"
 #include "engine/solve/impact.h"
-#include "engine/world/constants.h"
 
 namespace plumb {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/world/constants.h"
+#include "engine/solve/constants.h"
 
 namespace plumb {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "engine/solve/constants.h"
 #include "engine/solve/contact_solver.h"
-#include "engine/world/constants.h"
 
 namespace plumb {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/world/constants.h"
+#include "engine/solve/constants.h"
 
 namespace plumb {
 

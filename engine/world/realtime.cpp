@@ -183,9 +183,9 @@ void RealtimeDriver<Real>::push_out(Real h) {
 
 /// Impulses after the bodies have moved, that make velocities fit the new positions.
 template <class Real>
-void RealtimeDriver<Real>::relax() {
+void RealtimeDriver<Real>::relax(Real h) {
   stage(JointRelax, [&] { joints_->begin_relax(bodies_); });
-  stage(ContactRelax, [&] { contact_solver_.begin_relax(contacts_, finder_->shapes(), bodies_); });
+  stage(ContactRelax, [&] { contact_solver_.begin_relax(contacts_, finder_->shapes(), bodies_, h); });
   const bool touching = contacts_active() && !contact_solver_.idle();
   const int rounds = touching || accuracy_.joint_solver == JointSolver::Iterative ? sweeps() : 1;
   for (int i = 0; i < rounds; ++i) {

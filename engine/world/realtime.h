@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "engine/forces/laws.h"
+#include "engine/solve/constants.h"
 #include "engine/solve/contact_solver.h"
 #include "engine/solve/impact_stage.h"
 #include "engine/solve/joint_method.h"
-#include "engine/world/constants.h"
 #include "engine/world/contact_finder.h"
 #include "engine/world/driver.h"
 #include "engine/world/stages.h"
@@ -61,7 +61,7 @@ class RealtimeDriver final : public Driver {
   void kick(Real duration);
   void resolve_impacts(Real h);
   void hold(Real h);
-  void relax();
+  void relax(Real h);
   void push_out(Real h);
   void collide(Real h);
   void drift(Real h);

@@ -22,7 +22,7 @@ void RealtimeDriver<Real>::velocity_verlet(double t, Real h) {
     evaluate_forces(middle, end, predicted_);  // a(x', v + a h/2)
   });
   stage(Kick, [&] { kick(half); });  // v += a' h/2
-  relax();                           // J v = 0, v_n >= 0
+  relax(h);                          // J v = 0, v_n >= 0
 }
 
 template void RealtimeDriver<float>::velocity_verlet(double, float);
