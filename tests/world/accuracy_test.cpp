@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/scene/error.h"
-#include "scenes.h"
+#include "tests/world/scenes.h"
 
 namespace plumb {
 namespace {

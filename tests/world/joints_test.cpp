@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes.h"
+#include "tests/world/scenes.h"
 
 namespace plumb {
 namespace {

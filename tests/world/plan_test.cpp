@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/world/stages.h"
-#include "scenes.h"
+#include "tests/world/scenes.h"
 
 namespace plumb {
 namespace {

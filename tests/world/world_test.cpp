@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/scene/error.h"
-#include "scenes.h"
+#include "tests/world/scenes.h"
 
 namespace plumb {
 namespace {
