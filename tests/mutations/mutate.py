@@ -15,6 +15,7 @@ import dataclasses
 import os
 import pathlib
 import re
+import shlex
 import sys
 import tempfile
 import time
@@ -190,7 +191,9 @@ def main():
         print(f"no mutation is called {' or '.join(options.only)}; see --list", file=sys.stderr)
         return 2
 
-    arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF"]
+    # The flags of the checkout's own build: what a compiler cache has seen there is not compiled again.
+    arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF",
+                 *shlex.split(os.environ.get("PLUMB_CMAKE_FLAGS", ""))]
     select = ["-L", "agreement", "-LE", "slow", "-R", "plumb"]
     survivors = plant(root, options.work or root / "build" / "mutations", chosen,
                       lambda tree: Tests(tree, arguments, "test_agreement", select, options.jobs))
