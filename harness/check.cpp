@@ -10,7 +10,7 @@ void WorstRatio::add(double value, double tolerance) {
   const bool pass = value <= tolerance;  // false for NaN as well
   double ratio = value > 0 ? value / tolerance : 0;
   if (std::isnan(ratio) || (!pass && tolerance == 0)) ratio = std::numeric_limits<double>::infinity();
-  if (!any_ || (pass_ && !pass) || (pass_ == pass && ratio > ratio_)) {
+  if (!any_ || ratio > ratio_) {
     ratio_ = ratio;
     value_ = value;
     tolerance_ = tolerance;

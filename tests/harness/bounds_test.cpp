@@ -257,6 +257,24 @@ TEST(Bounds, ABodyFixedForceFeedsTheAngleErrorBack) {
       out[0] = s;
     };
   };
+  // Everything as late as a first-order scheme may have it: the spin, the angle, and the angle that turns the
+  // force.
+  const Motion late = [](long step, double h, std::span<BodyState> out) {
+    BodyState s;
+    for (long i = 0; i < step; ++i) {
+      s.position += h * s.velocity;
+      s.velocity += h * 2 * Vec2d{std::cos(s.angle), std::sin(s.angle)};
+      s.angle += h * (s.angular_velocity - (i > 0 ? h : 0));
+      s.angular_velocity += h * 2;
+    }
+    out[0] = s;
+  };
+  scenarios::Problem start = problem;
+  start.duration = 0.6;
+  const Result at_worst = run_fake(start, late, method(Scheme::SemiImplicitEuler, 1));
+  EXPECT_EQ(missed(at_worst), "");
+  EXPECT_GT(at_worst.find_check("velocity_error")->value,
+            0.55 * at_worst.find_check("velocity_error")->tolerance);
   EXPECT_EQ(missed(run_fake(problem, euler(2), method(Scheme::SemiImplicitEuler, 1))), "");
   EXPECT_NE(missed(run_fake(problem, euler(2.3), method(Scheme::SemiImplicitEuler, 1))), "");
 }

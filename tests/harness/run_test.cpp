@@ -70,17 +70,18 @@ TEST(Run, DriftIsRelativeToTheLargestEnergyAndMomentum) {
   problem.truth.exact = [](double t, std::span<BodyState> out) {
     out[0] = {{1 + 3 * t, 2 + 4 * t}, 2 * t, {3, 4}, 2};
   };
-  // 10 % faster: kinetic energy 2*25/2 + 0.5*4/2 = 26 becomes 31.25 + 1, off by 5.25; momentum off by a
-  // tenth.
+  // 10 % faster, 25 % more spin: kinetic energy 2*25/2 + 0.5*4/2 = 26 becomes 30.25 + 1.5625; momentum off by
+  // a tenth.
   const Result result =
       run_fake(problem, [exact = exactly(problem)](long step, double dt, std::span<BodyState> out) {
         exact(step, dt, out);
         out[0].velocity *= 1.1;
+        out[0].angular_velocity *= 1.25;
       });
-  EXPECT_NEAR(*result.metrics.energy_drift, 5.25 / 26, 1e-14);
+  EXPECT_NEAR(*result.metrics.energy_drift, 5.8125 / 26, 1e-14);
   EXPECT_NEAR(*result.metrics.momentum_drift, 0.1, 1e-14);
-  // L = m (1*4 - 2*3) + I w = -4 + 1 where the largest |m x * v| + |I w| is 4 + 1: off by 0.4 of 5.
-  EXPECT_NEAR(*result.metrics.angular_momentum_drift, 0.4 / 5, 1e-13);
+  // L = m (1*4 - 2*3) + I w = -4 + 1 becomes -4.4 + 1.25; the largest |m x * v| + |I w| is 4 + 1.
+  EXPECT_NEAR(*result.metrics.angular_momentum_drift, 0.15 / 5, 1e-13);
   EXPECT_FALSE(passes(result, "momentum_drift"));
 }
 
@@ -181,6 +182,18 @@ TEST(Run, WhatAnEngineCannotDoIsSkipped) {
   backend.identity_.available = false;
   backend.identity_.reason = "install libfake-dev";
   EXPECT_EQ(run(scene_case, backend, {}).reason, "not installed: install libfake-dev");
+}
+
+TEST(Run, TheScaleIsThatOfTheTruth) {
+  const TruthTable truth(thrown(), kDt);
+  const Scale& scale = truth.scale();
+  // x from 1 to 7, y from its top 2 + 4^2/(2 g) to 2 + 8 - 2 g, each half a metre more for the disc.
+  EXPECT_NEAR(scale.length, 9.62, 1e-12);
+  EXPECT_NEAR(scale.extent, std::hypot(7, 16 / (2 * 9.81) + 11.62 + 1), 1e-3);
+  EXPECT_NEAR(scale.speed, std::hypot(3, 4 - 2 * 9.81), 1e-12);
+  EXPECT_NEAR(scale.angle, 4, 1e-12);
+  EXPECT_EQ(scale.angular_speed, 2);
+  EXPECT_EQ(truth.steps(), 120);
 }
 
 TEST(Run, ATruthIsNotNeeded) {

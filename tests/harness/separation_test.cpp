@@ -28,7 +28,12 @@ TEST(Overlap, OfKnownPairs) {
   EXPECT_NEAR(overlap(box(0, 0, 1, 1), box(0.9, 0.2, 1, 1)), 0.1, 1e-14);
   EXPECT_NEAR(overlap(box(0, 0, 1, 1), box(0.5 + kRoot2 / 2 - 0.05, 0, 1, 1, std::numbers::pi / 4)), 0.05,
               1e-14);
-  EXPECT_LT(overlap(box(0, 0, 1, 1), box(1.01, 0, 1, 1)), 0);
+  // Apart along one axis alone, of the four that there are.
+  const double corner = 0.5 + kRoot2 / 2 + 0.05, eighth = std::numbers::pi / 4;
+  EXPECT_NEAR(overlap(box(0, 0, 1, 1, eighth), box(corner, 0, 1, 1)), -0.05, 1e-14);
+  EXPECT_NEAR(overlap(box(0, 0, 1, 1, eighth), box(0, corner, 1, 1)), -0.05, 1e-14);
+  EXPECT_NEAR(overlap(box(corner, 0, 1, 1), box(0, 0, 1, 1, eighth)), -0.05, 1e-14);
+  EXPECT_NEAR(overlap(box(0, corner, 1, 1), box(0, 0, 1, 1, eighth)), -0.05, 1e-14);
 }
 
 Scene crowd(int count, double spacing) {
