@@ -30,8 +30,8 @@ TEST_P(Rivals, FreeFallIsThatOfSemiImplicitEuler) {
   const auto states =
       after(falling({moving(disc("a", {0, 5}), {3, 2}), disc("b", {10, 5}, 1, 1000)}), t, 4 * h, 4);
   const double drop = kGravity * t * (t + h) / 2;
-  // 240 roundings of values up to 9.81, mostly of one sign.
-  const double tolerance = 240 * 9.81 * epsilon() / 4;
+  // 240 roundings by up to eps / 2 of values up to 9.81, of which a sixth adds up.
+  const double tolerance = 240 * 9.81 * epsilon() / 12;
   EXPECT_NEAR(states[0].position.x, 3, tolerance);
   EXPECT_NEAR(states[0].position.y, 5 + 2 * t - drop, tolerance);
   EXPECT_NEAR(states[0].velocity.y, 2 - kGravity * t, tolerance);
@@ -39,18 +39,17 @@ TEST_P(Rivals, FreeFallIsThatOfSemiImplicitEuler) {
 }
 
 TEST_P(Rivals, ForcesActForTheirShareOfAStep) {
-  // From 0.505 to 0.605 s with steps of 0.02 s: the impulse is F dt whatever the grid.
+  // From 0.505 to 0.598 s with steps of 0.02 s: the impulse is F dt whatever the grid.
   Scene scene = weightless({disc("a", {}, 0.5, 2)});
   scene.bodies[0].inertia = 0.5;
   scene.forces = {
-      PointForce{.body = "a", .force = {4, -6}, .point = {0, 0.25}, .start = 0.505, .duration = 0.1},
-      Torque{.body = "a", .torque = 3, .start = 0.505, .duration = 0.1}};
-  scene.bodies[0].fixed_rotation = false;
+      PointForce{.body = "a", .force = {4, -6}, .point = {0, 0.25}, .start = 0.505, .duration = 0.093},
+      Torque{.body = "a", .torque = 3, .start = 0.505, .duration = 0.093}};
   const BodyState state = after(scene, 1, 0.02)[0];
-  EXPECT_NEAR(state.velocity.x, 4 * 0.1 / 2, 4 * epsilon());
-  EXPECT_NEAR(state.velocity.y, -6 * 0.1 / 2, 4 * epsilon());
+  EXPECT_NEAR(state.velocity.x, 4 * 0.093 / 2, epsilon());
+  EXPECT_NEAR(state.velocity.y, -6 * 0.093 / 2, epsilon());
   // The arm turns while the force acts: from -4 * 0.25 N m by less than 1 % (6 * 0.25 * 0.08 rad).
-  EXPECT_NEAR(state.angular_velocity, (3 - 4 * 0.25) * 0.1 / 0.5, 0.02 * 0.4);
+  EXPECT_NEAR(state.angular_velocity, (3 - 4 * 0.25) * 0.093 / 0.5, 0.01 * 0.4);
 }
 
 TEST_P(Rivals, DragIsThatOfTheStepsStart) {
@@ -77,7 +76,7 @@ TEST_P(Rivals, AFixedRotationStaysFixed) {
   scene.forces = {PointForce{.body = "a", .force = {1, 0}, .point = {0, 0.5}}};
   const BodyState state = after(scene, 1, 0.01)[0];
   EXPECT_EQ(state.angular_velocity, 0);
-  EXPECT_NEAR(state.angle, 0.3, epsilon());
+  EXPECT_NEAR(state.angle, 0.3, 0.3 * epsilon());
   EXPECT_LT(state.velocity.x, 0);  // b has hit it
 }
 
@@ -123,8 +122,8 @@ TEST_P(Rivals, AKinematicBodyPushes) {
       weightless({of_type(moving(disc("ram", {}), {1, 0}), BodyType::Kinematic), disc("ball", {1.5, 0})});
   const auto states = after(scene, 2, 0.01);
   EXPECT_NEAR(states[0].position.x, 2, 1e-5);
-  EXPECT_NEAR(states[1].velocity.x, 1, 0.05);  // inelastic: it is taken along
-  EXPECT_NEAR(states[1].position.x, 3, 0.05);
+  EXPECT_NEAR(states[1].velocity.x, 1, 1e-4);  // inelastic: it is taken along
+  EXPECT_NEAR(states[1].position.x, 3, 0.02);
 }
 
 TEST_P(Rivals, RestitutionIsCombinedByTheScenesRule) {
@@ -135,8 +134,8 @@ TEST_P(Rivals, RestitutionIsCombinedByTheScenesRule) {
     scene.contact_rules.restitution = rule;
     const double e = combine(rule, 0.2, 0.8);
     const auto states = after(scene, 2, 0.01);
-    EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, e, 20 * epsilon()) << static_cast<int>(rule);
-    EXPECT_NEAR(states[1].velocity.x + states[0].velocity.x, 1, 20 * epsilon()) << static_cast<int>(rule);
+    EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, e, 2 * epsilon()) << static_cast<int>(rule);
+    EXPECT_NEAR(states[1].velocity.x + states[0].velocity.x, 1, 2 * epsilon()) << static_cast<int>(rule);
   }
 }
 
@@ -144,16 +143,16 @@ TEST_P(Rivals, BelowTheThresholdNothingBounces) {
   Scene scene = head_on();
   scene.contact_rules.restitution_threshold = 1.1;
   auto states = after(scene, 2, 0.01);
-  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0, 1e-3);
+  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0, 2 * epsilon());
   scene.contact_rules.restitution_threshold = 0.9;
   states = after(scene, 2, 0.01);
-  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0.8, 20 * epsilon());
+  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0.8, 2 * epsilon());
   // The slowest impacts bounce where the scene has no threshold.
   scene.contact_rules.restitution_threshold = 0;
   scene.bodies[0].velocity = {0.01, 0};
   scene.bodies[0].position = {-0.005, 0};
   states = after(scene, 2, 0.01);
-  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0.008, 20 * epsilon());
+  EXPECT_NEAR(states[1].velocity.x - states[0].velocity.x, 0.008, 2 * epsilon());
 }
 
 TEST_P(Rivals, ABallBouncesOffTheGroundAsHighAsItMust) {
@@ -178,8 +177,8 @@ TEST_P(Rivals, FrictionIsCombinedByTheScenesRule) {
     scene.bodies[1].shapes[0].friction = 0.8;
     scene.contact_rules.friction = rule;
     const double mu = combine(rule, 0.2, 0.8), t = 0.25;
-    // The two contacts' load is settled by iteration within 1e-3 of the weight.
-    EXPECT_NEAR(after(scene, t, 1.0 / 240)[1].velocity.x, 5 - mu * kGravity * t, 1e-3 * kGravity * t)
+    // The two contacts share the load within the solver's iterations.
+    EXPECT_NEAR(after(scene, t, 1.0 / 240)[1].velocity.x, 5 - mu * kGravity * t, 2e-5 * kGravity * t)
         << static_cast<int>(rule);
   }
 }
@@ -222,8 +221,8 @@ TEST_P(Rivals, FiltersDecideShapeByShape) {
   // Struck 2 m above both centres: 1/m_eff = 2 (1/m + r^2/I), v = (1 + e) / (2 m (1/m + r^2/I)) for the
   // struck.
   const double inertia = inertia_of(scene.bodies[1]), per_mass = 1 + 4 / inertia;
-  EXPECT_NEAR(states[1].velocity.x, 1.8 / (2 * per_mass), 1e-3);
-  EXPECT_NEAR(states[1].angular_velocity, -2 * 1.8 / (2 * per_mass) / inertia, 1e-3);
+  EXPECT_NEAR(states[1].velocity.x, 1.8 / (2 * per_mass), epsilon());
+  EXPECT_NEAR(states[1].angular_velocity, -2 * 1.8 / (2 * per_mass) / inertia, epsilon());
   for (Body& body : scene.bodies) body.shapes[0].filter.mask = 0;
   EXPECT_EQ(after(scene, 2, 0.01)[1].velocity.x, 0);
 }
@@ -235,7 +234,7 @@ TEST_P(Rivals, ShapesStandWhereTheirBodyHasThem) {
   scene.bodies[0].shapes[0].position = {0.5, 0};
   for (Body& body : scene.bodies) body.shapes[0].restitution = 1;
   const auto states = after(scene, 1, 0.001);
-  EXPECT_NEAR(states[0].velocity.x, -1, 20 * epsilon());
+  EXPECT_NEAR(states[0].velocity.x, -1, 2 * epsilon());
   EXPECT_NEAR(states[0].position.x, -0.5, 0.002);
   EXPECT_NEAR(states[1].position.x, 1.5, 0.002);
 }
