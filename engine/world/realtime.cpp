@@ -152,7 +152,10 @@ template <class Real>
 void RealtimeDriver<Real>::resolve_impacts(Real h) {
   if (contacts_changed_) impacts_->index(contacts_, bodies_.size());
   contacts_changed_ = false;
-  const auto found = [&](int body, Real) { return finder_->extend(body, bodies_, h, contacts_); };
+  // A body that an impact has sped up may reach others in any of the substeps until the next detection.
+  const auto found = [&](int body, Real) {
+    return finder_->extend(body, bodies_, static_cast<Real>(accuracy_.dt), contacts_);
+  };
   statistics_.impacts +=
       impacts_->resolve(contacts_, finder_->shapes(), bodies_, contact_solver_, joints_.get(), h, found);
 }

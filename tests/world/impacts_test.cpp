@@ -57,6 +57,26 @@ TEST(Impacts, HeadOnIsExactAtAnyMassRatioAndRestitution) {
     }
 }
 
+/// Equal discs swap velocities. With gaps that the last but one crosses in a later substep of the same step,
+/// nothing near it moved when pairs were looked for.
+TEST(Impacts, PassDownARowWithinOneStep) {
+  constexpr double kSpeed = 2, kGaps[] = {0.83, 0.077, 0.111, 0.053};
+  Scene scene = with(empty_scene({0, 0}), {disc("0", {0, 0}, 0.25, 0, 1)});
+  scene.bodies[0].velocity = {kSpeed, 0};
+  double path = 0;
+  for (const double gap : kGaps) {
+    path += gap;
+    Body next = disc(std::to_string(scene.bodies.size()), scene.bodies.back().position, 0.25, 0, 1);
+    next.position.x += 0.5 + gap;
+    scene.bodies.push_back(next);
+  }
+  World world = compile(scene, Realtime{.dt = 1.0 / 17});
+  world.step(17);
+  const double flown = kSpeed * world.time() - path;
+  EXPECT_NEAR(world.state(4).position.x, scene.bodies[4].position.x + flown, 3e-14);
+  EXPECT_NEAR(world.state(4).velocity.x, kSpeed, 1e-15);
+}
+
 TEST(Impacts, ObliqueIsExact) {
   for (const double e : {0.0, 0.5, 1.0})
     for (const double offset : {-0.4, 0.1, 0.35, 0.6})
