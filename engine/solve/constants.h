@@ -55,8 +55,8 @@ inline constexpr double kGapSpeed = 4;
 inline constexpr int kImpactsPerContact = 16;
 inline constexpr int kImpactsAtLeast = 1 << 17;
 
-/// How many times as many sweeps the first step makes, which starts without impulses of a step before: a stack that
-/// is built at rest stays there.
+/// How many times as many sweeps the first step makes, which starts without impulses of a step before: a
+/// stack that is built at rest stays there.
 inline constexpr int kColdSweeps = 20;
 
 /// Newton iterations for the time of a contact; they converge quadratically and end at rounding.

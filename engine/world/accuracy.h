@@ -34,15 +34,16 @@ struct Realtime {
 
 /// Adaptive high-order steps in double; impacts are located in time.
 struct Precise {
-  double tolerance = 1e-9;     ///< local error a step, relative to the scene's own length and speed, > 0
-  double max_dt = 1.0 / 60;    ///< s, > 0; also what `World::step` advances by
+  double tolerance = 1e-9;   ///< local error a step, relative to the scene's own length and speed, > 0
+  double max_dt = 1.0 / 60;  ///< s, > 0; also what `World::step` advances by
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 
 using Accuracy = std::variant<Realtime, Precise>;
 
-std::string_view name_of(Precision precision);      ///< "float", "double"
-std::string_view name_of(Integrator integrator);    ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
+std::string_view name_of(Precision precision);  ///< "float", "double"
+std::string_view name_of(
+    Integrator integrator);  ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
 std::string_view name_of(JointSolver joint_solver);  ///< "direct", "iterative"
 
 /// Throws `Error` (Value) that names the setting: dt <= 0, substeps < 1, a tolerance that is not positive.

@@ -23,8 +23,8 @@ class Driver {
  public:
   virtual ~Driver() = default;
 
-  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step when
-  /// a state is not finite or a work limit is met.
+  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step
+  /// when a state is not finite or a work limit is met.
   virtual void step() = 0;
   virtual double time() const = 0;  ///< s
   virtual void read(std::span<BodyState> out) const = 0;

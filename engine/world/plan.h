@@ -7,9 +7,9 @@ namespace plumb {
 
 /// One thing that a step does for a scene, and why that scene needs it.
 struct Stage {
-  std::string name;       ///< "broad_phase", "joint_solve", ...
-  std::string why;        ///< "2 of 4 bodies have shapes that may touch"
-  bool active = true;     ///< inactive stages are listed with the reason, and neither allocate nor run
+  std::string name;        ///< "broad_phase", "joint_solve", ...
+  std::string why;         ///< "2 of 4 bodies have shapes that may touch"
+  bool active = true;      ///< inactive stages are listed with the reason, and neither allocate nor run
   double nanoseconds = 0;  ///< time spent since profiling was switched on
 };
 

@@ -25,7 +25,8 @@ class World {
   void read(std::span<BodyState> out) const;  ///< `out` has `body_count()` elements, in the scene's order
   void set_state(std::size_t body, const BodyState& state);
 
-  /// 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for the same run.
+  /// 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for the same
+  /// run.
   std::uint64_t hash() const;
 
   std::vector<std::byte> save() const;
