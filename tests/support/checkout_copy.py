@@ -33,10 +33,20 @@ def sync(source, target):
         shutil.copy(source / path, copy)
 
 
+def environment():
+    """Python gives a process without a locale LC_CTYPE=C.UTF-8 (PEP 538). Compiler caches take the locale into
+    account, so what is started from here goes without it, as the checkout's own build does."""
+    variables = dict(os.environ)
+    if "LANG" not in variables and "LC_ALL" not in variables:
+        variables.pop("LC_CTYPE", None)
+    return variables
+
+
 def run(command, timeout=None, check=True):
     """Runs a command; returns (status, output). With `check` a failure ends the program with its output."""
     done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout, check=False)
+                          stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout, check=False,
+                          env=environment())
     if check and done.returncode != 0:
         raise SystemExit(f"{done.stdout}\n{' '.join(map(str, command))}: status {done.returncode}")
     return done.returncode, done.stdout
