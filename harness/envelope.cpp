@@ -97,6 +97,7 @@ class Growth {
     differences_.resize(bodies);
     growth_.resize(bodies);
     groups_ = jointed_groups(problem.scene);
+    if (method.order == 1) start_joints();
     has_turning_force_.resize(bodies, false);
     for (const ForceLaw& law : problem.scene.forces)
       if (const auto* force = std::get_if<PointForce>(&law))
@@ -117,6 +118,19 @@ class Growth {
   }
 
  private:
+  // The joints' forces begin at the start: their first value is a change as well, from free fall.
+  void start_joints() {
+    for (const Joint& joint : problem_.scene.joints) {
+      std::visit(
+          [&](const auto& j) {
+            for (const std::string& name : {j.body_a, j.body_b})
+              if (const auto body = find_body(problem_.scene, name))
+                differences_[*body] = {problem_.scene.gravity, std::nullopt, 0.0, std::nullopt};
+          },
+          joint);
+    }
+  }
+
   double substep() const { return method_.substep; }
   bool adaptive() const { return method_.order == 0; }
 

@@ -31,6 +31,8 @@ inline constexpr double kRoundings = 4;
 /// **Smooth motion.** A first-order scheme evaluates each force, and lets each change of velocity act, up to
 /// one substep early or late. With TV the total variation so far, along the truth,
 ///   dV = h d TV(a),  dP = h d TV(v) + V dt.
+/// The forces of joints begin at the start, from free fall: |a(0) - g| is part of TV(a). (A scheme that makes
+/// velocities fit the joints where the step began shows the velocity of one step earlier: h |a - g|.)
 /// A second-order scheme is centred; its leading errors have one more derivative and one more power of h:
 ///   dV = h^2 d TV(a'),  dP = h^2 d TV(a) + V dt.
 /// (The constants of the classic schemes are between 1/24 and 1/2; 1 is used.) Angles go the same way. An

@@ -158,7 +158,7 @@ std::string note_of(const Result& result) {
     note = fmt::format("known limit: {}: {}", declared, reason);
   }
   for (const std::string& sentence : result.unexpected)
-    note += (note.empty() ? "" : ". ") + ("UNEXPECTED: " + sentence);
+    note += (note.empty() ? "" : note.ends_with('.') ? " " : ". ") + ("UNEXPECTED: " + sentence);
   return note;
 }
 
