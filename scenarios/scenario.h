@@ -35,8 +35,10 @@ struct Truth {
   /// The exact state of every body at `time`.
   std::function<void(double time, std::span<BodyState> out)> exact{};
 
-  /// What `scheme` must give after `steps` steps of `substep`, exactly; returns false where that is not known.
-  std::function<bool(reference::Scheme scheme, double substep, long steps, std::span<BodyState> out)> discrete{};
+  /// What `scheme` must give after `steps` steps of `substep`, exactly; returns false where that is not
+  /// known.
+  std::function<bool(reference::Scheme scheme, double substep, long steps, std::span<BodyState> out)>
+      discrete{};
 
   /// When the exact velocities jump, s.
   std::vector<double> impacts{};
