@@ -14,6 +14,7 @@
 #include "app/output.h"
 #include "app/progress_line.h"
 #include "app/result_log.h"
+#include "app/source.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
@@ -137,8 +138,7 @@ void add_compare(CLI::App& app, Action& chosen) {
                    "one more engine: a program that speaks docs/protocol.md; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME=COMMAND");
-  command->add_option("--size", options->size, "how large, where the scenario scales")
-      ->check(CLI::PositiveNumber);
+  add_size(*command, options->size);
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
   command->add_option("--timeout", options->timeout, "s after which a run is stopped (default 300)")
       ->type_name("T");

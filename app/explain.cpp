@@ -29,8 +29,7 @@ void add_explain(CLI::App& app, Action& chosen) {
   CLI::Option* engine =
       command->add_option("--engine", options->engine, "one of plumb's own (default plumb)");
   command->add_flag("--precise", options->precise, "short for --engine plumb-precise")->excludes(engine);
-  command->add_option("--size", options->size, "how large, where the scenario scales")
-      ->check(CLI::PositiveNumber);
+  add_size(*command, options->size);
   options->settings.add_to(*command);
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));

@@ -98,8 +98,7 @@ void add_run(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("NAME|FILE");
   command->add_option("--engine", options->engine, "see `plumb engines` (default plumb)");
-  command->add_option("--size", options->size, "how large, where the scenario scales")
-      ->check(CLI::PositiveNumber);
+  add_size(*command, options->size);
   options->settings.add_to(*command);
   command
       ->add_option("--duration", options->duration, "s (default: the scenario's, 10 for a file's own scene)")

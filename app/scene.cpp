@@ -20,8 +20,7 @@ void add_scene(CLI::App& app, Action& chosen) {
   command->add_option("name", options->name, "a scenario, or a file to check and print")
       ->required()
       ->type_name("NAME|FILE");
-  command->add_option("--size", options->size, "how large, where the scenario scales")
-      ->check(CLI::PositiveNumber);
+  add_size(*command, options->size);
   command->footer(
       "Examples:\n  plumb scene elastic_collision/oblique\n  plumb scene pendulum_chain --size 20 > "
       "chain.json");

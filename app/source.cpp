@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
@@ -46,6 +47,16 @@ double duration_of(const Scene& scene, double otherwise) {
 }
 
 }  // namespace
+
+void add_size(CLI::App& command, int& size) {
+  command.add_option("--size", size, "how large, where the scenario scales")
+      ->type_name("N")
+      ->check([](const std::string& text) -> std::string {
+        int number = 0;
+        const bool whole = CLI::detail::lexical_cast(text, number);
+        return whole && number > 0 ? "" : fmt::format("'{}' is no size: give a whole number above 0", text);
+      });
+}
 
 scenarios::Instance one_instance(const std::string& name, int size) {
   const std::vector<scenarios::Instance> members = scenarios::select(name, size);

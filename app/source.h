@@ -5,6 +5,10 @@
 #include "engine/scene/scene.h"
 #include "scenarios/scenario.h"
 
+namespace CLI {
+class App;
+}
+
 namespace plumb::app {
 
 /// A scene to run, and for how long if nothing else is said.
@@ -12,6 +16,9 @@ struct Source {
   Scene scene;
   double duration = 10;  ///< s
 };
+
+/// Adds --size: how large a scenario that scales is.
+void add_size(CLI::App& command, int& size);
 
 /// The one instance that `name` means. Where it means several, the first, with a word about the others on
 /// stderr.

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"scenario", {"run", "free_fal"}, {"free_fal", "did you mean 'free_fall'", "plumb list"}},
         Bad{"variant", {"scene", "free_fall/vacum"}, {"vacum", "did you mean 'vacuum'"}},
         Bad{"size_zero", {"scene", "pendulum_chain[0]"}, {"size is 0"}},
-        Bad{"size_negative", {"scene", "pendulum_chain", "--size", "-3"}, {"--size"}},
+        Bad{"size_negative", {"scene", "pendulum_chain", "--size", "-3"}, {"--size", "-3", "above 0"}},
         Bad{"size_not_taken", {"scene", "free_fall", "--size", "7"}, {"size"}},
         Bad{"engine",
             {"run", "free_fall/vacuum", "--engine", "box2e"},
