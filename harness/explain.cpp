@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
-#include "engine/world/world.h"
+#include "engine/simulation/simulation.h"
 #include "harness/truth_table.h"
 
 namespace plumb::harness {
@@ -22,7 +22,7 @@ constexpr double kSeconds = 0.5;  // of wall time a measurement
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // Steps the world at most `steps` times, within the time allowed; returns how many and how long.
-std::pair<int, double> advance(World& world, int steps) {
+std::pair<int, double> advance(Simulation& world, int steps) {
   const Clock::time_point start = Clock::now();
   int done = 0;
   while (done < steps && since(start) < kSeconds) {
@@ -75,11 +75,11 @@ Explanation explain(const Scene& scene, const reference::Backend& backend,
   out.settings = backend.effective_settings(scene, settings);
   const int steps = step_count(duration, settings.dt);
 
-  World plain = compile(scene, accuracy);
+  Simulation plain = compile(scene, accuracy);
   const auto [plain_steps, nanoseconds] = advance(plain, steps);
   out.ns_per_step = nanoseconds / plain_steps;
 
-  World world = compile(scene, accuracy);
+  Simulation world = compile(scene, accuracy);
   world.profile(true);
   out.steps = advance(world, plain_steps).first;
   out.plan = world.plan();

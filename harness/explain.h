@@ -3,8 +3,8 @@
 #include <string>
 
 #include "engine/scene/scene.h"
-#include "engine/world/accuracy.h"
-#include "engine/world/plan.h"
+#include "engine/simulation/accuracy.h"
+#include "engine/simulation/plan.h"
 #include "harness/style.h"
 #include "reference/backend.h"
 

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "engine/scene/text.h"
-#include "engine/world/world.h"
+#include "engine/simulation/simulation.h"
 #include "reference/backend.h"
 #include "reference/support/settings.h"
 
@@ -19,7 +19,7 @@ constexpr Precise kPrecise;
 
 class PlumbSimulator final : public Simulator {
  public:
-  explicit PlumbSimulator(World world) : world_(std::move(world)) {}
+  explicit PlumbSimulator(Simulation world) : world_(std::move(world)) {}
 
   double advance(int steps) override {
     const auto start = std::chrono::steady_clock::now();
@@ -30,10 +30,10 @@ class PlumbSimulator final : public Simulator {
   void read(std::span<BodyState> out) const override { world_.read(out); }
 
  private:
-  World world_;
+  Simulation world_;
 };
 
-/// What the three backends have in common: settings become an Accuracy, and the World does the rest.
+/// What the three backends have in common: settings become an Accuracy, and the Simulation does the rest.
 class PlumbBackend : public Backend {
  public:
   PlumbBackend(std::string_view name, std::string_view summary, Precision precision)

@@ -1,25 +1,11 @@
 #pragma once
 
-#include "engine/math/vec2.h"
+#include "engine/math/pose.h"
 
 namespace plumb {
 
 /// Index of the fixed frame where a body's index stands.
 inline constexpr int kFixedFrame = -1;
-
-/// Where a body is, as a constraint sees it.
-template <class Real>
-struct Pose {
-  Vec2<Real> position{};
-  Rotation<Real> rotation{};
-};
-
-/// How a body moves.
-template <class Real>
-struct Twist {
-  Vec2<Real> velocity{};
-  Real angular_velocity = 0;
-};
 
 /// One scalar constraint C(q) = 0 between two bodies, linearised: dC/dt = J v.
 template <class Real>

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/scene.h"
-#include "engine/world/world.h"
+#include "engine/simulation/simulation.h"
 
 namespace plumb {
 
@@ -37,7 +37,7 @@ class ClosedForm : public testing::TestWithParam<Precision> {
   }
 
   BodyState after_a_second(const Scene& scene) const {
-    World world = compile(scene, Realtime{.dt = kTime / kSteps, .precision = GetParam()});
+    Simulation world = compile(scene, Realtime{.dt = kTime / kSteps, .precision = GetParam()});
     world.step(kSteps);
     return world.state(scene.bodies.size() - 1);
   }

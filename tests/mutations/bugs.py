@@ -5,10 +5,10 @@ from mutate import Mutation
 
 MUTATIONS = [
     # Forces and torques.
-    Mutation("gravity twice, realtime", "engine/world/realtime.cpp",
+    Mutation("gravity twice, realtime", "engine/simulation/realtime.cpp",
              "bodies_.acceleration[body].velocity = gravity_;",
              "bodies_.acceleration[body].velocity = gravity_ + gravity_;"),
-    Mutation("gravity twice, precise flight", "engine/world/precise_flight.cpp",
+    Mutation("gravity twice, precise flight", "engine/simulation/precise_flight.cpp",
              "? gravity_ : Vec2d{}", "? gravity_ + gravity_ : Vec2d{}"),
     Mutation("flipped r x F", "engine/forces/point_force.h",
              "cross(pose.rotation * point, acting)", "cross(acting, pose.rotation * point)"),
@@ -26,19 +26,19 @@ MUTATIONS = [
              "box.height * box.height) / 12", "box.height * box.height) / 6"),
     Mutation("inertia of a ring for a disc", "engine/scene/scene.cpp",
              "return circle.radius * circle.radius / 2;", "return circle.radius * circle.radius;"),
-    Mutation("mass for inverse mass, realtime", "engine/world/realtime.cpp",
+    Mutation("mass for inverse mass, realtime", "engine/simulation/realtime.cpp",
              "dynamic ? 1 / body.mass : 0", "dynamic ? body.mass : 0"),
-    Mutation("mass for inverse mass, precise", "engine/world/precise_motion.cpp",
+    Mutation("mass for inverse mass, precise", "engine/simulation/precise_motion.cpp",
              "inverse.mass[i] = 1 / body.mass;", "inverse.mass[i] = body.mass;"),
 
     # Time stepping.
-    Mutation("a lost substep", "engine/world/realtime.cpp",
+    Mutation("a lost substep", "engine/simulation/realtime.cpp",
              "substep < accuracy_.substeps;", "substep + 1 < accuracy_.substeps;"),
-    Mutation("the second half kick is missing", "engine/world/velocity_verlet.cpp",
+    Mutation("the second half kick is missing", "engine/simulation/velocity_verlet.cpp",
              "kick(half); }); // v += a' h/2", "}); // v += a' h/2"),
     Mutation("a wrong digit in a Runge-Kutta weight", "engine/integrate/dop853_coefficients.h",
              "3.1116436695781989440891606237e-1", "3.1116463695781989440891606237e-1"),
-    Mutation("flight falls g t^2", "engine/world/precise_flight.cpp",
+    Mutation("flight falls g t^2", "engine/simulation/precise_flight.cpp",
              "(0.5 * s) * arc.motion.acceleration", "s * arc.motion.acceleration"),
 
     # Joints.
@@ -48,7 +48,7 @@ MUTATIONS = [
              "arm_a.y, -arm_b.y", "arm_a.y, arm_b.y"),
     Mutation("centripetal bias the wrong way", "engine/joints/revolute.cpp",
              "spin_a * arm_a - spin_b * arm_b", "spin_b * arm_b - spin_a * arm_a"),
-    Mutation("no projection on the joints", "engine/world/realtime.cpp",
+    Mutation("no projection on the joints", "engine/simulation/realtime.cpp",
              "stage(JointHold, [&] { joints_->finish_hold(bodies_, h); });", ""),
 
     # Contacts.
@@ -59,7 +59,7 @@ MUTATIONS = [
              "jump_[contact.a].velocity += contact.inverse_mass_a * impulse;"),
     Mutation("restitution from the wrong velocity, realtime", "engine/solve/impact.cpp",
              "-impact.restitution * impact.velocity[i]", "-impact.restitution * impact.velocity[i + 1]"),
-    Mutation("restitution from the wrong velocity, precise", "engine/world/precise_impacts.cpp",
+    Mutation("restitution from the wrong velocity, precise", "engine/simulation/precise_impacts.cpp",
              "-(1 + restitution) * speed;", "-speed - restitution * slip;"),
     Mutation("impacts at the wrong time", "engine/solve/time_of_contact.cpp",
              "t - point.separation / speed", "t + point.separation / speed"),

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/world/world.h"
+#include "engine/simulation/simulation.h"
 
 int main() {
   plumb::Scene scene;
   scene.bodies.push_back({.name = "ball", .position = {0, 10}, .shapes = {{.geometry = plumb::Circle{0.5}}}});
 
-  plumb::World world = plumb::compile(scene);
+  plumb::Simulation world = plumb::compile(scene);
   world.step(60);
 
   const double height = world.state(0).position.y;

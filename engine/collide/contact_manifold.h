@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/geometry/convex.h"
+#include "engine/math/pose.h"
+
+namespace plumb {
+
+/// Where shape b touches shape a, or will touch it first, in the frame of a's body.
+template <class Real>
+struct ContactManifoldPoint {
+  Vec2<Real> point{};         ///< m, half-way between the two surfaces
+  Real separation = 0;        ///< m, negative where they overlap
+  std::uint16_t feature = 0;  ///< which corner or edge met which: the same while the touching goes on
+};
+
+/// Up to two points with one normal.
+template <class Real>
+struct ContactManifold {
+  Vec2<Real> normal{};  ///< unit, from a to b
+  int count = 0;
+  ContactManifoldPoint<Real> points[2];
+};
+
+/// The manifold of two rounded convex shapes. The corners of `a` stand in the frame of a's body, those of `b`
+/// in the frame of b's body, which lies at `b_in_a`. Points farther apart than `reach` (m, >= 0) are left
+/// out.
+template <class Real>
+ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                     Real reach);
+
+/// The same for one segment of a chain, which has a front only: to the right of the way from its first
+/// corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame. What
+/// slides along the chain meets no seam: normals that belong to a neighbour are left to it.
+template <class Real>
+ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach);
+
+}  // namespace plumb

@@ -1,0 +1,65 @@
+#include "engine/simulation/accuracy.h"
+
+#include <cmath>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+
+namespace plumb {
+namespace {
+
+void require_positive(double value, const char* driver, const char* field, const char* unit) {
+  if (std::isfinite(value) && value > 0) return;
+  throw Error(Error::Kind::Value, driver, field, shortest(value),
+              std::string("must be a positive number") + unit);
+}
+
+void require_at_least_one(int value, const char* field) {
+  if (value >= 1) return;
+  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value), "must be at least 1");
+}
+
+void require_known(int value, int last, const char* field) {
+  if (value >= 0 && value <= last) return;
+  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value), "is not one of the known kinds");
+}
+
+}  // namespace
+
+std::string_view name_of(Precision precision) { return precision == Precision::Float ? "float" : "double"; }
+
+std::string_view name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::VelocityVerlet:
+      return "velocity_verlet";
+    case Integrator::SemiImplicitEuler:
+      return "semi_implicit_euler";
+    case Integrator::ExplicitEuler:
+      return "explicit_euler";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(JointSolver joint_solver) {
+  return joint_solver == JointSolver::Direct ? "direct" : "iterative";
+}
+
+void validate(const Accuracy& accuracy) {
+  if (const auto* precise = std::get_if<Precise>(&accuracy)) {
+    require_positive(precise->tolerance, "precise", "tolerance", "");
+    require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
+    return;
+  }
+  const Realtime& realtime = std::get<Realtime>(accuracy);
+  require_positive(realtime.dt, "realtime", "dt", " of seconds");
+  require_at_least_one(realtime.substeps, "substeps");
+  require_at_least_one(realtime.iterations, "iterations");
+  require_known(static_cast<int>(realtime.precision), static_cast<int>(Precision::Double), "precision");
+  require_known(static_cast<int>(realtime.integrator), static_cast<int>(Integrator::ExplicitEuler),
+                "integrator");
+  require_known(static_cast<int>(realtime.joint_solver), static_cast<int>(JointSolver::Iterative),
+                "joint_solver");
+}
+
+}  // namespace plumb

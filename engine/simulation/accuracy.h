@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+/// The two honest ways to step: a fixed step that is cheap, or a tolerance that is met.
+namespace plumb {
+
+enum class Precision { Float, Double };
+
+/// How velocities and positions follow from forces. The two Euler schemes are those of the course.
+enum class Integrator {
+  VelocityVerlet,     ///< second order; free flight under constant force is exact
+  SemiImplicitEuler,  ///< first order: v += h a, then x += h v; falls g h t / 2 too far
+  ExplicitEuler,      ///< first order: x += h v, then v += h a; falls g h t / 2 too little; gains energy
+};
+
+/// How joints are held in Realtime.
+enum class JointSolver {
+  Direct,     ///< sparse factorisation of all joints at once: no stretch, linear in the length of a chain
+  Iterative,  ///< sequential impulses, one joint after another
+};
+
+/// Fixed steps.
+struct Realtime {
+  double dt = 1.0 / 60;  ///< s, > 0
+  int substeps = 4;      ///< >= 1
+  int iterations = 4;    ///< sweeps over contacts (and iterative joints) a substep, >= 1
+  Precision precision = Precision::Double;
+  Integrator integrator = Integrator::VelocityVerlet;
+  JointSolver joint_solver = JointSolver::Direct;
+  friend bool operator==(const Realtime&, const Realtime&) = default;
+};
+
+/// Adaptive high-order steps in double; impacts are located in time.
+struct Precise {
+  double tolerance = 1e-9;   ///< local error a step, relative to the scene's own length and speed, > 0
+  double max_dt = 1.0 / 60;  ///< s, > 0; also what `Simulation::step` advances by
+  friend bool operator==(const Precise&, const Precise&) = default;
+};
+
+using Accuracy = std::variant<Realtime, Precise>;
+
+std::string_view name_of(Precision precision);  ///< "float", "double"
+std::string_view name_of(
+    Integrator integrator);  ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
+std::string_view name_of(JointSolver joint_solver);  ///< "direct", "iterative"
+
+/// Throws `Error` (Value) that names the setting: dt <= 0, substeps < 1, a tolerance that is not positive.
+void validate(const Accuracy& accuracy);
+
+}  // namespace plumb

@@ -1,0 +1,54 @@
+#include <bit>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/validate.h"
+#include "engine/simulation/precise.h"
+#include "engine/simulation/realtime.h"
+#include "engine/simulation/simulation.h"
+
+namespace plumb {
+namespace {
+
+/// Mixes a word into a 64-bit hash (FNV-1a's step).
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) { return (hash ^ word) * 0x100000001b3ull; }
+
+std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
+  std::uint64_t out = mixed(hash(scene), accuracy.index());
+  if (const auto* precise = std::get_if<Precise>(&accuracy)) {
+    out = mixed(out, std::bit_cast<std::uint64_t>(precise->tolerance));
+    return mixed(out, std::bit_cast<std::uint64_t>(precise->max_dt));
+  }
+  const Realtime& realtime = std::get<Realtime>(accuracy);
+  out = mixed(out, std::bit_cast<std::uint64_t>(realtime.dt));
+  for (const int number : {realtime.substeps, realtime.iterations, static_cast<int>(realtime.precision),
+                           static_cast<int>(realtime.integrator), static_cast<int>(realtime.joint_solver)})
+    out = mixed(out, static_cast<std::uint64_t>(number));
+  return out;
+}
+
+std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy, CompileOptions options) {
+  if (const auto* precise = std::get_if<Precise>(&accuracy))
+    return make_precise_driver(scene, *precise, options);
+  const Realtime& realtime = std::get<Realtime>(accuracy);
+  if (realtime.precision == Precision::Float)
+    return std::make_unique<RealtimeDriver<float>>(scene, realtime, options.every_stage);
+  return std::make_unique<RealtimeDriver<double>>(scene, realtime, options.every_stage);
+}
+
+}  // namespace
+
+Simulation compile(const Scene& scene, const Accuracy& accuracy, CompileOptions options) {
+  validate(scene);
+  validate(accuracy);
+  if (const std::string reason = unsupported(scene, accuracy); !reason.empty())
+    throw Error(Error::Kind::Unsupported, "scene '" + scene.name + "'", "", "", reason);
+  return {make_driver(scene, accuracy, options), scene.bodies.size(), identity_of(scene, accuracy)};
+}
+
+std::string unsupported(const Scene& scene, const Accuracy& accuracy) {
+  if (std::holds_alternative<Precise>(accuracy)) return precise_unsupported(scene);
+  return realtime_unsupported(scene, std::get<Realtime>(accuracy));
+}
+
+}  // namespace plumb

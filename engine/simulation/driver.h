@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/simulation/plan.h"
+
+namespace plumb {
+
+/// What a run did so far.
+struct Statistics {
+  std::int64_t steps = 0;        ///< Realtime: substeps; Precise: accepted steps
+  std::int64_t rejected = 0;     ///< Precise: steps that were redone with a smaller one
+  std::int64_t impacts = 0;      ///< velocity jumps that were resolved
+  std::int64_t evaluations = 0;  ///< evaluations of the accelerations
+};
+
+/// A way of moving compiled bodies forward in time. One virtual call a step, none a body.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+
+  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step
+  /// when a state is not finite or a work limit is met.
+  virtual void step() = 0;
+  virtual double time() const = 0;  ///< s
+  virtual void read(std::span<BodyState> out) const = 0;
+
+  /// Overwrites the motion of one body; what was cached about its contacts is forgotten.
+  virtual void write(std::size_t body, const BodyState& state) = 0;
+
+  /// All that the future depends on, warm starting included: restoring and going on gives the same bits.
+  virtual std::vector<std::byte> save() const = 0;
+  virtual void restore(std::span<const std::byte> snapshot) = 0;
+
+  virtual const Plan& plan() const = 0;
+  virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off
+  virtual Statistics statistics() const = 0;
+};
+
+}  // namespace plumb

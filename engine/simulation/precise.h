@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/scene/scene.h"
+#include "engine/simulation/accuracy.h"
+#include "engine/simulation/driver.h"
+#include "engine/simulation/simulation.h"
+
+namespace plumb {
+
+/// The driver of `Precise`, for a valid scene that it supports. What it does, body by body:
+/// - free flight under constant forces is a polynomial and is evaluated, not integrated: exact to rounding;
+/// - all else is integrated by DOP853 with step control, joints held by their accelerations and, after each
+/// step,
+///   by a projection of positions and velocities onto the constraints;
+/// - circles' impacts are located in time and resolved there: Newton's restitution, Coulomb's friction.
+/// Steps end on the grid of max_dt, where forces are switched, and at impacts.
+///
+/// `Precise::tolerance` bounds the error that a step adds: each is redone until its estimate is below a
+/// hundredth of the tolerance, in units of the scene's length (positions), speed (velocities; a body's own
+/// where that is more) and one radian. Errors of a whole run are then about the tolerance or less where the
+/// motion does not amplify them. Joints that start open are closed at once.
+std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
+                                            CompileOptions options);
+
+/// Empty, or why `Precise` cannot run `scene` (a valid one).
+std::string precise_unsupported(const Scene& scene);
+
+}  // namespace plumb

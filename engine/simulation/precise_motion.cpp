@@ -1,0 +1,287 @@
+#include "engine/simulation/precise_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+#include "engine/math/trigonometry.h"
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+#include "engine/simulation/precise_clock.h"
+
+namespace plumb::precise {
+namespace {
+
+/// The scene with the laws on integrated bodies alone: those on bodies that fly are in their polynomials.
+Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  Scene part = scene;
+  std::erase_if(part.forces, [&](const ForceLaw& law) {
+    const auto body =
+        find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
+    return !std::binary_search(bodies.begin(), bodies.end(), *body);
+  });
+  return part;
+}
+
+std::vector<std::string> joint_names_by_row(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Joint& joint : scene.joints) {
+    if (const auto* revolute = std::get_if<RevoluteJoint>(&joint))
+      names.insert(names.end(), 2, revolute->name);
+  }
+  for (const Joint& joint : scene.joints) {
+    if (const auto* distance = std::get_if<DistanceJoint>(&joint)) names.push_back(distance->name);
+  }
+  return names;
+}
+
+std::vector<Row<double>> pattern(const Joints<double>& joints, std::size_t bodies) {
+  std::vector<Row<double>> rows(joints.row_count());
+  const std::vector<Pose<double>> poses(bodies);
+  const std::vector<Twist<double>> twists(bodies);
+  joints.rows(poses, twists, rows);
+  return rows;
+}
+
+struct InverseMasses {
+  std::vector<double> mass, inertia;
+};
+
+InverseMasses inverse_masses(const Scene& scene) {
+  InverseMasses inverse{std::vector<double>(scene.bodies.size(), 0.0),
+                        std::vector<double>(scene.bodies.size(), 0.0)};
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.type != BodyType::Dynamic) continue;
+    inverse.mass[i] = 1 / body.mass;
+    const double inertia = inertia_of(body);
+    inverse.inertia[i] = inertia > 0 ? 1 / inertia : 0;
+  }
+  return inverse;
+}
+
+std::vector<double> only(const std::vector<double>& values, const std::vector<std::size_t>& bodies) {
+  std::vector<double> some(values.size(), 0.0);
+  for (const std::size_t i : bodies) some[i] = values[i];
+  return some;
+}
+
+}  // namespace
+
+EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight,
+                                     bool every_stage)
+    : bodies_(parts.integrated),
+      flight_(flight),
+      gravity_(scene.gravity),
+      forces_(with_laws_on(scene, parts.integrated)),
+      joints_(compile_joints<double>(scene)),
+      joint_of_row_(joint_names_by_row(scene)),
+      rows_(pattern(joints_, scene.bodies.size())),
+      inverse_mass_(inverse_masses(scene).mass),
+      inverse_inertia_(inverse_masses(scene).inertia),
+      joint_inverse_mass_(only(inverse_mass_, parts.integrated)),
+      joint_inverse_inertia_(only(inverse_inertia_, parts.integrated)),
+      poses_(scene.bodies.size()),
+      twists_(scene.bodies.size()),
+      accelerations_(scene.bodies.size()),
+      wrenches_(scene.bodies.size()),
+      system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
+      right_side_(rows_.size()),
+      multipliers_(rows_.size()),
+      has_forces_(!forces_.empty() || every_stage),
+      has_joints_(!rows_.empty() || every_stage),
+      length_(scales_of(scene, parts).length) {
+  double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
+  for (const Row<double>& row : rows_) {
+    for (const int body : {row.a, row.b}) {
+      if (body == kFixedFrame) continue;
+      const auto i = static_cast<std::size_t>(body);
+      if (flight_.holds(i)) {
+        guides_.push_back(i);
+      } else {
+        lightest = std::max(lightest, inverse_mass_[i]);
+        heaviest = std::min(heaviest, inverse_mass_[i]);
+      }
+    }
+  }
+  std::sort(guides_.begin(), guides_.end());
+  guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
+  wide_mass_ratio_ = lightest > 100 * heaviest;
+}
+
+BodyState EquationsOfMotion::state(std::span<const double> y, std::size_t slot) {
+  const double* p = y.data() + kPerBody * slot;
+  return {{p[0], p[1]}, p[2], {p[3], p[4]}, p[5]};
+}
+
+void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodyState& state) {
+  const double values[kPerBody] = {state.position.x, state.position.y, state.angle,
+                                   state.velocity.x, state.velocity.y, state.angular_velocity};
+  for (std::size_t i = 0; i < kPerBody; ++i) y.set(kPerBody * slot + i, values[i]);
+}
+
+void EquationsOfMotion::place(double time, std::span<const double> y) {
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const BodyState now = state(y, slot);
+    poses_[bodies_[slot]] = {now.position, rotation_of(now.angle)};
+    twists_[bodies_[slot]] = {now.velocity, now.angular_velocity};
+  }
+  for (const std::size_t body : guides_) {
+    const BodyState now = flight_.at(body, time).state;
+    poses_[body] = {now.position, rotation_of(now.angle)};
+    twists_[body] = {now.velocity, now.angular_velocity};
+  }
+}
+
+void EquationsOfMotion::linearise() {
+  joints_.rows(poses_, twists_, rows_);
+  system_.factor(rows_);
+}
+
+/// multipliers = A^-1 right_side.
+void EquationsOfMotion::solve_joints() {
+  std::copy(right_side_.begin(), right_side_.end(), multipliers_.begin());
+  system_.solve(multipliers_);
+  if (wide_mass_ratio_) system_.refine(rows_, right_side_, multipliers_);
+}
+
+/// motion += M^-1 J^T multipliers.
+void EquationsOfMotion::pull(std::span<Twist<double>> motion) const {
+  const auto add = [&](int body, Vec2d linear, double angular, double multiplier) {
+    if (body == kFixedFrame) return;
+    motion[body].velocity += (joint_inverse_mass_[body] * multiplier) * linear;
+    motion[body].angular_velocity += joint_inverse_inertia_[body] * multiplier * angular;
+  };
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    add(rows_[i].a, rows_[i].linear_a, rows_[i].angular_a, multipliers_[i]);
+    add(rows_[i].b, rows_[i].linear_b, rows_[i].angular_b, multipliers_[i]);
+  }
+}
+
+/// J v for one row.
+double EquationsOfMotion::row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const {
+  const auto along = [&](int body, Vec2d linear, double angular) {
+    if (body == kFixedFrame) return 0.0;
+    return dot(linear, motion[body].velocity) + angular * motion[body].angular_velocity;
+  };
+  return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
+}
+
+void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
+  ++evaluations_;
+  place(time, y);
+  for (const std::size_t body : bodies_) wrenches_[body] = {};
+  if (has_forces_) {
+    const Clock clock(cost.on, cost.forces);
+    forces_.add(window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
+  }
+  for (const std::size_t body : bodies_) {
+    accelerations_[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
+                            inverse_inertia_[body] * wrenches_[body].torque};
+  }
+  if (has_joints_) {
+    const Clock clock(cost.on, cost.joints);
+    linearise();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      right_side_[i] = -(row_speed(rows_[i], accelerations_) + rows_[i].bias_acceleration);
+    }
+    solve_joints();
+    pull(accelerations_);
+  }
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const Twist<double>& acceleration = accelerations_[bodies_[slot]];
+    const double* motion = y.data() + kPerBody * slot;
+    double* change = out.data() + kPerBody * slot;
+    for (int i = 0; i < 3; ++i) change[i] = motion[3 + i];
+    change[3] = acceleration.velocity.x;
+    change[4] = acceleration.velocity.y;
+    change[5] = acceleration.angular_velocity;
+  }
+}
+
+void EquationsOfMotion::project(double time, Compensated& y) {
+  if (!has_joints_) return;
+  close_gaps(time, y);
+  // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
+  system_.factor(rows_);
+  for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
+  solve_joints();
+  std::fill(accelerations_.begin(), accelerations_.end(), Twist<double>{});
+  pull(accelerations_);
+  kick(accelerations_, 1, y);
+}
+
+/// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
+void EquationsOfMotion::close_gaps(double time, Compensated& y) {
+  constexpr int kMost = 20;
+  constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
+  std::vector<Twist<double>>& shift = accelerations_;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
+    place(time, y.value());
+    joints_.rows(poses_, twists_, rows_);
+    double gap = 0;
+    std::size_t worst = 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      if (std::abs(rows_[r].residual) <= gap) continue;
+      gap = std::abs(rows_[r].residual);
+      worst = r;
+    }
+    const bool stuck = gap > 0.5 * before || i == kMost;
+    if (gap <= rounding_of_gaps() || (stuck && gap <= kOpen * length_)) return;
+    if (i == kMost || !std::isfinite(gap)) {
+      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst] + "'", "gap", shortest(gap) + " m",
+                  "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
+    }
+    before = gap;
+    system_.factor(rows_);
+    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
+    solve_joints();
+    std::fill(shift.begin(), shift.end(), Twist<double>{});
+    pull(shift);
+    for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+      const Twist<double>& s = shift[bodies_[slot]];
+      y.add(kPerBody * slot, s.velocity.x);
+      y.add(kPerBody * slot + 1, s.velocity.y);
+      y.add(kPerBody * slot + 2, s.angular_velocity);
+    }
+  }
+}
+
+/// What gaps cannot be less than: the rounding of the positions that they are differences of.
+double EquationsOfMotion::rounding_of_gaps() const {
+  double extent = length_;
+  for (const std::size_t body : bodies_) {
+    extent = std::max({extent, std::abs(poses_[body].position.x), std::abs(poses_[body].position.y)});
+  }
+  return 4 * std::numeric_limits<double>::epsilon() * extent;
+}
+
+void EquationsOfMotion::kick(std::span<const Twist<double>> response, double scale, Compensated& y) const {
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const Twist<double>& change = response[bodies_[slot]];
+    y.add(kPerBody * slot + 3, scale * change.velocity.x);
+    y.add(kPerBody * slot + 4, scale * change.velocity.y);
+    y.add(kPerBody * slot + 5, scale * change.angular_velocity);
+  }
+}
+
+void EquationsOfMotion::respond(double time, std::span<const double> y, const Row<double>& contact,
+                                std::span<Twist<double>> response) {
+  std::fill(response.begin(), response.end(), Twist<double>{});
+  response[contact.a] = {inverse_mass_[contact.a] * contact.linear_a,
+                         inverse_inertia_[contact.a] * contact.angular_a};
+  response[contact.b] = {inverse_mass_[contact.b] * contact.linear_b,
+                         inverse_inertia_[contact.b] * contact.angular_b};
+  if (!has_joints_) return;
+  // Joints push back so that the anchors' velocities stay as they are: J dv = 0.
+  place(time, y);
+  linearise();
+  for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], response);
+  solve_joints();
+  pull(response);
+}
+
+}  // namespace plumb::precise

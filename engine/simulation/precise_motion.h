@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/forces/laws.h"
+#include "engine/integrate/compensated.h"
+#include "engine/integrate/flow.h"
+#include "engine/joints/joints.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/joint_system.h"
+#include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_parts.h"
+
+namespace plumb::precise {
+
+/// The equations of motion of the integrated bodies, in maximal coordinates: y holds position, angle,
+/// velocity and angular velocity of each, six numbers a body. Joints act through the accelerations that they
+/// allow,
+///   M a = F + J^T lambda,   J a + (dJ/dt) v = 0.
+class EquationsOfMotion final : public Flow {
+ public:
+  static constexpr std::size_t kPerBody = 6;
+
+  /// `every_stage`: forces and joints are gone through even where there are none.
+  EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage);
+
+  std::size_t dimension() const { return kPerBody * bodies_.size(); }
+
+  /// Switched forces act with their share of this time in all that follows.
+  void set_window(double start, double end) { window_start_ = start, window_end_ = end; }
+
+  /// dy/dt. Counts as one evaluation.
+  void rate(double time, std::span<const double> y, std::span<double> out) override;
+  std::int64_t evaluations() const { return evaluations_; }
+  void set_evaluations(std::int64_t count) { evaluations_ = count; }
+
+  /// Moves positions and angles by the least mass-weighted amount that closes all joints, to rounding; then
+  /// velocities likewise until they keep them closed. Throws `Error` (Run) where joints cannot be closed.
+  void project(double time, Compensated& y);
+
+  /// The change of every integrated body's motion, and of the bodies of `contact`, by a unit impulse along
+  /// that row, joints included; indexed by body. `y` is the state at `time`.
+  void respond(double time, std::span<const double> y, const Row<double>& contact,
+               std::span<Twist<double>> response);
+
+  /// Adds `scale` times `response` to the velocities in `y`.
+  void kick(std::span<const Twist<double>> response, double scale, Compensated& y) const;
+
+  double inverse_mass(std::size_t body) const { return inverse_mass_[body]; }
+  double inverse_inertia(std::size_t body) const { return inverse_inertia_[body]; }
+
+  std::span<const std::size_t> bodies() const { return bodies_; }
+  static BodyState state(std::span<const double> y, std::size_t slot);
+  static void set_state(Compensated& y, std::size_t slot, const BodyState& state);
+
+  /// Time spent in each part while clocks are on, ns.
+  struct Cost {
+    bool on = false;
+    double forces = 0, joints = 0;
+  };
+  Cost cost;
+
+ private:
+  void place(double time, std::span<const double> y);
+  void linearise();
+  void close_gaps(double time, Compensated& y);
+  double rounding_of_gaps() const;
+  void solve_joints();
+  void pull(std::span<Twist<double>> motion) const;
+  double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
+
+  std::vector<std::size_t> bodies_;  // integrated, by slot
+  std::vector<std::size_t> guides_;  // not integrated, but with joints
+  const Flight& flight_;
+  Vec2d gravity_;
+  Forces<double> forces_;
+  Joints<double> joints_;
+  std::vector<std::string> joint_of_row_;
+  std::vector<Row<double>> rows_;
+  // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
+  // integrated ones alone: joints do not move what flies.
+  std::vector<double> inverse_mass_, inverse_inertia_, joint_inverse_mass_, joint_inverse_inertia_;
+  std::vector<Pose<double>> poses_;
+  std::vector<Twist<double>> twists_, accelerations_;
+  std::vector<Wrench<double>> wrenches_;
+  JointSystem<double> system_;
+  std::vector<double> right_side_, multipliers_;
+  bool has_forces_, has_joints_, wide_mass_ratio_ = false;
+  double window_start_ = 0, window_end_ = 0;
+  double length_ = 1;
+  std::int64_t evaluations_ = 0;
+};
+
+}  // namespace plumb::precise

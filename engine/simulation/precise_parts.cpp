@@ -1,0 +1,185 @@
+#include "engine/simulation/precise_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <variant>
+
+#include "engine/simulation/precise.h"
+
+namespace plumb::precise {
+namespace {
+
+using Index = std::map<std::string_view, std::size_t>;
+
+Index index_of_bodies(const Scene& scene) {
+  Index index;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index.emplace(scene.bodies[i].name, i);
+  return index;
+}
+
+std::string_view body_of(const ForceLaw& law) {
+  return std::visit([](const auto& l) -> std::string_view { return l.body; }, law);
+}
+
+/// Whether a law's wrench on its body stays the same between switching times, however the body moves.
+bool is_constant(const LinearDrag& law, const Body&) { return law.coefficient == 0; }
+bool is_constant(const QuadraticDrag& law, const Body&) { return law.coefficient == 0; }
+bool is_constant(const PointForce& law, const Body& body) {
+  const bool no_lever = law.point == Vec2d{} || body.fixed_rotation;
+  return law.force == Vec2d{} || (law.frame == Frame::World && no_lever);
+}
+bool is_constant(const Torque&, const Body&) { return true; }
+
+void add_window(const ForceLaw& law, std::vector<double>& switches) {
+  std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.start; }) {
+          for (const double time : {l.start, l.start + l.duration}) {
+            if (time > 0 && std::isfinite(time)) switches.push_back(time);
+          }
+        }
+      },
+      law);
+}
+
+void sort_unique(auto& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Bodies by index that a joint or a law that is not constant acts on.
+std::vector<char> not_flying(const Scene& scene, const Index& index) {
+  std::vector<char> result(scene.bodies.size(), 0);
+  const auto mark = [&](std::string_view name) {
+    if (name != kWorld) result[index.at(name)] = 1;
+  };
+  for (const Joint& joint : scene.joints) {
+    std::visit([&](const auto& j) { mark(j.body_a), mark(j.body_b); }, joint);
+  }
+  for (const ForceLaw& law : scene.forces) {
+    const Body& body = scene.bodies[index.at(body_of(law))];
+    if (!std::visit([&](const auto& l) { return is_constant(l, body); }, law)) mark(body_of(law));
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].type != BodyType::Dynamic) result[i] = 0;
+  }
+  return result;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> kept_apart(const Scene& scene, const Index& index) {
+  std::vector<std::pair<std::size_t, std::size_t>> apart;
+  for (const Joint& joint : scene.joints) {
+    std::visit(
+        [&](const auto& j) {
+          if (j.collide || j.body_a == kWorld || j.body_b == kWorld) return;
+          apart.push_back(std::minmax(index.at(j.body_a), index.at(j.body_b)));
+        },
+        joint);
+  }
+  sort_unique(apart);
+  return apart;
+}
+
+/// Whether `shape` of body `a` could touch any shape of another body; that other body, else `a`.
+std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const Shape& shape) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    for (const Shape& other : scene.bodies[b].shapes) {
+      if (may_meet(scene, parts, a, shape.filter, b, other.filter)) return b;
+    }
+  }
+  return a;
+}
+
+double extent(const Circle& circle) { return circle.radius; }
+double extent(const Box& box) { return 0.5 * std::sqrt(box.width * box.width + box.height * box.height); }
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+}  // namespace
+
+Parts divide(const Scene& scene) {
+  const Index index = index_of_bodies(scene);
+  Parts parts;
+  parts.apart = kept_apart(scene, index);
+  const std::vector<char> integrated = not_flying(scene, index);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    (integrated[i] ? parts.integrated : parts.flying).push_back(i);
+    for (const Shape& shape : scene.bodies[i].shapes) {
+      const Circle* circle = std::get_if<Circle>(&shape.geometry);
+      if (!circle || partner(scene, parts, i, shape) == i) continue;
+      parts.discs.push_back(
+          {i, shape.position, circle->radius, shape.friction, shape.restitution, shape.filter});
+    }
+  }
+  for (const ForceLaw& law : scene.forces) add_window(law, parts.switches);
+  sort_unique(parts.switches);
+  return parts;
+}
+
+bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const Filter& a, std::size_t body_b,
+              const Filter& b) {
+  if (body_a == body_b) return false;
+  const bool dynamic =
+      scene.bodies[body_a].type == BodyType::Dynamic || scene.bodies[body_b].type == BodyType::Dynamic;
+  return dynamic && may_touch(a, b) &&
+         !std::binary_search(parts.apart.begin(), parts.apart.end(),
+                             std::pair<std::size_t, std::size_t>(std::minmax(body_a, body_b)));
+}
+
+Scales scales_of(const Scene& scene, const Parts& parts) {
+  const Index index = index_of_bodies(scene);
+  double largest = 0, acceleration = length(scene.gravity), speed = 0;
+  for (const std::size_t i : parts.integrated) {
+    const Body& body = scene.bodies[i];
+    speed = std::max(speed, length(body.velocity));
+    for (const Shape& shape : body.shapes) {
+      largest = std::max(largest, std::visit([](const auto& g) { return extent(g); }, shape.geometry));
+    }
+  }
+  for (const Joint& joint : scene.joints) {
+    std::visit(
+        [&](const auto& j) {
+          if (j.body_a != kWorld) largest = std::max(largest, length(j.anchor_a));
+          if (j.body_b != kWorld) largest = std::max(largest, length(j.anchor_b));
+          if constexpr (requires { j.length; }) largest = std::max(largest, j.length);
+        },
+        joint);
+  }
+  for (const ForceLaw& law : scene.forces) {
+    const PointForce* force = std::get_if<PointForce>(&law);
+    if (!force) continue;
+    largest = std::max(largest, length(force->point));
+    acceleration = std::max(acceleration, length(force->force) / scene.bodies[index.at(force->body)].mass);
+  }
+  Scales scales;
+  if (largest > 0) scales.length = largest;
+  for (const std::size_t i : parts.integrated) {
+    speed = std::max(speed, scales.length * std::abs(scene.bodies[i].angular_velocity));
+  }
+  const double gained = std::sqrt(acceleration * scales.length);
+  scales.speed = gained > 0 ? gained : speed > 0 ? speed : scales.length;
+  return scales;
+}
+
+}  // namespace plumb::precise
+
+namespace plumb {
+
+std::string precise_unsupported(const Scene& scene) {
+  const precise::Parts parts = precise::divide(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    for (const Shape& shape : scene.bodies[i].shapes) {
+      if (!std::holds_alternative<Box>(shape.geometry)) continue;
+      const std::size_t other = precise::partner(scene, parts, i, shape);
+      if (other == i) continue;
+      return "body '" + scene.bodies[i].name + "' has a box that may touch body '" +
+             scene.bodies[other].name +
+             "': Precise locates impacts between circles only; filter the pair out or use Realtime";
+    }
+  }
+  return {};
+}
+
+}  // namespace plumb

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/forces/laws.h"
+#include "engine/solve/constants.h"
+#include "engine/solve/contact_solver.h"
+#include "engine/solve/impact_stage.h"
+#include "engine/solve/joint_method.h"
+#include "engine/simulation/contact_finder.h"
+#include "engine/simulation/driver.h"
+#include "engine/simulation/stages.h"
+
+namespace plumb {
+
+/// Fixed steps: detect, then for each substep forces, impulses, motion. The integrators' arithmetic stands in
+/// a file each: velocity_verlet.cpp, semi_implicit_euler.cpp, explicit_euler.cpp.
+template <class Real>
+class RealtimeDriver final : public Driver {
+ public:
+  /// The scene and the accuracy are valid and supported.
+  RealtimeDriver(const Scene& scene, const Realtime& accuracy, bool every_stage);
+
+  void step() override;
+  double time() const override;
+  void read(std::span<BodyState> out) const override;
+  void write(std::size_t body, const BodyState& state) override;
+  std::vector<std::byte> save() const override;
+  void restore(std::span<const std::byte> snapshot) override;
+  const Plan& plan() const override { return plan_; }
+  void profile(bool on) override;
+  Statistics statistics() const override { return statistics_; }
+
+ private:
+  using enum RealtimeStage;
+
+  /// Runs one stage of the plan if it is active, by the clock when profiling is on.
+  template <class Work>
+  void stage(RealtimeStage which, Work&& work) {
+    Stage& entry = plan_.stages[static_cast<std::size_t>(which)];
+    if (!entry.active) return;
+    if (!profiling_) return work();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    entry.nanoseconds +=
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  // Integrators: one substep of length h from time t.
+  void velocity_verlet(double t, Real h);
+  void semi_implicit_euler(double t, Real h);
+  void explicit_euler(double t, Real h);
+
+  // What they are made of.
+  void detect(Real dt);
+  void evaluate_forces(double t0, double t1, const std::vector<Twist<Real>>& twists);
+  void predict_velocities(Real duration);
+  void kick(Real duration);
+  void resolve_impacts(Real h);
+  void hold(Real h);
+  void relax(Real h);
+  void push_out(Real h);
+  void collide(Real h);
+  void drift(Real h);
+  void check();
+
+  /// The first step has no impulses to start from, and makes up for it.
+  int sweeps() const {
+    return step_ == 0 ? constants::kColdSweeps * accuracy_.iterations : accuracy_.iterations;
+  }
+
+  void set_motion(std::size_t body, const BodyState& state);
+  void roll_back();
+  bool contacts_active() const { return is_active(plan_, ContactHold); }
+  bool joints_active() const { return is_active(plan_, JointHold); }
+
+  Realtime accuracy_;
+  Plan plan_;
+  std::vector<std::string> names_;
+  std::vector<char> dynamic_, fixed_rotation_;  // by body
+  Bodies<Real> bodies_;
+  Vec2<Real> gravity_;
+  plumb::Forces<Real> forces_;
+  std::vector<Wrench<Real>> wrenches_;
+  std::vector<Twist<Real>> predicted_;
+  ContactSolver<Real> contact_solver_;
+  std::unique_ptr<ContactFinder<Real>> finder_;
+  std::vector<Contact<Real>> contacts_;
+  std::unique_ptr<ImpactStage<Real>> impacts_;
+  std::unique_ptr<JointMethod<Real>> joints_;
+  std::vector<Pose<Real>> last_pose_;  // at the step's start, to come back to when it fails
+  std::vector<Real> last_angle_;
+  std::vector<Twist<Real>> last_twist_;
+  std::int64_t step_ = 0;
+  bool profiling_ = false;
+  bool contacts_changed_ = true;  // since the impact stage looked at them
+  Statistics statistics_;
+};
+
+/// Empty, or why a Realtime driver cannot run `scene` (a valid one).
+std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy);
+
+}  // namespace plumb

@@ -1,0 +1,129 @@
+#include "engine/simulation/simulation.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+#include "engine/simulation/snapshot.h"
+
+namespace plumb {
+namespace {
+
+/// 64-bit FNV-1a (Fowler, Noll and Vo) over bytes, the least significant of a word first.
+class Fnv1a {
+ public:
+  void add_byte(std::uint64_t byte) { value_ = (value_ ^ (byte & 0xFF)) * 0x100000001b3ull; }
+  void add(double number) {
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    for (int shift = 0; shift < 64; shift += 8) add_byte(bits >> shift);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ull;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  Fnv1a hash;
+  for (const std::byte byte : bytes) hash.add_byte(static_cast<std::uint64_t>(byte));
+  return hash.value();
+}
+
+void require_body(std::size_t body, std::size_t count) {
+  if (body < count) return;
+  throw Error(Error::Kind::Value, "world", "body", std::to_string(body),
+              "there are " + std::to_string(count) + " bodies");
+}
+
+/// What every snapshot starts with.
+struct SnapshotHeader {
+  char magic[8] = {'p', 'l', 'u', 'm', 'b', 's', '0', '1'};
+  std::uint64_t identity = 0;
+  std::uint64_t size = 0;      // bytes that follow
+  std::uint64_t checksum = 0;  // of them
+};
+
+}  // namespace
+
+Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, std::uint64_t identity)
+    : driver_(std::move(driver)), body_count_(body_count), identity_(identity) {}
+
+void Simulation::step(int count) {
+  for (int i = 0; i < count; ++i) driver_->step();
+}
+
+double Simulation::time() const { return driver_->time(); }
+std::size_t Simulation::body_count() const { return body_count_; }
+
+BodyState Simulation::state(std::size_t body) const {
+  require_body(body, body_count_);
+  std::vector<BodyState> states(body_count_);
+  driver_->read(states);
+  return states[body];
+}
+
+void Simulation::read(std::span<BodyState> out) const {
+  if (out.size() != body_count_)
+    throw Error(Error::Kind::Value, "world", "read", std::to_string(out.size()),
+                "the array must have one element a body: " + std::to_string(body_count_));
+  driver_->read(out);
+}
+
+void Simulation::set_state(std::size_t body, const BodyState& state) {
+  require_body(body, body_count_);
+  for (const double value : {state.position.x, state.position.y, state.angle, state.velocity.x,
+                             state.velocity.y, state.angular_velocity})
+    if (!std::isfinite(value))
+      throw Error(Error::Kind::Value, "body " + std::to_string(body), "state", shortest(value),
+                  "must be finite");
+  driver_->write(body, state);
+}
+
+std::uint64_t Simulation::hash() const {
+  std::vector<BodyState> states(body_count_);
+  driver_->read(states);
+  Fnv1a hash;
+  for (const BodyState& state : states)
+    for (const double value : {state.position.x, state.position.y, state.angle, state.velocity.x,
+                               state.velocity.y, state.angular_velocity})
+      hash.add(value);
+  hash.add(driver_->time());
+  return hash.value();
+}
+
+std::vector<std::byte> Simulation::save() const {
+  const std::vector<std::byte> payload = driver_->save();
+  SnapshotHeader header;
+  header.identity = identity_;
+  header.size = payload.size();
+  header.checksum = checksum(payload);
+  std::vector<std::byte> bytes(sizeof header + payload.size());
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::copy(payload.begin(), payload.end(), bytes.begin() + sizeof header);
+  return bytes;
+}
+
+void Simulation::restore(std::span<const std::byte> snapshot) {
+  SnapshotReader in(snapshot);
+  const auto header = in.get<SnapshotHeader>();
+  const std::span<const std::byte> payload = snapshot.subspan(sizeof(SnapshotHeader));
+  const auto refuse = [](const char* problem) {
+    throw Error(Error::Kind::Value, "snapshot", "", "", problem);
+  };
+  if (std::memcmp(header.magic, SnapshotHeader{}.magic, sizeof header.magic) != 0)
+    refuse("it is not one of plumb's");
+  if (header.identity != identity_) refuse("it is of another scene or other settings");
+  if (header.size != payload.size()) refuse("it has the wrong length");
+  if (header.checksum != checksum(payload)) refuse("its bytes have been changed");
+  driver_->restore(payload);
+}
+
+const Plan& Simulation::plan() const { return driver_->plan(); }
+void Simulation::profile(bool on) { driver_->profile(on); }
+Statistics Simulation::statistics() const { return driver_->statistics(); }
+
+}  // namespace plumb

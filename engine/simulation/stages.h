@@ -1,0 +1,35 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/simulation/accuracy.h"
+#include "engine/simulation/plan.h"
+
+namespace plumb {
+
+/// What a Realtime step can consist of, in the order in which it runs. A plan lists them all.
+enum class RealtimeStage {
+  BroadPhase,    ///< which shapes are near each other
+  NarrowPhase,   ///< where they touch, and in which direction
+  Forces,        ///< accelerations by force laws
+  Kick,          ///< v += a h
+  Restitution,   ///< impacts, each at its own time
+  ContactHold,   ///< impulses that keep separations from falling below zero
+  JointHold,     ///< impulses that keep joints closed where the bodies arrive
+  Drift,         ///< x += v h
+  Turn,          ///< angle += w h, and all angular arithmetic
+  PushOut,       ///< overlaps, by moving bodies apart
+  JointRelax,    ///< J v = 0
+  ContactRelax,  ///< v_n >= 0
+  Friction,      ///< impulses in the Coulomb cone; their time is part of the contact stages'
+  Check,         ///< that every state is finite
+};
+inline constexpr int kRealtimeStages = static_cast<int>(RealtimeStage::Check) + 1;
+
+/// Derives what a step needs for `scene`, and why. With `every_stage` all stages run, needed or not.
+Plan plan_realtime(const Scene& scene, const Realtime& accuracy, bool every_stage);
+
+inline bool is_active(const Plan& plan, RealtimeStage stage) {
+  return plan.stages[static_cast<std::size_t>(stage)].active;
+}
+
+}  // namespace plumb
