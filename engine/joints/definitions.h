@@ -1,0 +1,128 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "engine/math/vec2.h"
+
+/// What joints of the real-time world are made from. Anchors stand in the frames of their bodies (the body's
+/// origin, not its centre of mass); angles in rad, counter-clockwise, of b relative to a.
+namespace plumb {
+
+/// A damped spring by what one sees of it: its natural frequency with the joined bodies' own effective mass.
+struct Spring {
+  double hertz = 0;          ///< 1/s, > 0
+  double damping_ratio = 1;  ///< 1 is critical, >= 0
+  friend bool operator==(const Spring&, const Spring&) = default;
+};
+
+/// Lowest and highest value, lower <= upper.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// Drives towards a speed with no more than a force.
+struct Motor {
+  double speed = 0;      ///< m/s or rad/s
+  double max_force = 0;  ///< N or N m, >= 0
+  friend bool operator==(const Motor&, const Motor&) = default;
+};
+
+/// Two anchors at a distance: a rod, a spring when `spring` is given, a rope when `range` is.
+struct DistanceDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  double length = 1;  ///< m, > 0: of the rod, or of the spring at rest
+  std::optional<Spring> spring{};
+  std::optional<Range> range{};  ///< m; with it the rod is free inside the range
+  std::optional<Motor> motor{};  ///< along the line of the anchors
+};
+
+/// A common point; the bodies turn about it.
+struct RevoluteDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  double reference_angle = 0;     ///< rad, of b relative to a, where the joint's angle is 0
+  std::optional<Range> limits{};  ///< rad
+  std::optional<Motor> motor{};   ///< rad/s, N m
+  std::optional<Spring> spring{};
+  double target_angle = 0;  ///< rad, of the spring
+};
+
+/// Slides along an axis of a without turning.
+struct PrismaticDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  Vec2d axis{1, 0};  ///< in a's frame, any length > 0
+  double reference_angle = 0;
+  std::optional<Range> limits{};  ///< m
+  std::optional<Motor> motor{};   ///< m/s, N
+  std::optional<Spring> spring{};
+  double target_translation = 0;  ///< m, of the spring
+};
+
+/// Holds b to a; rigid where no spring is given.
+struct WeldDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  double reference_angle = 0;
+  std::optional<Spring> linear_spring{}, angular_spring{};
+};
+
+/// A wheel b on a suspension along an axis of a: free to turn, rigid across the axis.
+struct WheelDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  Vec2d axis{0, 1};
+  std::optional<Spring> spring{};
+  std::optional<Range> limits{};  ///< m, along the axis
+  std::optional<Motor> motor{};   ///< rad/s, N m
+};
+
+/// Drives b towards a pose relative to a with limited force and torque.
+struct MotorDefinition {
+  Vec2d target_position{};  ///< m, of b's origin in a's frame
+  double target_angle = 0;  ///< rad
+  double max_force = 0;     ///< N
+  double max_torque = 0;    ///< N m
+  Spring spring{2, 1};      ///< how it follows
+};
+
+/// Pulls a point of b towards a point of the world (a is any static body).
+struct MouseDefinition {
+  Vec2d anchor_b{};
+  Vec2d target{};  ///< m, in the world
+  Spring spring{5, 0.7};
+  double max_force = 0;  ///< N
+};
+
+/// angle_b = ratio angle_a + phase: two wheels that mesh have a negative ratio.
+struct GearDefinition {
+  double ratio = -1;  ///< not 0
+  double phase = 0;   ///< rad
+};
+
+/// A rope over two pulleys: length_a + ratio length_b stays constant.
+struct PulleyDefinition {
+  Vec2d ground_a{}, ground_b{};  ///< m, in the world
+  Vec2d anchor_a{}, anchor_b{};
+  double ratio = 1;                ///< > 0
+  std::optional<double> length{};  ///< m, of length_a + ratio length_b; absent: as placed
+};
+
+/// Lets b turn relative to a one way, and holds the other way at teeth `tooth` apart.
+struct RatchetDefinition {
+  double tooth = 0.1;  ///< rad, not 0; its sign is the direction that is free
+  double phase = 0;    ///< rad, where a tooth stands
+};
+
+/// Resists motion of b relative to a with limited force and torque (top-down friction).
+struct FrictionDefinition {
+  Vec2d anchor_a{}, anchor_b{};
+  double max_force = 0;   ///< N
+  double max_torque = 0;  ///< N m
+};
+
+using JointKind = std::variant<DistanceDefinition, RevoluteDefinition, PrismaticDefinition, WeldDefinition,
+                               WheelDefinition, MotorDefinition, MouseDefinition, GearDefinition,
+                               PulleyDefinition, RatchetDefinition, FrictionDefinition>;
+
+}  // namespace plumb

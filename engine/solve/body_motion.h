@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/math/pose.h"
+
+namespace plumb {
+
+/// What a solver of the real-time world reads and writes of a body: half a cache line in float. Bodies that
+/// are not dynamic have no inverse mass; they move as they are told.
+template <class Real>
+struct BodyMotion {
+  Vec2<Real> velocity{};      ///< m/s, of the centre of mass
+  Real angular_velocity = 0;  ///< rad/s
+  Vec2<Real> moved{};         ///< m, of the centre of mass since the step's start
+  Real turned = 0;            ///< rad, since the step's start
+  Real inverse_mass = 0;      ///< 1/kg
+  Real inverse_inertia = 0;   ///< 1/(kg m^2)
+
+  void apply(Vec2<Real> impulse, Real angular_impulse) {
+    velocity += inverse_mass * impulse;
+    angular_velocity += inverse_inertia * angular_impulse;
+  }
+};
+
+/// The bodies of a world as solvers see them, indexed by body: awake ones, static ones and all others alike.
+template <class Real>
+struct SolverBodies {
+  BodyMotion<Real>* motion = nullptr;
+  const Rotation<Real>* rotation =
+      nullptr;                      ///< from the body's frame to the world's, now (kept up every substep)
+  const Vec2d* position = nullptr;  ///< m, centres of mass at the step's start, in double: far from the
+                                    ///< origin only differences may be rounded
+};
+
+/// A constraint that is a damped spring, ready for a substep h (Catto, Soft Constraints, 2011):
+/// lambda' = -mass (mass_scale (Jv + bias_rate C)) - impulse_scale lambda. The rigid one is {0, 1, 0}.
+template <class Real>
+struct Softness {
+  Real bias_rate = 0;  ///< 1/s
+  Real mass_scale = 1;
+  Real impulse_scale = 0;
+};
+
+/// omega = 2 pi hertz: bias_rate = omega / (2 zeta + h omega), mass_scale = c / (1 + c), impulse_scale = 1 /
+/// (1 + c), c = h omega (2 zeta + h omega).
+template <class Real>
+Softness<Real> softness(double hertz, double damping_ratio, double h) {
+  if (!(hertz > 0)) return {};
+  const double omega = 2 * 3.14159265358979323846 * hertz;
+  const double a = 2 * damping_ratio + h * omega, c = h * omega * a;
+  return {static_cast<Real>(omega / a), static_cast<Real>(c / (1 + c)), static_cast<Real>(1 / (1 + c))};
+}
+
+}  // namespace plumb
