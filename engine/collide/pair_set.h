@@ -1,0 +1,75 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plumb {
+
+/// A set of unordered pairs of non-negative integers. Open addressing with linear probing, at most half
+/// full; erasing shifts later keys back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R), so that
+/// no tombstones pile up. There is no way to iterate it: the order of a hash table cannot reach a result.
+class PairSet {
+ public:
+  /// Whether the pair was not in the set before.
+  bool insert(int a, int b);
+  /// Whether the pair was in the set.
+  bool erase(int a, int b);
+  bool contains(int a, int b) const { return !keys_.empty() && keys_[find(key(a, b))] != kEmpty; }
+
+  int size() const { return size_; }
+  /// Empties the set; its room stays.
+  void clear();
+  /// Makes room for `pairs` pairs, so that inserting them allocates nothing.
+  void reserve(int pairs);
+
+  /// Appends all that decides what the set does next.
+  void save(std::vector<std::byte>& out) const;
+  /// Takes it from the front of `in`. Throws Error (Value) and leaves the set as it was when the bytes are
+  /// damaged.
+  void restore(std::span<const std::byte>& in);
+
+  /// Slots that have to be looked at, on average, to find a pair that is in the set.
+  double mean_probes() const;
+
+ private:
+  using Key = std::uint64_t;
+  static constexpr Key kEmpty = 0;
+  static constexpr std::size_t kSmallest = 16;
+
+  // The larger one, plus one so that no pair is kEmpty, in the upper half.
+  static Key key(int a, int b) {
+    const auto low = static_cast<std::uint32_t>(a < b ? a : b);
+    const auto high = static_cast<std::uint32_t>(a < b ? b : a);
+    return (Key{high} + 1) << 32 | low;
+  }
+
+  // The finalizer of MurmurHash3 (Appleby): each bit of the key changes each bit of the hash with a
+  // probability near one half, so that neighbouring indices do not probe each other's slots.
+  static std::size_t hash(Key key) {
+    key ^= key >> 33;
+    key *= 0xff51afd7ed558ccd;
+    key ^= key >> 33;
+    key *= 0xc4ceb9fe1a85ec53;
+    key ^= key >> 33;
+    return static_cast<std::size_t>(key);
+  }
+
+  // The slot that holds `key`, or the empty one where it belongs.
+  std::size_t find(Key key) const {
+    const std::size_t mask = keys_.size() - 1;
+    std::size_t slot = hash(key) & mask;
+    while (keys_[slot] != key && keys_[slot] != kEmpty) slot = (slot + 1) & mask;
+    return slot;
+  }
+
+  void resize(std::size_t capacity);
+  static bool sound(const std::vector<Key>& keys, int size);
+
+  std::vector<Key> keys_;  // a power of two, or none
+  int size_ = 0;
+};
+
+}  // namespace plumb
