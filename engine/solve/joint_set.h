@@ -1,0 +1,116 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "engine/joints/definitions.h"
+#include "engine/math/vec2.h"
+#include "engine/solve/body_motion.h"
+
+namespace plumb {
+
+class ByteReader;
+class ByteWriter;
+
+/// What joints need to know of the step that they are solved in.
+template <class Real>
+struct JointStep {
+  Real h = 0;                 ///< s, of a substep
+  Real inverse_h = 0;         ///< 1/s
+  Softness<Real> softness{};  ///< of rows that are rigid
+  Real warm_start = 1;        ///< this substep over the previous step's one: impulses scale with it
+};
+
+/// How far a joint is from what it should hold.
+template <class Real>
+struct JointError {
+  Real linear = 0;   ///< m
+  Real angular = 0;  ///< rad
+};
+
+/// All joints of a real-time world, solved by sequential impulses with soft steps and a relaxation ("TGS
+/// soft", Catto, Solver2D, 2024). Joints are coloured such that those of one colour share no dynamic body,
+/// and lie in one array per colour and kind. A substep is
+///     v += h a;  warm_start;  solve;  x += h v;  relax
+/// and `prepare` comes once before the substeps, when positions and rotations are those of the step's start
+/// and nothing has moved or turned. None of the four allocates.
+template <class Real>
+class JointSet {
+ public:
+  JointSet();
+  JointSet(const JointSet& other);
+  JointSet(JointSet&& other) noexcept;
+  JointSet& operator=(JointSet other) noexcept;
+  ~JointSet();
+
+  /// A new joint between bodies `body_a` and `body_b`; returns its slot, which stays its own until `remove`.
+  /// Slots that are free are taken again, the last one freed first. `centre_a` and `centre_b` are the centres
+  /// of mass in the bodies' frames. Error (Value) for a definition that `validate` refuses, for a body joined
+  /// to itself and when no body is dynamic.
+  int add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a, Vec2<Real> centre_b,
+          bool dynamic_a, bool dynamic_b);
+  void remove(int joint);
+
+  /// A joint that is not active keeps its impulses and takes no part in steps (its bodies sleep).
+  void set_active(int joint, bool active);
+
+  const JointKind& definition(int joint) const;
+  /// Replaces the definition: new speeds, limits, targets, or another kind. Impulses and counted turns are
+  /// kept where the kind is the same. Error (Value) as `add`; nothing has changed then.
+  void change(int joint, const JointKind& definition);
+  /// The centre of mass of a body of the joint has moved in the body's frame.
+  void recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b);
+  /// A body of the joint has become dynamic, or is no longer.
+  void set_dynamic(int joint, bool dynamic_a, bool dynamic_b);
+  /// Forgets impulses and counted turns: a body of the joint has been put elsewhere.
+  void forget(int joint);
+
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Evaluates all rows at the current poses and applies the impulses of the last substep.
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Impulses that hold velocities and pull errors back softly.
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Impulses that hold velocities only: takes out what pulling back put in. Springs keep their force.
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+
+  /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
+  Real force(int joint, Real inverse_h) const;
+  /// N m, about b's anchor, over the last substep.
+  Real torque(int joint, Real inverse_h) const;
+
+  /// How far the rigid rows and the limits are from what they hold, where bodies are now: at `position` +
+  /// `moved`, with `rotation`. Springs and motors have no error.
+  JointError<Real> error(int joint, const SolverBodies<Real>& bodies) const;
+  /// rad, of b relative to a less the reference angle, whole turns counted since the joint was added:
+  /// revolute, prismatic, weld, wheel, motor, ratchet, friction.
+  Real angle(int joint, const SolverBodies<Real>& bodies) const;
+  /// m, of anchor b along the axis from anchor a: prismatic, wheel.
+  Real translation(int joint, const SolverBodies<Real>& bodies) const;
+  /// m, between the anchors: distance; length_a + ratio length_b: pulley.
+  Real length(int joint, const SolverBodies<Real>& bodies) const;
+
+  int count() const;
+  int active_count() const;
+  /// One more than the highest slot that was ever in use.
+  int slots() const;
+  bool contains(int joint) const;
+  bool active(int joint) const;
+  std::pair<int, int> bodies(int joint) const;
+  /// Index of the joint's colour; joints of one colour share no dynamic body, but for those of the last one,
+  /// `colours() - 1`, which hold what found no place.
+  int colour(int joint) const;
+  static int colours();
+
+  /// Everything that a step depends on, such that a set that is restored continues with the same bits.
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+extern template class JointSet<float>;
+extern template class JointSet<double>;
+
+}  // namespace plumb
