@@ -1,0 +1,228 @@
+#include "engine/collide/hull_distance.h"
+
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+/// A corner of the Minkowski difference b - a, whose distance from the origin is that of a and b.
+struct Vertex {
+  Vec2d w;
+  int a = 0, b = 0;  ///< its corners
+};
+
+/// Two hulls in a's frame.
+template <class Real>
+struct Hulls {
+  const Convex<Real>& a;
+  const Convex<Real>& b;
+  const Pose<double>& b_in_a;
+
+  Vec2d local_b(int j) const { return b.corners[j].point.template as<double>(); }
+  Vec2d corner_a(int i) const { return a.corners[i].point.template as<double>(); }
+  Vec2d corner_b(int j) const { return b_in_a.position + b_in_a.rotation * local_b(j); }
+  Vertex vertex(int i, int j) const { return {corner_b(j) - corner_a(i), i, j}; }
+
+  /// The vertex farthest along -direction.
+  Vertex lowest(Vec2d direction) const {
+    return vertex(farthest(a, direction), farthest(b, -(b_in_a.rotation.inverse() * direction)));
+  }
+
+  static int farthest(const Convex<Real>& shape, Vec2d direction) {
+    int best = 0;
+    double most = dot(shape.corners[0].point.template as<double>(), direction);
+    for (int i = 1; i < shape.count; ++i) {
+      const double here = dot(shape.corners[i].point.template as<double>(), direction);
+      if (here > most) most = here, best = i;
+    }
+    return best;
+  }
+
+  /// vertex q - vertex p, without the rounding that the distance of the shapes would add.
+  Vec2d edge(const Vertex& p, const Vertex& q) const {
+    return b_in_a.rotation * (local_b(q.b) - local_b(p.b)) - (corner_a(q.a) - corner_a(p.a));
+  }
+};
+
+/// One or two vertices, and what of their segment is nearest to the origin; three when it is inside.
+struct Simplex {
+  Vertex vertices[2];
+  int count = 0;
+  Vec2d outward;      ///< from the origin to the nearest point, at any length
+  double square = 0;  ///< m^2, the distance squared
+  double part = 0;    ///< of the way from the first vertex to the second
+};
+
+Simplex point_simplex(const Vertex& p) { return {{p, {}}, 1, p.w, length_squared(p.w), 0}; }
+
+/// What of the segment p q is nearest to the origin.
+Simplex segment_simplex(const Vertex& p, const Vertex& q) {
+  const Vec2d e = q.w - p.w;
+  const double before = -dot(p.w, e), after = dot(q.w, e);
+  if (!(before > 0)) return point_simplex(p);
+  if (!(after > 0)) return point_simplex(q);
+  // The foot of the perpendicular: p - (p . e) e / e^2 = (p . m) m / e^2 with m = e turned by a right angle,
+  // and no difference of nearly equal lengths.
+  const Vec2d m = perpendicular(e);
+  const double height = dot(p.w, m), size = length_squared(e);
+  return {{p, q}, 2, height < 0 ? -m : m, height * height / size, before / (before + after)};
+}
+
+/// The triangle of a segment and the vertex r beyond it. Its nearest part contains r, unless the origin is
+/// inside (count 3): the segment's own nearest point was left behind.
+Simplex triangle_simplex(const Simplex& segment, const Vertex& r) {
+  const Vertex &p = segment.vertices[0], &q = segment.vertices[1];
+  const double pq = cross(p.w, q.w), qr = cross(q.w, r.w), rp = cross(r.w, p.w);
+  if ((pq >= 0 && qr >= 0 && rp >= 0) || (pq <= 0 && qr <= 0 && rp <= 0)) return {{p, q}, 3, {}, 0, 0};
+  const Simplex first = segment_simplex(p, r), second = segment_simplex(q, r);
+  return first.square <= second.square ? first : second;
+}
+
+bool has(const Simplex& simplex, const Vertex& vertex) {
+  for (int k = 0; k < simplex.count; ++k)
+    if (simplex.vertices[k].a == vertex.a && simplex.vertices[k].b == vertex.b) return true;
+  return false;
+}
+
+double size_of(Vec2d v) { return std::abs(v.x) + std::abs(v.y); }
+
+template <class Real>
+Simplex first_simplex(const Hulls<Real>& hulls, const SimplexCache* cache) {
+  if (cache && cache->count > 0) {
+    const auto valid = [&](int k) {
+      return cache->corner_a[k] < hulls.a.count && cache->corner_b[k] < hulls.b.count;
+    };
+    if (valid(0)) {
+      const Vertex first = hulls.vertex(cache->corner_a[0], cache->corner_b[0]);
+      if (cache->count == 1 || !valid(1)) return point_simplex(first);
+      return segment_simplex(first, hulls.vertex(cache->corner_a[1], cache->corner_b[1]));
+    }
+  }
+  return point_simplex(hulls.lowest(hulls.b_in_a.position));
+}
+
+/// The signed distance along one edge's normal.
+struct Axis {
+  double separation = -std::numeric_limits<double>::infinity();
+  Vec2d normal;  ///< outward, in the frame of the edge's shape
+  int edge = 0;
+  int corner = 0;  ///< of the other shape, the deepest
+};
+
+/// The edge of `shape` beyond which `other` lies farthest, or least deep.
+template <class Real>
+Axis best_axis(const Convex<Real>& shape, const Convex<Real>& other, const Pose<double>& other_in_shape) {
+  Axis best;
+  for (int i = 0; i < shape.count && shape.count > 1; ++i) {
+    const Vec2d p = shape.corners[i].point.template as<double>();
+    const Vec2d e = shape.corners[i + 1 < shape.count ? i + 1 : 0].point.template as<double>() - p;
+    const double length = std::sqrt(length_squared(e));
+    if (!(length > 0)) continue;
+    const Vec2d normal{e.y / length, -e.x / length};
+    const int j = Hulls<Real>::farthest(other, -(other_in_shape.rotation.inverse() * normal));
+    const Vec2d corner =
+        other_in_shape.position + other_in_shape.rotation * other.corners[j].point.template as<double>();
+    const double separation = dot(normal, corner - p);
+    if (separation > best.separation) best = {separation, normal, i, j};
+  }
+  return best;
+}
+
+/// Hulls that touch or overlap: the least translation that parts them is along an edge's normal, because the
+/// Minkowski difference has no other edges.
+template <class Real>
+HullDistance overlap(const Hulls<Real>& hulls) {
+  const Pose<double>& pose = hulls.b_in_a;
+  const Rotation<double> back = pose.rotation.inverse();
+  const Axis of_a = best_axis(hulls.a, hulls.b, pose);
+  const Axis of_b = best_axis(hulls.b, hulls.a, {-(back * pose.position), back});
+  HullDistance out;
+  if (hulls.a.count == 1 && hulls.b.count == 1) {
+    out.normal = {0, 1};  // two points in one place leave the direction open: up
+    out.point_a = hulls.corner_a(0);
+    out.point_b = hulls.corner_b(0);
+  } else if (of_a.separation >= of_b.separation) {
+    out.normal = of_a.normal;
+    out.separation = of_a.separation;
+    out.point_b = hulls.corner_b(of_a.corner);
+    out.point_a = out.point_b - of_a.separation * of_a.normal;
+  } else {
+    out.normal = -(pose.rotation * of_b.normal);
+    out.separation = of_b.separation;
+    out.point_a = hulls.corner_a(of_b.corner);
+    out.point_b = out.point_a + of_b.separation * out.normal;
+  }
+  return out;
+}
+
+template <class Real>
+HullDistance apart(const Hulls<Real>& hulls, const Simplex& simplex) {
+  const Vertex& p = simplex.vertices[0];
+  HullDistance out;
+  if (simplex.count == 1) {
+    out.separation = std::sqrt(simplex.square);
+    out.normal = {p.w.x / out.separation, p.w.y / out.separation};
+    out.point_a = hulls.corner_a(p.a);
+    out.point_b = hulls.corner_b(p.b);
+    return out;
+  }
+  const Vertex& q = simplex.vertices[1];
+  const Vec2d m = perpendicular(hulls.edge(p, q));
+  const double signed_length = dot(m, simplex.outward) < 0 ? -std::sqrt(length_squared(m))  //
+                                                           : std::sqrt(length_squared(m));
+  out.normal = {m.x / signed_length, m.y / signed_length};
+  out.point_a = hulls.corner_a(p.a) + simplex.part * (hulls.corner_a(q.a) - hulls.corner_a(p.a));
+  out.point_b = hulls.corner_b(p.b) + simplex.part * (hulls.corner_b(q.b) - hulls.corner_b(p.b));
+  out.separation = dot(out.normal, simplex.part < 0.5 ? p.w : q.w);
+  return out;
+}
+
+void store(const Simplex& simplex, SimplexCache* cache) {
+  if (!cache) return;
+  cache->count = static_cast<std::uint8_t>(simplex.count < 2 ? simplex.count : 2);
+  for (int k = 0; k < cache->count; ++k) {
+    cache->corner_a[k] = static_cast<std::uint8_t>(simplex.vertices[k].a);
+    cache->corner_b[k] = static_cast<std::uint8_t>(simplex.vertices[k].b);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
+                           SimplexCache* cache) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  constexpr double kSmallest = std::numeric_limits<double>::min();
+  constexpr int kMaxIterations =
+      2 * kMaxCorners;  // seen: below 15. Roundings may cycle; the answer is good then
+  const Hulls<Real> hulls{a, b, b_in_a};
+  Simplex simplex = first_simplex(hulls, cache);
+  int iteration = 0;
+  bool touching = !(simplex.square > kSmallest);
+  while (!touching && iteration < kMaxIterations) {
+    ++iteration;
+    const Vertex next = hulls.lowest(simplex.outward);
+    if (has(simplex, next)) break;
+    // No vertex lies nearer to the origin along the normal: nothing to gain but roundings.
+    const Vec2d reference = simplex.vertices[0].w;
+    const double gain = dot(simplex.outward, reference - next.w);
+    if (!(gain > kRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w)))) break;
+    simplex =
+        simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
+    touching = simplex.count == 3 || !(simplex.square > kSmallest);
+  }
+  store(simplex, cache);
+  HullDistance out = touching ? overlap(hulls) : apart(hulls, simplex);
+  out.iterations = iteration;
+  return out;
+}
+
+#define PLUMB_INSTANTIATE(Real)                                                                      \
+  template HullDistance hull_distance(const Convex<Real>&, const Convex<Real>&, const Pose<double>&, \
+                                      SimplexCache*);
+PLUMB_INSTANTIATE(float)
+PLUMB_INSTANTIATE(double)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "engine/geometry/convex.h"
+
+namespace plumb {
+
+/// Where a ray first meets a shape, in the shape's frame.
+template <class Real>
+struct RayHit {
+  bool hit = false;
+  Real fraction = 1;    ///< of the translation, 0 .. 1; 1 without a hit
+  Vec2<Real> point{};   ///< m, on the surface
+  Vec2<Real> normal{};  ///< unit, outward
+};
+
+/// The point of a surface that is nearest to a given one.
+template <class Real>
+struct SurfacePoint {
+  Vec2<Real> point{};   ///< m
+  Vec2<Real> normal{};  ///< unit, outward
+  Real distance = 0;    ///< m, negative inside the shape
+};
+
+/// The first point of `shape` on the way from `origin` to `origin + translation` (m, in the shape's frame).
+/// A ray that starts inside or on the surface hits nothing: it has no first point of entry. Exact but for
+/// roundings: edges and arcs, no iteration. Computed in double precision for both types of Real.
+template <class Real>
+RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation);
+
+/// The same for a segment of a chain, which is there only for what comes from its front: the right of the
+/// way from its first corner to its second.
+template <class Real>
+RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation);
+
+/// Whether `point` (m, in the shape's frame) is in the shape or on its surface.
+template <class Real>
+bool contains(const Convex<Real>& shape, Vec2<Real> point);
+
+/// The point of the surface nearest to `point` (m, in the shape's frame), on either side of it.
+template <class Real>
+SurfacePoint<Real> nearest_point(const Convex<Real>& shape, Vec2<Real> point);
+
+}  // namespace plumb

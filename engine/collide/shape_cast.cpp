@@ -1,0 +1,68 @@
+#include "engine/collide/shape_cast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collide/hull_distance.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+double farthest_corner(const Convex<Real>& shape) {
+  double square = 0;
+  for (int i = 0; i < shape.count; ++i)
+    square = std::max(square, length_squared(shape.corners[i].point.template as<double>()));
+  return std::sqrt(square);
+}
+
+template <class Real>
+CastResult<Real> hit_at(double fraction, bool overlapped, const HullDistance& hulls, double radius_a) {
+  return {true, overlapped, static_cast<Real>(fraction),
+          (hulls.point_a + radius_a * hulls.normal).template as<Real>(), hulls.normal.template as<Real>()};
+}
+
+}  // namespace
+
+// Along a line the distance of convex shapes is a convex function of the way. Newton's method from the near
+// side therefore never passes the root: the normal at hand shows that nothing touches before the next point.
+template <class Real>
+CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                            Vec2<Real> translation) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  // The gap falls to a quarter each time even where they graze: 64 of them reach any rounding.
+  constexpr int kMaxIterations = 64;
+  const double radius_a = static_cast<double>(a.radius), radius = radius_a + static_cast<double>(b.radius);
+  const Vec2d start = b_in_a.position.template as<double>(), way = translation.template as<double>();
+  Pose<double> pose{start, {static_cast<double>(b_in_a.rotation.c), static_cast<double>(b_in_a.rotation.s)}};
+  const double size = farthest_corner(a) + farthest_corner(b) + radius;
+  const double rounding = kRounding * (size + std::abs(start.x) + std::abs(start.y));
+
+  SimplexCache cache;
+  HullDistance hulls = hull_distance(a, b, pose, &cache);
+  double gap = hulls.separation - radius;
+  if (gap < -rounding) return hit_at<Real>(0, true, hulls, radius_a);
+  double fraction = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const double approach = -dot(hulls.normal, way);
+    if (!(approach > 0)) return {};  // this normal keeps them apart for good
+    const double next = fraction + std::max(gap, 0.0) / approach;
+    if (next > 1) return {};
+    if (gap <= rounding || next <= fraction) return hit_at<Real>(next, false, hulls, radius_a);
+    fraction = next;
+    pose.position = start + fraction * way;
+    hulls = hull_distance(a, b, pose, &cache);
+    gap = hulls.separation - radius;
+  }
+  return hit_at<Real>(fraction, false, hulls, radius_a);
+}
+
+#define PLUMB_INSTANTIATE(Real)                                                                     \
+  template CastResult<Real> shape_cast(const Convex<Real>&, const Convex<Real>&, const Pose<Real>&, \
+                                       Vec2<Real>);
+PLUMB_INSTANTIATE(float)
+PLUMB_INSTANTIATE(double)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb

@@ -1,0 +1,267 @@
+#include "engine/collide/time_of_impact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collide/hull_distance.h"
+#include "engine/math/trigonometry.h"
+
+namespace plumb {
+namespace {
+
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 4096;
+
+/// q r: the rotation by both angles.
+constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
+  return {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};
+}
+
+Rotation<double> turned_by(double angle, Rotation<double> start) {
+  return angle != 0 ? turned(rotation_of(angle), start) : start;
+}
+
+/// In double precision and at unit length: a rotation in float has lost some of it.
+template <class Real>
+Rotation<double> unit(Rotation<Real> q) {
+  const double c = static_cast<double>(q.c), s = static_cast<double>(q.s), length = std::sqrt(c * c + s * s);
+  return {c / length, s / length};
+}
+
+/// One shape while it turns.
+template <class Real>
+struct Turning {
+  const Convex<Real>& shape;
+  Rotation<double> start;
+  double turn;
+  double reach = 0;  ///< m, from the centre of rotation to the farthest corner
+
+  Turning(const Convex<Real>& convex, const Sweep<Real>& sweep)
+      : shape(convex), start(unit(sweep.start_rotation)), turn(static_cast<double>(sweep.turn)) {
+    for (int i = 0; i < shape.count; ++i) reach = std::max(reach, length_squared(corner(i)));
+    reach = std::sqrt(reach);
+  }
+  Vec2d corner(int i) const { return shape.corners[i].point.template as<double>(); }
+  Rotation<double> rotation(double fraction) const { return turned_by(fraction * turn, start); }
+};
+
+/// x + v t - c t^2 / 2 with c >= 0: no more than what it stands for, from t = 0 on.
+struct Bound {
+  double value = 0, slope = 0, curvature = 0;
+
+  double at(double t) const { return value + t * (slope - 0.5 * curvature * t); }
+  friend Bound operator+(Bound a, Bound b) {
+    return {a.value + b.value, a.slope + b.slope, a.curvature + b.curvature};
+  }
+  /// How long it stays >= 0, when it starts there.
+  double root() const {
+    if (!(value > 0)) return 0;
+    const double fall = std::sqrt(slope * slope + 2 * curvature * value) - slope;
+    return fall > 0 ? 2 * value / fall : std::numeric_limits<double>::infinity();
+  }
+};
+
+/// The relative motion of two shapes, with a's centre as origin and the world's axes.
+template <class Real>
+class Approach {
+ public:
+  Approach(const Convex<Real>& a, const Sweep<Real>& sweep_a, const Convex<Real>& b,
+           const Sweep<Real>& sweep_b)
+      : a_(a, sweep_a),
+        b_(b, sweep_b),
+        start_(sweep_b.start.template as<double>() - sweep_a.start.template as<double>()),
+        motion_(sweep_b.motion.template as<double>() - sweep_a.motion.template as<double>()),
+        speed_(std::sqrt(length_squared(motion_))),
+        radius_(static_cast<double>(a.radius) + static_cast<double>(b.radius)) {}
+
+  /// m: what roundings may do to a separation up to a fraction.
+  double rounding(double fraction) const {
+    return kRounding *
+           (std::abs(start_.x) + std::abs(start_.y) + fraction * speed_ + a_.reach + b_.reach + radius_);
+  }
+
+  /// The separation of the surfaces; the points and the normal of the hulls are in the directions of the
+  /// world.
+  double measure(double fraction) {
+    fraction_ = fraction;
+    rotation_a_ = a_.rotation(fraction);
+    rotation_b_ = b_.rotation(fraction);
+    between_ = start_ + fraction * motion_;
+    const Rotation<double> back = rotation_a_.inverse();
+    hulls_ = hull_distance(a_.shape, b_.shape, {back * between_, turned(back, rotation_b_)}, &cache_);
+    hulls_.normal = rotation_a_ * hulls_.normal;
+    hulls_.point_a = rotation_a_ * hulls_.point_a;
+    hulls_.point_b = rotation_a_ * hulls_.point_b;
+    return hulls_.separation - radius_;
+  }
+  const HullDistance& hulls() const { return hulls_; }
+
+  /// The part of 0 .. 1 in which the discs that the shapes turn in are closer than `separation`; false when
+  /// there is none.
+  bool window(double separation, double& first, double& last) const;
+
+  /// A time after the last one measured, up to `remaining`, for which the shapes stay at least `separation`
+  /// apart.
+  double safe_step(double separation, double remaining) const {
+    double step = safe_step(separation, remaining, 0);
+    if (step < remaining && a_.turn != 0 && cache_.edge_of_a())
+      step = std::max(step, safe_step(separation, remaining, a_.turn));
+    if (step < remaining && b_.turn != 0 && cache_.edge_of_b() && b_.turn != a_.turn)
+      step = std::max(step, safe_step(separation, remaining, b_.turn));
+    return step;
+  }
+
+ private:
+  double safe_step(double separation, double remaining, double axis_turn) const;
+  Bound lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
+               double t) const;
+
+  Turning<Real> a_, b_;
+  Vec2d start_, motion_;
+  double speed_, radius_;
+  SimplexCache cache_;
+  double fraction_ = 0;
+  Rotation<double> rotation_a_, rotation_b_;
+  Vec2d between_;
+  HullDistance hulls_;
+};
+
+template <class Real>
+bool Approach<Real>::window(double separation, double& first, double& last) const {
+  first = 0, last = 1;
+  const double distance = (a_.reach + b_.reach + radius_ + separation + 2 * rounding(1)) * (1 + kRounding);
+  if (!(speed_ > 0)) return length_squared(start_) <= distance * distance;
+  const double across = cross(motion_, start_) / speed_, along = -dot(start_, motion_) / speed_;
+  if (std::abs(across) > distance) return false;
+  const double half = std::sqrt(distance * distance - across * across);
+  const double slack = kRounding * (std::abs(along) + half);
+  first = std::max(0.0, (along - half - slack) / speed_);
+  last = std::min(1.0, (along + half + slack) / speed_);
+  return first <= last;
+}
+
+/// Below what normal . corner stays for every corner: the least at `t`. The normal turns too; `rate` is how
+/// fast the body turns against it. normal . r = |r| cos(angle + rate t), whose second derivative is never
+/// less than -rate^2 |r|.
+template <class Real>
+Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
+                             double t) const {
+  const Vec2d local = rotation.inverse() * normal;
+  Bound best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < body.shape.count; ++i) {
+    const Vec2d r = body.corner(i);
+    const Bound bound{dot(local, r), rate * cross(r, local), rate * rate * body.reach};
+    const double value = bound.at(t);
+    if (value < least) least = value, best = bound;
+  }
+  return best;
+}
+
+/// The separation along a normal that turns at `axis_turn` is no more than the distance, and is the least
+/// over pairs of corners. Each pair's is bounded from below by a parabola that opens downwards, so that a
+/// pair which keeps its distance until t kept it before: only the pairs that fail at t matter.
+template <class Real>
+double Approach<Real>::safe_step(double separation, double remaining, double axis_turn) const {
+  constexpr int kMaxRounds = 32;
+  const Vec2d normal = hulls_.normal;
+  // n . P with P' = V: (n . P)'' = 2 n' . V - w^2 n . P.
+  const double farthest = std::max(std::sqrt(length_squared(between_)),
+                                   std::sqrt(length_squared(between_ + remaining * motion_)));
+  const Bound centers{dot(normal, between_) - radius_ - separation,
+                      dot(normal, motion_) + axis_turn * cross(normal, between_),
+                      std::abs(axis_turn) * (2 * speed_ + std::abs(axis_turn) * farthest)};
+  double step = remaining;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const Bound total = centers + lowest(b_, rotation_b_, normal, b_.turn - axis_turn, step) +
+                        lowest(a_, rotation_a_, -normal, a_.turn - axis_turn, step);
+    if (total.at(step) >= 0) return step;
+    const double root = total.root();
+    if (!(root < step)) return step;  // at the root already, but for roundings
+    step = root;
+  }
+  // Many corners in turn: the plain bound, with the speed of the fastest point of either.
+  const double gap = hulls_.separation - radius_ - separation;
+  const double fastest =
+      std::max(0.0, -dot(normal, motion_)) + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
+  return gap > 0 && fastest > 0 ? std::min(gap / fastest, remaining) : 0;
+}
+
+template <class Real>
+Real rounded_down(double fraction) {
+  const Real nearest = static_cast<Real>(fraction);
+  return static_cast<double>(nearest) > fraction ? std::nextafter(nearest, Real{0}) : nearest;
+}
+
+}  // namespace
+
+template <class Real>
+Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
+  const Vec2d position = sweep.start.template as<double>() + fraction * sweep.motion.template as<double>();
+  const Rotation<double> q =
+      turned_by(fraction * static_cast<double>(sweep.turn), unit(sweep.start_rotation));
+  return {position.template as<Real>(), {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
+}
+
+// Conservative advancement (Mirtich, 1996): from a time at which the shapes are apart, go on for as long as a
+// bound shows that they stay apart. The bound is of second order, so that near an impact the steps are those
+// of Newton's method.
+template <class Real>
+ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Real>& sweep_a, const Convex<Real>& b,
+                                  const Sweep<Real>& sweep_b, Real target_separation, Real tolerance) {
+  using State = typename ImpactResult<Real>::State;
+  Approach<Real> approach(a, sweep_a, b, sweep_b);
+  double target = std::max(0.0, static_cast<double>(target_separation));
+  double slack = std::max(static_cast<double>(tolerance), approach.rounding(1));
+  ImpactResult<Real> result;
+  double fraction = 0, last = 1;
+  if (!approach.window(target + slack, fraction, last)) return result;
+
+  double separation = approach.measure(fraction);
+  const auto finish = [&](State state) {
+    result.state = state;
+    result.exact_fraction = fraction;
+    result.fraction = rounded_down<Real>(fraction);
+    const HullDistance& hulls = approach.hulls();
+    const Vec2d center_a =
+        sweep_a.start.template as<double>() + fraction * sweep_a.motion.template as<double>();
+    const Vec2d middle =
+        0.5 * (hulls.point_a + hulls.point_b +
+               (static_cast<double>(a.radius) - static_cast<double>(b.radius)) * hulls.normal);
+    result.point = (center_a + middle).template as<Real>();
+    result.normal = hulls.normal.template as<Real>();
+    return result;
+  };
+  if (!(fraction > 0)) {
+    if (separation <= approach.rounding(0)) return finish(State::Overlapped);
+    if (separation <= target + slack) {
+      target = 0.5 * separation;
+      slack = 0.25 * separation;
+    }
+  }
+
+  // Steps aim a little farther out than the target, because the last one ends with a rounding.
+  const double aim = target + 0.25 * slack;
+  while (separation > target + slack) {
+    if (result.iterations == kMaxIterations) return finish(State::Failed);
+    ++result.iterations;
+    const double step = approach.safe_step(aim, last - fraction);
+    const double next = fraction + step;
+    if (next >= last) return {State::Separated, 1, 1, {}, {}, result.iterations};
+    if (next <= fraction) break;  // closer together than times can be told apart
+    fraction = next;
+    separation = approach.measure(fraction);
+  }
+  return finish(State::Hit);
+}
+
+#define PLUMB_INSTANTIATE(Real)                                                                            \
+  template Pose<Real> pose_at(const Sweep<Real>&, double);                                                 \
+  template ImpactResult<Real> time_of_impact(const Convex<Real>&, const Sweep<Real>&, const Convex<Real>&, \
+                                             const Sweep<Real>&, Real, Real);
+PLUMB_INSTANTIATE(float)
+PLUMB_INSTANTIATE(double)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb
