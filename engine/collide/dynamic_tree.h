@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "engine/collide/dynamic_tree_nodes.h"
+#include "engine/geometry/aabb.h"
+
+namespace plumb {
+
+/// A binary tree of boxes that move: the broad phase's index. Each box (a leaf) belongs to categories, each
+/// inner node knows the categories below it, and a query with a mask passes over subtrees that have none of
+/// them. The tree changes in two ways: leaf by leaf (insert, remove, move), by the surface-area heuristic
+/// (Goldsmith and Salmon 1987) with rotations on the way up (Kopta et al. 2012); and in bulk, by enlarging
+/// boxes where they are and then rebuilding from above what was enlarged.
+///
+/// Boxes are finite, lower <= upper (a point is a box). A proxy names a leaf from insert() to remove(),
+/// whatever moves in between; naming any other is outside the contract. The same calls give the same tree,
+/// bit for bit, and visits in the same order. Queries may run at the same time as other queries.
+template <class Real>
+class DynamicTree {
+ public:
+  /// Every category: the mask that passes over nothing but leaves without a category.
+  static constexpr std::uint32_t kAll = 0xffffffff;
+
+  /// Returns the proxy: the one removed last, or the next new one.
+  int insert(const Aabb<Real>& box, std::uint32_t category, int user);
+  void remove(int proxy);
+  /// The leaf is taken out and put back in where `box` belongs.
+  void move(int proxy, const Aabb<Real>& box);
+  /// The leaf's box grows to contain `box`, and so do those above it, in place; marks them for rebuild().
+  void enlarge(int proxy, const Aabb<Real>& box);
+  void set_category(int proxy, std::uint32_t category);
+
+  const Aabb<Real>& box(int proxy) const { return node(slots_[proxy]).box; }
+  int user(int proxy) const { return node(slots_[proxy]).tag; }
+  std::uint32_t category(int proxy) const { return node(slots_[proxy]).category; }
+
+  /// Builds anew what was enlarged since the last time: inner nodes that are marked, down to leaves and to
+  /// subtrees without a mark. Returns how many of these were arranged, 0 when nothing was marked.
+  int rebuild();
+  /// The same for the whole tree, and lays its nodes out in the order of a query: after loading many boxes.
+  int rebuild_all();
+
+  /// Calls visit(int user, int proxy) -> bool for each leaf whose box overlaps `box` (touching counts) and
+  /// whose category shares a bit with `mask`, until it returns false.
+  template <class Visit>
+  void query(const Aabb<Real>& box, std::uint32_t mask, Visit&& visit) const;
+
+  /// Sweeps a box of `half_extent` (zero for a ray) from `origin` by `translation`, m. Calls
+  /// visit(int user, Real max_fraction) -> Real for leaves that the sweep meets at a fraction of at most
+  /// max_fraction of the translation, nearer subtrees first; max_fraction starts at 1 and becomes what visit
+  /// returns if that is less. Stops at 0. A leaf that exact arithmetic says is met is never missed.
+  template <class Visit>
+  void ray_cast(Vec2<Real> origin, Vec2<Real> translation, Vec2<Real> half_extent, std::uint32_t mask,
+                Visit&& visit) const;
+
+  /// Calls visit(int user, Real max_distance) -> Real for leaves whose boxes are within max_distance of
+  /// `point`, m, nearer subtrees first; max_distance becomes what visit returns if that is less. Stops below
+  /// 0.
+  template <class Visit>
+  void nearest(Vec2<Real> point, std::uint32_t mask, Real max_distance, Visit&& visit) const;
+
+  /// Leaves in the tree.
+  int size() const { return size_; }
+  /// The longest way from the root to a leaf, in nodes; looks at every node.
+  int height() const;
+  /// Around all leaves; {0, 0} to {0, 0} when there are none.
+  Aabb<Real> bounds() const { return size_ > 0 ? node(kRoot).box : Aabb<Real>{}; }
+  /// Half the perimeter of all inner boxes over the root's: how many inner nodes a small query meets.
+  double cost() const;
+  /// Whether every link, box, category and mark is as it should be; looks at every node.
+  bool valid() const;
+  /// Removes all leaves; proxies start from 0 again. Room is kept.
+  void clear();
+  /// Makes room for `leaves` leaves, so that inserting and rebuilding them allocates nothing.
+  void reserve(int leaves);
+
+  /// Appends all that decides what the tree does next, its free places included.
+  void save(std::vector<std::byte>& out) const;
+  /// Takes it from the front of `in`; what follows gives the same bits as in the tree that was saved. Throws
+  /// Error (Value) and leaves the tree as it was when the bytes are damaged.
+  void restore(std::span<const std::byte>& in);
+
+ private:
+  using Node = TreeNode<Real>;
+  using Pair = TreePair<Real>;
+
+  static constexpr int kNone = -1;
+  static constexpr int kRoot = 0;
+  // Ways down that a traversal may still have to take: never more than the height. Trees that are higher go
+  // on without a stack, along the parents.
+  static constexpr int kStack = 128;
+
+  static int first(int pair) { return 2 * pair; }
+  const Node& node(int slot) const { return pairs_[slot >> 1].children[slot & 1]; }
+  Node& node(int slot) { return pairs_[slot >> 1].children[slot & 1]; }
+
+  // Moves what is at a node to another slot, with the links that lead back to it.
+  void put(int slot, Node content);
+  void exchange(int a, int b);
+  void adopt(int slot);
+  int new_pair();
+  void free_pair(int pair);
+  void update(int slot);
+
+  int best_sibling(const Aabb<Real>& box, std::uint32_t ties) const;
+  void insert_leaf(const Node& leaf);
+  Node take_leaf(int proxy);
+  void rotate(int slot);
+
+  void gather(bool everything);
+  void build(int slot, Node* items, int count, int budget);
+  int build_gathered();
+
+  // Goes to the nodes below `pair` that enter(node) lets in, along the parents, without a stack; false when
+  // leaf(node) stopped it.
+  template <class Enter, class Leaf>
+  bool walk(int pair, const Enter& enter, const Leaf& leaf) const;
+  // Branch and bound: of two nodes the one with the smaller bound(node) first, as long as reaches(bound)
+  // holds.
+  template <class Bound, class Reaches, class Leaf>
+  void descend(const Bound& bound, const Reaches& reaches, const Leaf& leaf) const;
+
+  bool inner_is_sound(int slot) const;
+  bool leaf_is_sound(int slot) const;
+
+  std::vector<Pair> pairs_;  // pair 0 holds the root and an unused node
+  std::vector<int> slots_;   // proxy -> slot of its leaf
+  std::vector<int> free_pairs_, free_proxies_;
+  int size_ = 0;
+
+  // Scratch of rebuild().
+  std::vector<int> loose_pairs_;
+  std::vector<Node> items_;
+  int next_loose_ = 0;
+};
+
+}  // namespace plumb
+
+#include "engine/collide/dynamic_tree_traverse.h"
