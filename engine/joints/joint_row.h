@@ -2,20 +2,23 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "engine/joints/definitions.h"
 #include "engine/math/vec2.h"
 
-/// What every kind of joint is described by: scalar rows with a residual and a Jacobian, and rules that say
-/// what a row does with its residual. Kinds know nothing of who solves them.
+/// What every kind of joint is described by: coordinates with their Jacobians, and rules that say what is
+/// asked of them. Kinds know nothing of who solves them.
 namespace plumb {
 
 /// How the joined bodies stand, as residuals see it.
 template <class Real>
 struct JointPose {
-  Vec2<Real> offset{};  ///< m, of b's centre of mass from a's, in the world's axes
+  Vec2<Real>
+      offset{};  ///< m, of b's centre of mass from a's (of grounded kinds: from b's point of the world)
+  Vec2<Real> offset_a{};  ///< m, of a's centre of mass from a's point of the world: grounded kinds only
   Rotation<Real> rotation_a{}, rotation_b{};
-  Real angle = 0;  ///< rad, of b relative to a, less the joint's reference angle
+  Real angle = 0;  ///< rad, the joint's own: of b relative to a, less its reference
 };
 
 /// One scalar coordinate of a joint, linearised: dC/dt = J v.
@@ -24,6 +27,45 @@ struct JointRow {
   Vec2<Real> linear_a{}, linear_b{};  ///< dC/d(centre of mass), per body
   Real angular_a = 0, angular_b = 0;  ///< dC/d(angle), per body
   Real residual = 0;                  ///< C, m or rad
+};
+
+/// Where the anchors are. With the impulse P on b at its anchor goes -P on a at the same point of the world,
+/// so that angular momentum is conserved however far the anchors are apart; `arm_a` leads there.
+template <class Real>
+struct AnchorPoint {
+  Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass to anchor b
+  Vec2<Real> gap{};             ///< m, anchor b less anchor a
+
+  /// C = n . gap, where n turns with a:
+  /// dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a + gap)).
+  JointRow<Real> row(Vec2<Real> n, Real residual) const {
+    return {-n, n, -cross(arm_a, n), cross(arm_b, n), residual};
+  }
+  JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
+};
+
+template <class Real>
+AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a, Vec2<Real> anchor_b) {
+  const Vec2<Real> arm_b = pose.rotation_b * anchor_b;
+  const Vec2<Real> reach = pose.offset + arm_b;
+  return {reach, arm_b, reach - pose.rotation_a * anchor_a};
+}
+
+/// All that a kind may tell of a pose; it fills what its constants announce.
+template <class Real>
+struct JointRows {
+  AnchorPoint<Real> point{};  ///< kPoint: gap = 0, both components at once
+  JointRow<Real> block[3]{};  ///< kBlock rows that are rigid, together
+  JointRow<Real> axial[2]{};  ///< kAxial coordinates; the residual is the coordinate itself
+  Vec2<Real> arm_b{};         ///< m, to the point that torques are told about
+};
+
+/// What the angle of a pose is to a kind.
+enum class AngleUse {
+  None,
+  Wrapped,  ///< the way that is shorter, in [-pi, pi]
+  Counted,  ///< whole turns count
+  Geared,   ///< whole turns count of each body
 };
 
 enum class RowRole {
@@ -51,20 +93,36 @@ struct RowRules {
   int count = 0;
 
   void add(const RowRule& r) { rule[count++] = r; }
-  void add(const std::optional<Spring>& spring, double target) {
+  void add_spring(const std::optional<Spring>& spring, double target) {
     if (spring) add({.role = RowRole::Spring, .origin = target, .spring = *spring});
   }
-  void add(const std::optional<Motor>& motor) {
+  void add_motor(const std::optional<Motor>& motor) {
     if (motor) add({.role = RowRole::Motor, .speed = motor->speed, .max_force = motor->max_force});
   }
-  void add(const std::optional<Range>& limits);
+  void add_limits(const std::optional<Range>& limits) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (!limits) return;
+    if (limits->lower > -kInfinity) add({.role = RowRole::Limit, .origin = limits->lower});
+    if (limits->upper < kInfinity) add({.role = RowRole::Limit, .origin = limits->upper, .sign = -1});
+  }
 };
 
-inline void RowRules::add(const std::optional<Range>& limits) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (!limits) return;
-  if (limits->lower > -kInfinity) add({.role = RowRole::Limit, .origin = limits->lower});
-  if (limits->upper < kInfinity) add({.role = RowRole::Limit, .origin = limits->upper, .sign = -1});
-}
+/// The rules of one joint. A block needs none: its rows are rigid.
+struct JointRules {
+  RowRule point{};  ///< of both components; max_force bounds the vector
+  RowRules turn{};  ///< of the angle
+  RowRules axial[2]{};
+};
+
+/// Kinds that say nothing else.
+template <int kBlockRows, int kAxialRows>
+struct JointTraits {
+  static constexpr int kBlock = kBlockRows;  ///< rigid rows that are solved together
+  static constexpr int kAxial = kAxialRows;  ///< coordinates with rules of their own
+  static constexpr bool kPoint = false;      ///< anchors that meet
+  static constexpr bool kTurn = false;       ///< rules for the angle
+  static constexpr bool kGrounded = false;   ///< offsets are from points of the world
+  static constexpr AngleUse kAngle = AngleUse::None;
+};
 
 }  // namespace plumb

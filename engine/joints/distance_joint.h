@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/joints/joint_row.h"
+
+namespace plumb {
+
+/// Two anchors at a distance: q = |d|, d from anchor a to anchor b. dq/dt = u . dd/dt, u = d / |d|.
+template <class Real>
+struct DistanceRows : JointTraits<0, 1> {
+  using Definition = DistanceDefinition;
+
+  Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+
+  DistanceRows() = default;
+  DistanceRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+    const Real length = std::sqrt(length_squared(out.point.gap));
+    // Anchors that coincide have no direction; any one moves them apart.
+    const Vec2<Real> u = length > 0 ? (1 / length) * out.point.gap : Vec2<Real>{1, 0};
+    out.axial[0] = out.point.row(u, length);
+    out.arm_b = out.point.arm_b;
+  }
+};
+
+JointRules rules_of(const DistanceDefinition& definition);
+
+}  // namespace plumb

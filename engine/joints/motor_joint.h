@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/joints/joint_row.h"
+
+namespace plumb {
+
+/// b's origin at a point of a's frame and at an angle to it, followed by springs of bounded strength.
+template <class Real>
+struct MotorRows : JointTraits<0, 0> {
+  using Definition = MotorDefinition;
+  static constexpr bool kPoint = true, kTurn = true;
+  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+
+  Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+  double reference = 0;               ///< rad, the target
+
+  MotorRows() = default;
+  MotorRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+  }
+};
+
+JointRules rules_of(const MotorDefinition& definition);
+
+}  // namespace plumb

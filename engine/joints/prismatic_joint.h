@@ -1,0 +1,33 @@
+#pragma once
+
+#include "engine/joints/joint_row.h"
+
+namespace plumb {
+
+/// b slides along an axis n of a without turning: the angle and n' . d are 0, q = n . d; d from anchor a to
+/// anchor b, n' a quarter turn from n.
+template <class Real>
+struct PrismaticRows : JointTraits<2, 1> {
+  using Definition = PrismaticDefinition;
+  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+
+  Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+  Vec2<Real> axis{};                  ///< in a's frame, of length 1
+  double reference = 0;               ///< rad
+
+  PrismaticRows() = default;
+  PrismaticRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+    const Vec2<Real> n = pose.rotation_a * axis;
+    out.block[0] = {{}, {}, -1, 1, pose.angle};
+    out.block[1] = out.point.row(perpendicular(n));
+    out.axial[0] = out.point.row(n);
+    out.arm_b = out.point.arm_b;
+  }
+};
+
+JointRules rules_of(const PrismaticDefinition& definition);
+
+}  // namespace plumb

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "engine/joints/joint_row.h"
+
+namespace plumb {
+
+/// b held to a: anchor b - anchor a = 0 and the angle is 0, all three rows rigid and solved together.
+template <class Real>
+struct WeldRows : JointTraits<3, 0> {
+  using Definition = WeldDefinition;
+  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+
+  Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+  double reference = 0;               ///< rad
+
+  WeldRows() = default;
+  WeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+    const Vec2<Real> x{pose.rotation_a.c, pose.rotation_a.s};
+    out.block[0] = {{}, {}, -1, 1, pose.angle};
+    out.block[1] = out.point.row(x);
+    out.block[2] = out.point.row(perpendicular(x));
+    out.arm_b = out.point.arm_b;
+  }
+};
+
+/// The same with a spring for the point, for the angle or for both; what has none is rigid.
+template <class Real>
+struct SoftWeldRows : JointTraits<0, 0> {
+  using Definition = WeldDefinition;
+  static constexpr bool kPoint = true, kTurn = true;
+  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+
+  Vec2<Real> anchor_a{}, anchor_b{};
+  double reference = 0;
+
+  SoftWeldRows() = default;
+  SoftWeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+  }
+};
+
+JointRules rules_of(const WeldDefinition& definition);
+
+}  // namespace plumb

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "engine/joints/joint_row.h"
+
+namespace plumb {
+
+/// b turns freely about a point that slides along an axis n of a: n' . d = 0, q = n . d; d from anchor a to
+/// anchor b, n' a quarter turn from n.
+template <class Real>
+struct WheelRows : JointTraits<0, 2> {
+  using Definition = WheelDefinition;
+  static constexpr bool kTurn = true;
+  static constexpr AngleUse kAngle = AngleUse::Counted;
+
+  Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+  Vec2<Real> axis{};                  ///< in a's frame, of length 1
+  double reference = 0;               ///< rad
+
+  WheelRows() = default;
+  WheelRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+
+  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+    out.point = anchor_point(pose, anchor_a, anchor_b);
+    const Vec2<Real> n = pose.rotation_a * axis;
+    out.axial[0] = out.point.row(n);
+    out.axial[1] = out.point.row(perpendicular(n));
+    out.arm_b = out.point.arm_b;
+  }
+};
+
+JointRules rules_of(const WheelDefinition& definition);
+
+}  // namespace plumb
