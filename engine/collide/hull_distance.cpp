@@ -1,5 +1,6 @@
 #include "engine/collide/hull_distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,10 +52,9 @@ struct Simplex {
   int count = 0;
   Vec2d outward;      ///< from the origin to the nearest point, at any length
   double square = 0;  ///< m^2, the distance squared
-  double part = 0;    ///< of the way from the first vertex to the second
 };
 
-Simplex point_simplex(const Vertex& p) { return {{p, {}}, 1, p.w, length_squared(p.w), 0}; }
+Simplex point_simplex(const Vertex& p) { return {{p, {}}, 1, p.w, length_squared(p.w)}; }
 
 /// What of the segment p q is nearest to the origin.
 Simplex segment_simplex(const Vertex& p, const Vertex& q) {
@@ -66,7 +66,7 @@ Simplex segment_simplex(const Vertex& p, const Vertex& q) {
   // and no difference of nearly equal lengths.
   const Vec2d m = perpendicular(e);
   const double height = dot(p.w, m), size = length_squared(e);
-  return {{p, q}, 2, height < 0 ? -m : m, height * height / size, before / (before + after)};
+  return {{p, q}, 2, height < 0 ? -m : m, height * height / size};
 }
 
 /// The triangle of a segment and the vertex r beyond it. Its nearest part contains r, unless the origin is
@@ -74,7 +74,7 @@ Simplex segment_simplex(const Vertex& p, const Vertex& q) {
 Simplex triangle_simplex(const Simplex& segment, const Vertex& r) {
   const Vertex &p = segment.vertices[0], &q = segment.vertices[1];
   const double pq = cross(p.w, q.w), qr = cross(q.w, r.w), rp = cross(r.w, p.w);
-  if ((pq >= 0 && qr >= 0 && rp >= 0) || (pq <= 0 && qr <= 0 && rp <= 0)) return {{p, q}, 3, {}, 0, 0};
+  if ((pq >= 0 && qr >= 0 && rp >= 0) || (pq <= 0 && qr <= 0 && rp <= 0)) return {{p, q}, 3, {}, 0};
   const Simplex first = segment_simplex(p, r), second = segment_simplex(q, r);
   return first.square <= second.square ? first : second;
 }
@@ -105,9 +105,9 @@ Simplex first_simplex(const Hulls<Real>& hulls, const SimplexCache* cache) {
 /// The signed distance along one edge's normal.
 struct Axis {
   double separation = -std::numeric_limits<double>::infinity();
-  Vec2d normal;  ///< outward, in the frame of the edge's shape
-  int edge = 0;
-  int corner = 0;  ///< of the other shape, the deepest
+  // In the frame of the edge's shape:
+  Vec2d normal;   ///< outward
+  Vec2d on_edge;  ///< below the deepest corner of the other shape
 };
 
 /// The edge of `shape` beyond which `other` lies farthest, or least deep.
@@ -121,10 +121,13 @@ Axis best_axis(const Convex<Real>& shape, const Convex<Real>& other, const Pose<
     if (!(length > 0)) continue;
     const Vec2d normal{e.y / length, -e.x / length};
     const int j = Hulls<Real>::farthest(other, -(other_in_shape.rotation.inverse() * normal));
-    const Vec2d corner =
-        other_in_shape.position + other_in_shape.rotation * other.corners[j].point.template as<double>();
-    const double separation = dot(normal, corner - p);
-    if (separation > best.separation) best = {separation, normal, i, j};
+    const Vec2d from_p =
+        other_in_shape.position + other_in_shape.rotation * other.corners[j].point.template as<double>() - p;
+    const double separation = dot(normal, from_p);
+    if (!(separation > best.separation)) continue;
+    // The corner is above the edge, unless it belongs to a parallel edge: then what they share will do.
+    const double along = std::clamp(dot(from_p, e) / (length * length), 0.0, 1.0);
+    best = {separation, normal, p + along * e};
   }
   return best;
 }
@@ -138,20 +141,20 @@ HullDistance overlap(const Hulls<Real>& hulls) {
   const Axis of_a = best_axis(hulls.a, hulls.b, pose);
   const Axis of_b = best_axis(hulls.b, hulls.a, {-(back * pose.position), back});
   HullDistance out;
-  if (hulls.a.count == 1 && hulls.b.count == 1) {
+  if (std::max(of_a.separation, of_b.separation) == -std::numeric_limits<double>::infinity()) {
     out.normal = {0, 1};  // two points in one place leave the direction open: up
     out.point_a = hulls.corner_a(0);
     out.point_b = hulls.corner_b(0);
   } else if (of_a.separation >= of_b.separation) {
     out.normal = of_a.normal;
     out.separation = of_a.separation;
-    out.point_b = hulls.corner_b(of_a.corner);
-    out.point_a = out.point_b - of_a.separation * of_a.normal;
+    out.point_a = of_a.on_edge;
+    out.point_b = of_a.on_edge + of_a.separation * out.normal;
   } else {
     out.normal = -(pose.rotation * of_b.normal);
     out.separation = of_b.separation;
-    out.point_a = hulls.corner_a(of_b.corner);
-    out.point_b = out.point_a + of_b.separation * out.normal;
+    out.point_b = pose.position + pose.rotation * of_b.on_edge;
+    out.point_a = out.point_b - of_b.separation * out.normal;
   }
   return out;
 }
@@ -168,13 +171,13 @@ HullDistance apart(const Hulls<Real>& hulls, const Simplex& simplex) {
     return out;
   }
   const Vertex& q = simplex.vertices[1];
-  const Vec2d m = perpendicular(hulls.edge(p, q));
-  const double signed_length = dot(m, simplex.outward) < 0 ? -std::sqrt(length_squared(m))  //
-                                                           : std::sqrt(length_squared(m));
-  out.normal = {m.x / signed_length, m.y / signed_length};
-  out.point_a = hulls.corner_a(p.a) + simplex.part * (hulls.corner_a(q.a) - hulls.corner_a(p.a));
-  out.point_b = hulls.corner_b(p.b) + simplex.part * (hulls.corner_b(q.b) - hulls.corner_b(p.b));
-  out.separation = dot(out.normal, simplex.part < 0.5 ? p.w : q.w);
+  const Vec2d e = hulls.edge(p, q), m = perpendicular(e);
+  const double length = std::sqrt(length_squared(e)), side = dot(m, simplex.outward) < 0 ? -length : length;
+  const double part = std::clamp(-dot(p.w, e) / (length * length), 0.0, 1.0);
+  out.normal = {m.x / side, m.y / side};
+  out.point_a = hulls.corner_a(p.a) + part * (hulls.corner_a(q.a) - hulls.corner_a(p.a));
+  out.point_b = hulls.corner_b(p.b) + part * (hulls.corner_b(q.b) - hulls.corner_b(p.b));
+  out.separation = dot(out.normal, part < 0.5 ? p.w : q.w);
   return out;
 }
 
