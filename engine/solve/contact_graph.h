@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/math/bit_set.h"
+#include "engine/solve/contact_constraint.h"
+
+namespace plumb {
+
+/// The contact constraints of awake bodies, sorted into colours: no two of a colour share a dynamic body, so
+/// that they may be solved in any order, side by side. Contacts with a body that does not give way have
+/// colours of their own at the end: what is solved last holds best, and the ground should. The colouring is
+/// greedy and persistent (a constraint keeps its colour); what finds none goes to the last, which is solved
+/// in order.
+template <class Real>
+class ContactGraph {
+ public:
+  static constexpr int kDynamicColours = 20, kColours = 24, kOverflow = 24;
+
+  struct Place {
+    int colour = -1, index = -1;
+  };
+
+  /// Takes `constraint` in. `gives_way_a/b`: whether that body is dynamic.
+  Place add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b);
+
+  /// Takes the constraint out; the last of its colour moves to `place`, if there is one: its record is
+  /// returned, else -1.
+  int remove(Place place, bool gives_way_a, bool gives_way_b);
+
+  ContactConstraint<Real>& at(Place place) { return colours_[place.colour][place.index]; }
+  const ContactConstraint<Real>& at(Place place) const { return colours_[place.colour][place.index]; }
+
+  /// `visit(constraint)` for all, overflow first, in the order that they are solved in.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (int c = 0; c <= kColours; ++c) {
+      for (ContactConstraint<Real>& constraint : colours_[order(c)]) visit(constraint);
+    }
+  }
+
+  std::vector<ContactConstraint<Real>>& colour(int c) { return colours_[c]; }
+  const std::vector<ContactConstraint<Real>>& colour(int c) const { return colours_[c]; }
+  static constexpr int order(int nth) { return nth == 0 ? kOverflow : nth - 1; }
+
+  std::size_t size() const;
+
+ private:
+  std::vector<ContactConstraint<Real>> colours_[kColours + 1];
+  BitSet bodies_[kColours];
+};
+
+}  // namespace plumb

@@ -1,0 +1,61 @@
+#pragma once
+
+/// The numbers that the real-time world is tuned with, each with its unit and its reason. None is a length or
+/// a speed of its own: they scale with the shapes, the substep and gravity, so that a scene of millimetres
+/// and one of kilometres behave alike.
+namespace plumb::tuning {
+
+/// Natural frequency of the spring that stands for a contact, as a share of the substep's rate; beyond 1/4
+/// the discrete spring is not stable. Against what does not give way it may be twice as hard.
+inline constexpr double kContactFrequencyShare = 0.125;
+inline constexpr double kStiffFrequencyShare = 0.25;
+/// Far over-critical: overlaps dissolve without a bounce.
+inline constexpr double kContactDampingRatio = 10;
+
+/// The same for joints.
+inline constexpr double kJointFrequencyShare = 0.25;
+inline constexpr double kJointDampingRatio = 2;
+
+/// Fastest push out of an overlap, in extents of the smaller shape a second: deep overlaps dissolve without a
+/// burst.
+inline constexpr double kPushSpeed = 4;
+
+/// Contacts are prepared for shapes that are nearer than this share of the smaller shape's extent, besides
+/// the way that they may come closer in the step.
+inline constexpr double kContactReach = 0.02;
+/// Most of that way, as a share of the smaller extent: a plane of contact is a guess at a distance.
+inline constexpr double kContactReachMost = 0.5;
+
+/// A manifold is kept while its shapes have moved less than this share of the smaller extent relative to each
+/// other: the error of carrying separations on is of second order in it.
+inline constexpr double kManifoldTravel = 0.002;
+
+/// Broad-phase margin, as a share of the shape's extent, and how many steps of motion ahead it looks. Larger:
+/// fewer updates of the tree, more pairs to look at.
+inline constexpr double kBoxMargin = 0.1;
+inline constexpr double kBoxSteps = 2;
+
+/// Approaches slower than this many times |gravity| dt do not bounce: a body at rest gains |gravity| dt
+/// before its contact answers.
+inline constexpr double kRestingSteps = 4;
+
+/// A body is fast when it moves by more than this share of its smallest half width in a step: slower ones
+/// cannot get through anything between two steps.
+inline constexpr double kFastShare = 0.5;
+
+/// A shape's core, as a share of its size: a fast body is stopped when its core would get through something.
+inline constexpr double kCoreShare = 0.5;
+/// How near a fast body is brought to what it meets, as a share of the smaller extent.
+inline constexpr double kImpactTolerance = 1e-3;
+
+/// A body that has moved slower than this, in extents a second, for this long, s, may sleep.
+inline constexpr double kSleepSpeed = 0.05;
+inline constexpr double kSleepTime = 0.5;
+
+/// Overlaps below this share of the smaller extent count as touching for events.
+inline constexpr double kTouch = 1e-3;
+
+/// Impacts faster than this, in extents of the smaller shape a second, are reported as hits.
+inline constexpr double kHitSpeed = 1;
+
+}  // namespace plumb::tuning

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/world/world.h"
+#include "engine/world/world_data.h"
+
+namespace plumb {
+
+/// What outsiders see of a contact. The constraint keeps the arms r by their components along t and n.
+template <class Real>
+ContactReading reading_of(const WorldData<Real>& w, const ContactRecord& contact,
+                          const ContactConstraint<Real>& c) {
+  const auto id = [&](int shape) {
+    return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
+  };
+  ContactReading reading;
+  reading.shape_a = id(contact.shape_a), reading.shape_b = id(contact.shape_b);
+  reading.normal = c.normal.template as<double>();
+  reading.count = c.count;
+  const Vec2<Real> n = c.normal, t{n.y, -n.x};
+  for (int i = 0; i < c.count; ++i) {
+    const ContactPoint<Real>& p = c.points[i];
+    // r x n = r.x n.y - r.y n.x = r . t, and r x t = -(r . n).
+    const Vec2<Real> arm = p.arm_normal_a * t - p.arm_tangent_a * n;
+    reading.points[i] = w.position[c.body_a] + arm.template as<double>();
+    reading.separations[i] = static_cast<double>(p.separation);
+    reading.impulses[i] = static_cast<double>(p.normal_impulse);
+    reading.approach = std::min(reading.approach, static_cast<double>(p.approach));
+  }
+  return reading;
+}
+
+}  // namespace plumb

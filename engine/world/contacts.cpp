@@ -1,0 +1,219 @@
+#include "engine/world/contacts.h"
+
+#include "engine/world/islands.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+void count_constraint(WorldData<Real>& w, const ContactRecord& contact, int by) {
+  w.bodies[contact.body_a].constraints += by;
+  w.bodies[contact.body_b].constraints += by;
+}
+
+template <class Real>
+void enter_near(WorldData<Real>& w, int contact) {
+  ContactRecord& record = w.contacts[contact];
+  record.home = ContactHome::Near;
+  record.index = static_cast<int>(w.near.size());
+  w.near.push_back(contact);
+}
+
+template <class Real>
+void leave_near(WorldData<Real>& w, int contact) {
+  const int index = w.contacts[contact].index;
+  w.near[index] = w.near.back();
+  w.contacts[w.near[index]].index = index;
+  w.near.pop_back();
+}
+
+template <class Real>
+void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
+  ContactRecord& record = w.contacts[contact];
+  const auto place = w.graph.add(constraint, w.gives_way(record.body_a), w.gives_way(record.body_b));
+  record.home = ContactHome::Graph;
+  record.colour = static_cast<std::int8_t>(place.colour);
+  record.index = place.index;
+}
+
+template <class Real>
+void leave_graph(WorldData<Real>& w, int contact) {
+  const ContactRecord& record = w.contacts[contact];
+  const int follower =
+      w.graph.remove({record.colour, record.index}, w.gives_way(record.body_a), w.gives_way(record.body_b));
+  if (follower != -1) w.contacts[follower].index = record.index;
+}
+
+template <class Real>
+void leave_parked(WorldData<Real>& w, int contact) {
+  const int index = w.contacts[contact].index;
+  w.parked[index] = w.parked.back();
+  w.contacts[w.parked[index].contact].index = index;
+  w.parked.pop_back();
+}
+
+template <class Real>
+bool joined_without_collision(const WorldData<Real>& w, int body_a, int body_b) {
+  const BodyRecord<Real>&a = w.bodies[body_a], &b = w.bodies[body_b];
+  const int fewer = a.joint_count < b.joint_count ? body_a : body_b;
+  const int other = fewer == body_a ? body_b : body_a;
+  bool found = false;
+  for_each_edge(w.joints, w.bodies[fewer].first_joint, [&](int edge, const JointRecord& joint) {
+    found = found || (!joint.collide && ((edge & 1) == 0 ? joint.body_b : joint.body_a) == other);
+  });
+  return found;
+}
+
+}  // namespace
+
+template <class Real>
+bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  if (a.body == b.body || (!w.gives_way(a.body) && !w.gives_way(b.body))) return false;
+  const ShapeForm<Real>&form_a = w.forms[shape_a], &form_b = w.forms[shape_b];
+  if (form_a.sensor || form_b.sensor || (form_a.chain && form_b.chain)) return false;
+  return may_touch(a.filter, b.filter) && !joined_without_collision(w, a.body, b.body);
+}
+
+template <class Real>
+void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
+  // A chain's segment comes first: manifolds know it there only.
+  if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  ContactRecord record;
+  record.shape_a = shape_a, record.shape_b = shape_b;
+  record.body_a = a.body, record.body_b = b.body;
+  record.pre_solve = a.pre_solve || b.pre_solve;
+  record.hit_events = a.hit_events || b.hit_events;
+  const int contact = w.contacts.add(record);
+  link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
+  w.pairs.insert(shape_a, shape_b);
+  if (w.bodies[a.body].awake || w.bodies[b.body].awake) {
+    enter_near(w, contact);
+  } else {
+    w.contacts[contact].home = ContactHome::Idle;
+  }
+}
+
+template <class Real>
+void destroy_contact(WorldData<Real>& w, int contact) {
+  set_touching(w, contact, false);
+  const ContactRecord record = w.contacts[contact];
+  switch (record.home) {
+    case ContactHome::Near:
+      leave_near(w, contact);
+      break;
+    case ContactHome::Graph:
+      leave_graph(w, contact);
+      break;
+    case ContactHome::Parked:
+      leave_parked(w, contact);
+      break;
+    case ContactHome::Idle:
+      break;
+  }
+  if (record.home == ContactHome::Graph || record.home == ContactHome::Parked)
+    count_constraint(w, record, -1);
+  unlink_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
+  w.pairs.erase(record.shape_a, record.shape_b);
+  w.contacts.remove(contact);
+}
+
+template <class Real>
+void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
+  leave_near(w, contact);
+  enter_graph(w, contact, constraint);
+  const ContactRecord record = w.contacts[contact];
+  count_constraint(w, record, 1);
+  wake_body(w, record.body_a);
+  wake_body(w, record.body_b);
+}
+
+template <class Real>
+void end_contact(WorldData<Real>& w, int contact) {
+  set_touching(w, contact, false);
+  leave_graph(w, contact);
+  enter_near(w, contact);
+  count_constraint(w, w.contacts[contact], -1);
+}
+
+template <class Real>
+void park_contact(WorldData<Real>& w, int contact) {
+  ContactRecord& record = w.contacts[contact];
+  if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
+  if (record.home == ContactHome::Near) {
+    leave_near(w, contact);
+    record.home = ContactHome::Idle;
+  } else if (record.home == ContactHome::Graph) {
+    w.parked.push_back(w.graph.at({record.colour, record.index}));
+    leave_graph(w, contact);
+    record.home = ContactHome::Parked;
+    record.index = static_cast<int>(w.parked.size()) - 1;
+  }
+}
+
+template <class Real>
+void unpark_contact(WorldData<Real>& w, int contact) {
+  const ContactRecord& record = w.contacts[contact];
+  if (record.home == ContactHome::Idle) {
+    enter_near(w, contact);
+  } else if (record.home == ContactHome::Parked) {
+    const ContactConstraint<Real> constraint = w.parked[record.index];
+    leave_parked(w, contact);
+    enter_graph(w, contact, constraint);
+  }
+}
+
+template <class Real>
+ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact) {
+  return contact.home == ContactHome::Parked ? w.parked[contact.index]
+                                             : w.graph.at({contact.colour, contact.index});
+}
+
+template <class Real>
+void set_touching(WorldData<Real>& w, int contact, bool touching) {
+  ContactRecord& record = w.contacts[contact];
+  if (record.touching == touching) return;
+  record.touching = touching;
+  const auto id = [&](int shape) {
+    return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
+  };
+  (touching ? w.events.begin : w.events.end).push_back({id(record.shape_a), id(record.shape_b)});
+}
+
+template <class Real>
+void forget_manifolds(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, ContactRecord& contact) {
+    if (contact.home == ContactHome::Graph || contact.home == ContactHome::Parked) {
+      constraint_of(w, contact).travel_left = -1;
+    }
+  });
+}
+
+template <class Real>
+void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
+    if (shape != kNone && contact.shape_a != shape && contact.shape_b != shape) return;
+    const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+    if (contact.home == ContactHome::Parked) wake_body(w, other);
+    destroy_contact(w, edge / 2);
+  });
+}
+
+#define PLUMB_FOR(Real)                                                                    \
+  template bool may_collide(const WorldData<Real>&, int, int);                             \
+  template void create_contact(WorldData<Real>&, int, int);                                \
+  template void destroy_contact(WorldData<Real>&, int);                                    \
+  template void begin_contact(WorldData<Real>&, int, const ContactConstraint<Real>&);      \
+  template void end_contact(WorldData<Real>&, int);                                        \
+  template void park_contact(WorldData<Real>&, int);                                       \
+  template void unpark_contact(WorldData<Real>&, int);                                     \
+  template ContactConstraint<Real>& constraint_of(WorldData<Real>&, const ContactRecord&); \
+  template void set_touching(WorldData<Real>&, int, bool);                                 \
+  template void forget_manifolds(WorldData<Real>&, int);                                   \
+  template void destroy_contacts_of(WorldData<Real>&, int, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "engine/world/world_data.h"
+
+/// The life of a contact: made when the stored boxes of two shapes overlap, in the constraint graph while it
+/// has points, parked while its bodies sleep, gone when the boxes part.
+namespace plumb {
+
+/// Whether the two shapes are to collide at all: bodies, filters, joints between the bodies.
+template <class Real>
+bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
+
+template <class Real>
+void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
+
+/// Reports the end of touching.
+template <class Real>
+void destroy_contact(WorldData<Real>& w, int contact);
+
+/// From Near to Graph: it has points now. Bodies that sleep are woken.
+template <class Real>
+void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint);
+
+/// From Graph to Near.
+template <class Real>
+void end_contact(WorldData<Real>& w, int contact);
+
+/// To Parked or Idle when all its bodies sleep, and back.
+template <class Real>
+void park_contact(WorldData<Real>& w, int contact);
+template <class Real>
+void unpark_contact(WorldData<Real>& w, int contact);
+
+/// The constraint of a contact that has points.
+template <class Real>
+ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact);
+
+/// Notes whether the contact touches as events tell it.
+template <class Real>
+void set_touching(WorldData<Real>& w, int contact, bool touching);
+
+/// The manifolds of a body that was put somewhere else are to be made anew.
+template <class Real>
+void forget_manifolds(WorldData<Real>& w, int body);
+
+/// Destroys all contacts of a body, or of one shape of it; what rested on it wakes up.
+template <class Real>
+void destroy_contacts_of(WorldData<Real>& w, int body, int shape = kNone);
+
+/// Calls visit(edge, record of contact or joint) along a body's list; the visited one may be removed.
+template <class Items, class Visit>
+void for_each_edge(Items& items, int first, Visit&& visit) {
+  for (int edge = first; edge != kNone;) {
+    auto& item = items[edge / 2];
+    const int next = item.next[edge & 1];
+    visit(edge, item);
+    edge = next;
+  }
+}
+
+/// Puts item `index` with body_a and body_b into both bodies' lists that start at `head` (a member of
+/// BodyRecord), or takes it out.
+template <class Real, class Items>
+void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
+                int BodyRecord<Real>::*count);
+template <class Real, class Items>
+void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
+                  int BodyRecord<Real>::*count);
+
+template <class Real, class Items>
+void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
+                int BodyRecord<Real>::*count) {
+  for (int side = 0; side < 2; ++side) {
+    auto& item = items[index];
+    BodyRecord<Real>& body = w.bodies[side == 0 ? item.body_a : item.body_b];
+    item.previous[side] = kNone;
+    item.next[side] = body.*head;
+    if (body.*head != kNone) items[body.*head / 2].previous[body.*head & 1] = 2 * index + side;
+    body.*head = 2 * index + side;
+    ++(body.*count);
+  }
+}
+
+template <class Real, class Items>
+void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
+                  int BodyRecord<Real>::*count) {
+  for (int side = 0; side < 2; ++side) {
+    auto& item = items[index];
+    BodyRecord<Real>& body = w.bodies[side == 0 ? item.body_a : item.body_b];
+    const int before = item.previous[side], after = item.next[side];
+    if (before != kNone) items[before / 2].next[before & 1] = after;
+    if (after != kNone) items[after / 2].previous[after & 1] = before;
+    if (body.*head == 2 * index + side) body.*head = after;
+    --(body.*count);
+  }
+}
+
+}  // namespace plumb

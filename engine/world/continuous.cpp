@@ -1,0 +1,139 @@
+#include <algorithm>
+
+#include "engine/collide/time_of_impact.h"
+#include "engine/geometry/convex_bounds.h"
+#include "engine/math/trigonometry.h"
+#include "engine/world/constants.h"
+#include "engine/world/contacts.h"
+#include "engine/world/step.h"
+
+namespace plumb {
+namespace {
+
+// A shape shrunk towards its middle. While the core of a body has passed nothing, contacts push it out again
+// on the side that it came from; so a body is only stopped on its way when its core would get through.
+template <class Real>
+struct Core {
+  explicit Core(const Convex<Real>& shape) {
+    Vec2<Real> middle{};
+    for (int i = 0; i < shape.count; ++i) middle += shape.corners[i].point;
+    middle *= Real(1) / static_cast<Real>(shape.count);
+    for (int i = 0; i < shape.count; ++i) {
+      corners[i] = shape.corners[i];
+      corners[i].point = middle + Real(tuning::kCoreShare) * (corners[i].point - middle);
+    }
+    convex = {corners, shape.count, Real(tuning::kCoreShare) * shape.radius};
+  }
+  Corner<Real> corners[kMaxCorners];
+  Convex<Real> convex;
+};
+
+// The body's motion in this step, seen from `origin`. The rotation is that of the step's end, turned back.
+template <class Real>
+Sweep<Real> sweep_of(const WorldData<Real>& w, int body, Vec2d origin) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Vec2d start = w.position[body] - motion.moved.template as<double>();
+  const Rotation<Real> q = w.rotation[body], back = rotation_of(-motion.turned);
+  return {(start - origin).template as<Real>(),
+          motion.moved,
+          {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s},
+          motion.turned};
+}
+
+template <class Real>
+bool in_front(const WorldData<Real>& w, int chain_segment, Vec2<Real> point, const Sweep<Real>& chain) {
+  const Convex<Real> segment = w.convex(chain_segment);
+  const Vec2<Real> local = chain.start_rotation.inverse() * (point - chain.start);
+  return dot(segment.corners[0].normal, local - segment.corners[0].point) >= 0;
+}
+
+// The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
+template <class Real>
+double fraction_of_impact(const WorldData<Real>& w, int shape, int other) {
+  const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
+  const Vec2d origin = w.position[body];
+  const Sweep<Real> sweep = sweep_of(w, body, origin), other_sweep = sweep_of(w, other_body, origin);
+  if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
+  const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
+  const Core<Real> core(whole);
+  using State = typename ImpactResult<Real>::State;
+  const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
+  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
+  const ImpactResult<Real> through =
+      time_of_impact(obstacle, other_sweep, core.convex, sweep, tolerance, tolerance);
+  if (through.state == State::Separated || through.state == State::Overlapped) return 1;
+  const ImpactResult<Real> first = time_of_impact(obstacle, other_sweep, whole, sweep, tolerance, tolerance);
+  // Shapes that touched at the start are held by their contact until the core comes too near.
+  return first.state == State::Overlapped || first.exact_fraction == 0 ? through.exact_fraction
+                                                                       : first.exact_fraction;
+}
+
+// Whether a contact between the shapes had points in this step: the solver has seen to it.
+template <class Real>
+bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
+  bool solved = false;
+  const int other_body = w.shapes[other].body;
+  const int fewer = w.bodies[body].contact_count < w.bodies[other_body].contact_count ? body : other_body;
+  for_each_edge(w.contacts, w.bodies[fewer].first_contact, [&](int, const ContactRecord& contact) {
+    solved = solved ||
+             (contact.home == ContactHome::Graph && ((contact.shape_a == shape && contact.shape_b == other) ||
+                                                     (contact.shape_a == other && contact.shape_b == shape)));
+  });
+  return solved;
+}
+
+// Smallest fraction over all that the body meets.
+template <class Real>
+double first_impact(WorldData<Real>& w, int body) {
+  double first = 1;
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real extent = w.extents[body];
+  const Vec2<Real> end = w.position[body].template as<Real>(), start = end - motion.moved;
+  const Vec2<Real> around{extent, extent};
+  Aabb<Real> swept{start - around, start + around};
+  swept = merged(swept, Aabb<Real>{end - around, end + around});
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (w.forms[shape].sensor || w.forms[shape].chain) continue;
+    const auto visit = [&](int other, int) {
+      if (!may_collide(w, shape, other) || was_solved(w, body, shape, other)) return true;
+      first = std::min(first, fraction_of_impact(w, shape, other));
+      return true;
+    };
+    w.still_tree.query(swept, w.shapes[shape].filter.mask, visit);
+    w.moving_tree.query(swept, w.shapes[shape].filter.mask, visit);
+  }
+  return first;
+}
+
+template <class Real>
+void turn_back(WorldData<Real>& w, int body, double fraction, Real dt) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const double rest = 1 - fraction;
+  w.position[body] -= rest * motion.moved.template as<double>();
+  const Real back = static_cast<Real>(-rest) * motion.turned;
+  const Rotation<Real> q = w.rotation[body], r = rotation_of(back);
+  w.rotation[body] = {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};
+  w.bodies[body].angle += static_cast<double>(back);
+  motion.moved *= static_cast<Real>(fraction);
+  motion.turned += back;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    refresh_box(w, shape, dt);
+}
+
+}  // namespace
+
+template <class Real>
+void stop_at_impacts(WorldData<Real>& w, Real dt) {
+  std::vector<double>& fractions = w.fractions;
+  fractions.clear();
+  // All are found before any is moved, so that two fast bodies see each other's whole way.
+  for (const int body : w.fast_bodies) fractions.push_back(w.gives_way(body) ? first_impact(w, body) : 1);
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    if (fractions[i] < 1) turn_back(w, w.fast_bodies[i], fractions[i], dt);
+  }
+}
+
+template void stop_at_impacts(WorldData<float>&, float);
+template void stop_at_impacts(WorldData<double>&, double);
+
+}  // namespace plumb

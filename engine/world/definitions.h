@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/joints/definitions.h"
+#include "engine/scene/scene.h"
+
+/// What bodies and shapes of a world are made from: plain data in SI units, y up, double precision.
+namespace plumb {
+
+/// The points no farther than `radius` from the segment.
+struct Capsule {
+  Vec2d start{}, end{};  ///< m
+  double radius = 0;     ///< m, > 0
+};
+
+/// The convex hull of points, rounded by a radius.
+struct Polygon {
+  std::vector<Vec2d> points{};  ///< m, 3 or more that do not lie on a line, in any order
+  double radius = 0;            ///< m, >= 0
+};
+
+/// A line without thickness, solid from both sides. It has no mass.
+struct Segment {
+  Vec2d start{}, end{};  ///< m
+};
+
+using ShapeGeometry = std::variant<Circle, Box, Capsule, Polygon, Segment>;
+
+struct Material {
+  double friction = 0.6;   ///< Coulomb's coefficient, >= 0
+  double restitution = 0;  ///< Newton's coefficient, 0..1
+  double rolling_resistance =
+      0;                     ///< share of the rounding radius at which the normal force resists rolling, >= 0
+  double surface_speed = 0;  ///< m/s, of the surface, to the right as seen by who stands on it
+};
+
+struct ShapeDefinition {
+  ShapeGeometry geometry = Circle{0.5};
+  Vec2d position{};    ///< m, of the geometry's origin in the body's frame
+  double angle = 0;    ///< rad, in the body's frame
+  double density = 1;  ///< kg/m^2, >= 0
+  Material material{};
+  Filter filter{};
+  bool sensor = false;      ///< reports what overlaps it, and touches nothing
+  bool hit_events = false;  ///< reports hard impacts
+  bool pre_solve = false;   ///< asks the pre-solve hook
+  std::uint64_t user_data = 0;
+};
+
+/// A line of segments with a front only (to the right of the way from point to point), on which nothing
+/// catches at the seams.
+struct ChainDefinition {
+  std::vector<Vec2d> points{};  ///< m, in the body's frame; 2 or more, 3 or more when closed
+  bool closed = false;          ///< the last point is joined to the first
+  Material material{};
+  Filter filter{};
+  std::uint64_t user_data = 0;
+};
+
+/// A body's mass, when it is not to follow from its shapes' densities.
+struct MassProperties {
+  double mass = 1;     ///< kg, > 0
+  Vec2d centre{};      ///< m, of mass, in the body's frame
+  double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
+};
+
+struct BodyDefinition {
+  std::string name{};  ///< for messages
+  BodyType type = BodyType::Dynamic;
+  Vec2d position{};             ///< m, of the body's origin
+  double angle = 0;             ///< rad
+  Vec2d velocity{};             ///< m/s, of the centre of mass
+  double angular_velocity = 0;  ///< rad/s
+  std::optional<MassProperties> mass{};
+  double gravity_scale = 1;
+  double linear_damping = 0;   ///< 1/s: the velocity decays as exp(-damping t), >= 0
+  double angular_damping = 0;  ///< 1/s: likewise
+  bool lock_x = false, lock_y = false, lock_rotation = false;
+  bool may_sleep = true;
+  bool awake = true;
+  std::uint64_t user_data = 0;
+};
+
+/// A joint: what it holds, and when it lets go.
+struct JointDefinition {
+  JointKind kind = RevoluteDefinition{};
+  bool collide = false;     ///< whether the joined bodies may touch
+  double break_force = 0;   ///< N, 0: never
+  double break_torque = 0;  ///< N m, 0: never
+  std::uint64_t user_data = 0;
+};
+
+/// How the world as a whole behaves.
+struct WorldDefinition {
+  Vec2d gravity{0, -9.81};  ///< m/s^2
+  Combine combine_friction = Combine::GeometricMean;
+  Combine combine_restitution = Combine::Maximum;
+  bool sleeping = true;    ///< islands at rest stop being computed until something touches them
+  bool continuous = true;  ///< nothing tunnels
+};
+
+}  // namespace plumb

@@ -1,0 +1,117 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "engine/geometry/convex_bounds.h"
+#include "engine/math/trigonometry.h"
+#include "engine/scene/error.h"
+#include "engine/world/constants.h"
+#include "engine/world/step.h"
+
+namespace plumb {
+namespace {
+
+// Steps between two times that a body's rotation is computed anew from its angle; in between rounding adds
+// up.
+constexpr int kRefresh = 256;
+
+template <class Real>
+[[noreturn]] void report_loss(const WorldData<Real>& w, int body) {
+  const std::string& name = w.names[body];
+  throw Error(Error::Kind::Run, "body " + (name.empty() ? std::to_string(body) : "'" + name + "'"), "state",
+              "NaN",
+              "is not finite after step " + std::to_string(w.steps + 1) +
+                  "; a force, a torque or a velocity is too large for this step");
+}
+
+template <class Real>
+void time_stillness(const WorldData<Real>& w, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
+                    Real extent, Real dt) {
+  const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
+  const bool is_still = record.may_sleep && speed <= Real(tuning::kSleepSpeed) * extent;
+  record.still_for = is_still && w.settings.sleeping ? record.still_for + dt : Real(0);
+}
+
+}  // namespace
+
+template <class Real>
+Aabb<Real> box_of(const WorldData<Real>& w, int shape) {
+  const int body = w.shapes[shape].body;
+  return convex_bounds(w.convex(shape), Pose<Real>{w.position[body].template as<Real>(), w.rotation[body]});
+}
+
+template <class Real>
+Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
+  const int body = w.shapes[shape].body;
+  Aabb<Real> box = w.boxes[shape];
+  // Far from the origin positions are coarse: the margin covers their rounding.
+  const Real far =
+      std::max(std::abs(box.lower.x) + std::abs(box.lower.y), std::abs(box.upper.x) + std::abs(box.upper.y));
+  const Real margin =
+      Real(tuning::kBoxMargin) * w.forms[shape].extent + 4 * std::numeric_limits<Real>::epsilon() * far;
+  box = box.grown(margin);
+  const Vec2<Real> ahead = (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity;
+  (ahead.x > 0 ? box.upper.x : box.lower.x) += ahead.x;
+  (ahead.y > 0 ? box.upper.y : box.lower.y) += ahead.y;
+  return box;
+}
+
+template <class Real>
+void refresh_box(WorldData<Real>& w, int shape, Real dt) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.proxy == kNone) return;
+  DynamicTree<Real>& tree = w.tree_of(w.bodies[record.body].type);
+  w.boxes[shape] = box_of(w, shape);
+  if (tree.box(record.proxy).contains(w.boxes[shape])) return;
+  tree.enlarge(record.proxy, stored_box(w, shape, dt));
+  w.enlarged[record.body] = 1;
+  if (!record.moved) w.moved_shapes.push_back(shape);
+  record.moved = true;
+}
+
+template <class Real>
+void finish_motion(WorldData<Real>& w, Real dt) {
+  w.fast_bodies.clear();
+  for (const int body : w.awake) {
+    BodyRecord<Real>& record = w.bodies[body];
+    BodyMotion<Real>& motion = w.motion[body];
+    const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
+                     motion.angular_velocity;
+    if (!(sum - sum == 0)) report_loss(w, body);
+    w.position[body] += motion.moved.template as<double>();
+    record.angle += static_cast<double>(motion.turned);
+    Rotation<Real>& q = w.rotation[body];
+    if (motion.turned != 0) {
+      // One Newton step towards |q| = 1.
+      const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
+      q = {scale * q.c, scale * q.s};
+      if ((w.steps + body) % kRefresh == 0) {
+        const Rotation<double> exact = rotation_of(record.angle);
+        q = {static_cast<Real>(exact.c), static_cast<Real>(exact.s)};
+      }
+    }
+    record.force = {}, record.torque = 0;
+    const Real extent = w.extents[body];
+    time_stillness(w, record, motion, extent, dt);
+    w.enlarged[body] = 0;
+    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + std::abs(motion.turned) * extent;
+    if (way > Real(tuning::kFastShare) * record.half_width && record.first_shape != kNone) {
+      w.fast_bodies.push_back(body);
+    }
+    if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
+    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
+      refresh_box(w, shape, dt);
+  }
+  w.moving_tree.rebuild();
+}
+
+#define PLUMB_FOR(Real)                                              \
+  template Aabb<Real> box_of(const WorldData<Real>&, int);           \
+  template Aabb<Real> stored_box(const WorldData<Real>&, int, Real); \
+  template void refresh_box(WorldData<Real>&, int, Real);            \
+  template void finish_motion(WorldData<Real>&, Real);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

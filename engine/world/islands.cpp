@@ -1,0 +1,192 @@
+#include "engine/world/islands.h"
+
+#include <algorithm>
+
+#include "engine/world/constants.h"
+#include "engine/world/contacts.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+BodyId id_of(const WorldData<Real>& w, int body) {
+  return {static_cast<std::uint32_t>(body), w.bodies.generation(body)};
+}
+
+template <class Real>
+bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
+// Calls visit(other body) for every body that `body` is tied to by a contact with points or a joint.
+template <class Real, class Visit>
+void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (has_points<Real>(contact)) visit((edge & 1) == 0 ? contact.body_b : contact.body_a);
+  });
+  for_each_edge(w.joints, w.bodies[body].first_joint,
+                [&](int edge, JointRecord& joint) { visit((edge & 1) == 0 ? joint.body_b : joint.body_a); });
+}
+
+template <class Real>
+void unpark_ties(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact,
+                [&](int edge, ContactRecord&) { unpark_contact(w, edge / 2); });
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
+    if (!joint.active) w.joint_set.set_active(joint.slot, joint.active = true);
+  });
+}
+
+template <class Real>
+void park_ties(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact,
+                [&](int edge, ContactRecord&) { park_contact(w, edge / 2); });
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
+    if (joint.active && !w.bodies[joint.body_a].awake && !w.bodies[joint.body_b].awake) {
+      w.joint_set.set_active(joint.slot, joint.active = false);
+    }
+  });
+}
+
+// Sets of bodies, joined pair by pair; the smallest index stands for its set.
+class UnionFind {
+ public:
+  UnionFind(std::vector<int>& parents, int size) : parents_(parents) {
+    parents_.resize(size);
+    for (int i = 0; i < size; ++i) parents_[i] = i;
+  }
+  int find(int i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    a = find(a), b = find(b);
+    if (a != b) parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int>& parents_;
+};
+
+template <class Real>
+bool still(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  return record.may_sleep && record.still_for >= Real(tuning::kSleepTime);
+}
+
+template <class Real>
+void fall_asleep(WorldData<Real>& w, int body) {
+  leave_awake(w, body);
+  BodyMotion<Real>& motion = w.motion[body];
+  motion.velocity = {}, motion.angular_velocity = 0;
+  motion.moved = {}, motion.turned = 0;
+  w.events.fell_asleep.push_back(id_of(w, body));
+}
+
+}  // namespace
+
+template <class Real>
+void enter_awake(WorldData<Real>& w, int body) {
+  BodyRecord<Real>& record = w.bodies[body];
+  record.awake = true;
+  record.still_for = 0;
+  record.awake_index = static_cast<int>(w.awake.size());
+  w.awake.push_back(body);
+}
+
+template <class Real>
+void leave_awake(WorldData<Real>& w, int body) {
+  BodyRecord<Real>& record = w.bodies[body];
+  record.awake = false;
+  w.awake[record.awake_index] = w.awake.back();
+  w.bodies[w.awake.back()].awake_index = record.awake_index;
+  w.awake.pop_back();
+  record.awake_index = kNone;
+}
+
+template <class Real>
+void wake_body(WorldData<Real>& w, int body) {
+  const auto sleeps = [&](int i) { return !w.bodies[i].awake && w.bodies[i].type != BodyType::Static; };
+  if (!sleeps(body)) return;
+  std::vector<int>& queue = w.scratch;
+  const std::size_t first = queue.size();  // a waking may start another one
+  const auto wake = [&](int i) {
+    if (!sleeps(i)) return;
+    enter_awake(w, i);
+    w.events.woke.push_back(id_of(w, i));
+    queue.push_back(i);
+  };
+  wake(body);
+  for (std::size_t next = first; next < queue.size(); ++next) {
+    const int current = queue[next];
+    unpark_ties(w, current);
+    if (w.gives_way(current)) for_each_tie(w, current, wake);
+  }
+  queue.resize(first);
+}
+
+template <class Real>
+void wake_neighbours(WorldData<Real>& w, int body) {
+  wake_body(w, body);
+  for_each_tie(w, body, [&](int other) { wake_body(w, other); });
+}
+
+template <class Real>
+void sleep_islands(WorldData<Real>& w) {
+  if (!w.settings.sleeping) return;
+  if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
+  UnionFind islands(w.island_of, w.bodies.size());
+  std::vector<char>& restless = w.restless;
+  restless.assign(w.bodies.size(), 0);
+  const auto tie = [&](int a, int b) {
+    if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
+    // What lies on a moving platform does not sleep.
+    for (const auto &[platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
+      if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) restless[rider] = 1;
+    }
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (joint.active) tie(joint.body_a, joint.body_b);
+  });
+  for (const int body : w.awake) {
+    if (restless[body] || !still(w, body)) restless[islands.find(body)] = 1;
+  }
+  std::vector<int>& sleepers = w.scratch;
+  sleepers.clear();
+  for (const int body : w.awake) {
+    if (!restless[islands.find(body)]) sleepers.push_back(body);
+  }
+  for (const int body : sleepers) fall_asleep(w, body);
+  for (const int body : sleepers) park_ties(w, body);
+  sleepers.clear();
+}
+
+template <class Real>
+void put_to_sleep(WorldData<Real>& w, int body) {
+  if (!w.bodies[body].awake) return;
+  std::vector<int> island;
+  const auto add = [&](int i) {
+    if (!w.bodies[i].awake || (i != body && !w.gives_way(i))) return;
+    fall_asleep(w, i);
+    island.push_back(i);
+  };
+  add(body);
+  for (std::size_t next = 0; next < island.size(); ++next) {
+    if (w.gives_way(island[next])) for_each_tie(w, island[next], add);
+  }
+  for (const int i : island) park_ties(w, i);
+}
+
+#define PLUMB_FOR(Real)                                 \
+  template void wake_body(WorldData<Real>&, int);       \
+  template void wake_neighbours(WorldData<Real>&, int); \
+  template void sleep_islands(WorldData<Real>&);        \
+  template void put_to_sleep(WorldData<Real>&, int);    \
+  template void enter_awake(WorldData<Real>&, int);     \
+  template void leave_awake(WorldData<Real>&, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

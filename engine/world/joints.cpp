@@ -1,0 +1,77 @@
+#include "engine/world/bodies.h"
+#include "engine/world/contacts.h"
+#include "engine/world/islands.h"
+#include "engine/world/step.h"
+
+namespace plumb {
+
+template <class Real>
+int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
+  // First what may refuse the definition.
+  const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
+                                   w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
+  JointRecord record;
+  record.body_a = body_a, record.body_b = body_b;
+  record.slot = slot;
+  record.collide = definition.collide;
+  record.active = true;
+  record.break_force = definition.break_force, record.break_torque = definition.break_torque;
+  record.user_data = definition.user_data;
+  const int joint = w.joints.add(record);
+  link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+  ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+  if (record.break_force > 0 || record.break_torque > 0) w.breakable.push_back(joint);
+  wake_body(w, body_a), wake_body(w, body_b);
+  if (definition.collide) return joint;
+  for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int edge, const ContactRecord& contact) {
+    if (contact.body_a == body_b || contact.body_b == body_b) destroy_contact(w, edge / 2);
+  });
+  return joint;
+}
+
+template <class Real>
+void remove_joint(WorldData<Real>& w, int joint) {
+  const JointRecord record = w.joints[joint];
+  wake_body(w, record.body_a), wake_body(w, record.body_b);
+  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+  --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
+  w.joint_set.remove(record.slot);
+  std::erase(w.breakable, joint);
+  w.joints.remove(joint);
+  if (record.collide) return;
+  // What the joint kept apart may meet from now on.
+  const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (!w.shapes[shape].moved) w.moved_shapes.push_back(shape);
+    w.shapes[shape].moved = true;
+  }
+}
+
+template <class Real>
+void break_joints(WorldData<Real>& w, double h) {
+  const Real rate = static_cast<Real>(1 / h);
+  for (std::size_t i = 0; i < w.breakable.size();) {
+    const int joint = w.breakable[i];
+    const JointRecord& record = w.joints[joint];
+    const bool breaks =
+        record.active &&
+        ((record.break_force > 0 && double(w.joint_set.force(record.slot, rate)) > record.break_force) ||
+         (record.break_torque > 0 && double(w.joint_set.torque(record.slot, rate)) > record.break_torque));
+    if (!breaks) {
+      ++i;
+      continue;
+    }
+    w.events.broken.push_back({{static_cast<std::uint32_t>(joint), w.joints.generation(joint)}});
+    remove_joint(w, joint);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                       \
+  template int add_joint(WorldData<Real>&, int, int, const JointDefinition&); \
+  template void remove_joint(WorldData<Real>&, int);                          \
+  template void break_joints(WorldData<Real>&, double);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

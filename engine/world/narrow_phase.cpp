@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/collide/contact_manifold.h"
+#include "engine/world/constants.h"
+#include "engine/world/contacts.h"
+#include "engine/world/step.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+Real size_of(Vec2<Real> v) {
+  return std::abs(v.x) + std::abs(v.y);
+}
+
+// How near shapes have to be for a contact to be prepared: a share of the smaller one, and the way that they
+// may come closer in the step.
+template <class Real>
+Real reach_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b, Real dt) {
+  const Real smaller = std::min(extent_a, extent_b);
+  const Real closing = dt * (size_of(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
+                             std::abs(b.angular_velocity) * extent_b);
+  return Real(tuning::kContactReach) * smaller + std::min(closing, Real(tuning::kContactReachMost) * smaller);
+}
+
+template <class Real>
+bool boxes_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
+  return !w.boxes[shape_a].grown(reach).overlaps(w.boxes[shape_b]);
+}
+
+template <class Real>
+bool stored_boxes_apart(WorldData<Real>& w, const ContactRecord& contact) {
+  const auto stored = [&](int shape, int body) -> const Aabb<Real>& {
+    return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
+  };
+  return !stored(contact.shape_a, contact.body_a).overlaps(stored(contact.shape_b, contact.body_b));
+}
+
+template <class Real>
+ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Rotation<Real> to_a = w.rotation[a].inverse();
+  const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
+  const Rotation<Real> q = w.rotation[b];
+  const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
+  if (!w.forms[contact.shape_a].chain) return collide_convex(shape_a, shape_b, b_in_a, reach);
+  const Corner<Real>* chain = shape_a.corners;
+  return collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach);
+}
+
+// The effective masses and arms of one point. r x t = -(r . n) for t = (n.y, -n.x).
+template <class Real>
+void prepare_point(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Vec2<Real> n, Vec2<Real> arm_a,
+                   Vec2<Real> arm_b, ContactPoint<Real>& p) {
+  p.arm_normal_a = cross(arm_a, n), p.arm_normal_b = cross(arm_b, n);
+  p.arm_tangent_a = -dot(arm_a, n), p.arm_tangent_b = -dot(arm_b, n);
+  const auto mass = [&](Real la, Real lb) {
+    const Real k =
+        a.inverse_mass + b.inverse_mass + a.inverse_inertia * la * la + b.inverse_inertia * lb * lb;
+    return k > 0 ? 1 / k : 0;
+  };
+  p.normal_mass = mass(p.arm_normal_a, p.arm_normal_b);
+  p.tangent_mass = mass(p.arm_tangent_a, p.arm_tangent_b);
+}
+
+// Writes the manifold into the constraint; points that were there before, by feature, keep their impulses.
+template <class Real>
+void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
+             ContactConstraint<Real>& c) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Rotation<Real> q = w.rotation[a];
+  const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
+  ContactPoint<Real> old[2] = {c.points[0], c.points[1]};
+  const std::uint16_t features[2] = {c.features[0], c.features[1]};
+  const int old_count = c.count;
+  c.normal = q * manifold.normal;
+  c.count = static_cast<std::uint8_t>(manifold.count);
+  for (int i = 0; i < manifold.count; ++i) {
+    const ContactManifoldPoint<Real>& from = manifold.points[i];
+    ContactPoint<Real>& p = c.points[i];
+    p = {};
+    for (int j = 0; j < old_count; ++j) {
+      if (features[j] != from.feature) continue;
+      p.normal_impulse = old[j].normal_impulse;
+      p.tangent_impulse = old[j].tangent_impulse;
+    }
+    const Vec2<Real> arm_a = q * from.point;
+    prepare_point(w.motion[a], w.motion[b], c.normal, arm_a, arm_a - between, p);
+    p.separation = from.separation;
+    c.features[i] = from.feature;
+  }
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
+}
+
+// What follows from the shapes' materials.
+template <class Real>
+void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
+  const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
+  const ShapeForm<Real>&form_a = w.forms[contact.shape_a], &form_b = w.forms[contact.shape_b];
+  c.friction = static_cast<Real>(combine(w.settings.combine_friction, a.friction, b.friction));
+  c.restitution = static_cast<Real>(combine(w.settings.combine_restitution, a.restitution, b.restitution));
+  const Real radius = std::max(form_a.radius, form_b.radius);
+  c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
+  c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
+  c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
+  c.stiff = !w.gives_way(contact.body_a) || !w.gives_way(contact.body_b);
+}
+
+// The bodies have moved little since the manifold was made: separations follow to first order. False when
+// they moved too much for that.
+template <class Real>
+bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Vec2<Real> shift = b.moved - a.moved;
+  c.travel_left -= size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
+  if (c.travel_left < 0) return false;
+  const Real closed = dot(c.normal, shift);
+  for (int i = 0; i < c.count; ++i) {
+    ContactPoint<Real>& p = c.points[i];
+    p.separation += closed + p.arm_normal_b * b.turned - p.arm_normal_a * a.turned;
+  }
+  return true;
+}
+
+template <class Real>
+void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c, bool needs_approach) {
+  for (int i = 0; i < c.count; ++i) c.points[i].peak_impulse = 0;
+  if (!needs_approach) return;
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real along = dot(c.normal, b.velocity - a.velocity);
+  for (int i = 0; i < c.count; ++i) {
+    ContactPoint<Real>& p = c.points[i];
+    p.approach = along + p.arm_normal_b * b.angular_velocity - p.arm_normal_a * a.angular_velocity;
+  }
+}
+
+template <class Real>
+bool touches(const ContactConstraint<Real>& c) {
+  const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
+  for (int i = 0; i < c.count; ++i) {
+    if (c.points[i].separation <= near_enough || c.points[i].peak_impulse > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <class Real>
+void update_contacts(WorldData<Real>& w, Real dt) {
+  std::vector<int>&lost = w.lost_contacts, &ended = w.ended_contacts, &changed = w.touch_changes;
+  lost.clear(), ended.clear(), changed.clear();
+  w.begun_contacts.clear();
+
+  const auto new_manifold = [&](const ContactRecord& contact) {
+    const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+    const Real reach = reach_of(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+    if (boxes_apart(w, contact.shape_a, contact.shape_b, reach)) return ContactManifold<Real>{};
+    return manifold_of(w, contact, reach);
+  };
+  const auto parted = [&](const ContactRecord& contact) {
+    return (w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && stored_boxes_apart(w, contact);
+  };
+
+  for (const int id : w.near) {
+    const ContactRecord& contact = w.contacts[id];
+    if (parted(contact)) {
+      lost.push_back(id);
+      continue;
+    }
+    const ContactManifold<Real> manifold = new_manifold(contact);
+    if (manifold.count == 0) continue;
+    ContactConstraint<Real> c;
+    c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
+    mix_materials(w, contact, c);
+    rebuild(w, contact, manifold, c);
+    if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
+    begin_step(w, c, true);
+    w.begun_contacts.push_back(c);
+  }
+
+  for (int nth = 0; nth <= ContactGraph<Real>::kColours; ++nth) {
+    for (ContactConstraint<Real>& c : w.graph.colour(w.graph.order(nth))) {
+      const bool touching = touches(c);
+      if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
+        if (stored_boxes_apart(w, w.contacts[c.contact])) {
+          lost.push_back(c.contact);
+          continue;
+        }
+      }
+      if (!carry_on(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
+        const ContactRecord& contact = w.contacts[c.contact];
+        const ContactManifold<Real> manifold = new_manifold(contact);
+        rebuild(w, contact, manifold, c);
+        if (c.count == 0 || (contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c))) {
+          ended.push_back(c.contact);
+          continue;
+        }
+      }
+      if (touching != c.touching) {
+        c.touching = touching;
+        changed.push_back(c.contact);
+      }
+      begin_step(w, c, true);
+    }
+  }
+
+  for (const int id : changed) set_touching(w, id, constraint_of(w, w.contacts[id]).touching);
+  for (const int id : lost) destroy_contact(w, id);
+  for (const int id : ended) end_contact(w, id);
+  for (ContactConstraint<Real>& c : w.begun_contacts) {
+    c.touching = touches(c);
+    const int id = c.contact;
+    begin_contact(w, id, c);
+    if (c.touching) set_touching(w, id, true);
+  }
+}
+
+template void update_contacts(WorldData<float>&, float);
+template void update_contacts(WorldData<double>&, double);
+
+}  // namespace plumb

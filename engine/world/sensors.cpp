@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include "engine/collide/distance.h"
+#include "engine/world/step.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+ShapeId id_of(const WorldData<Real>& w, int shape) {
+  return {static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
+}
+
+template <class Real>
+bool overlap(const WorldData<Real>& w, int a, int b) {
+  const int body_a = w.shapes[a].body, body_b = w.shapes[b].body;
+  const Rotation<Real> to_a = w.rotation[body_a].inverse(), q = w.rotation[body_b];
+  const Vec2<Real> between = (w.position[body_b] - w.position[body_a]).template as<Real>();
+  const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  return distance(w.convex(a), w.convex(b), b_in_a).distance <= 0;
+}
+
+constexpr bool before(const ShapeId& a, const ShapeId& b) {
+  return a.index != b.index ? a.index < b.index : a.generation < b.generation;
+}
+
+}  // namespace
+
+template <class Real>
+void update_sensors(WorldData<Real>& w) {
+  for (SensorRecord& sensor : w.sensors) {
+    std::vector<ShapeId>& now = w.visitors;
+    now.clear();
+    const int shape = sensor.shape, body = w.shapes[shape].body;
+    const auto visit = [&](int other, int) {
+      const bool seen = w.shapes[other].body != body && !w.forms[other].sensor &&
+                        may_touch(w.shapes[shape].filter, w.shapes[other].filter) && overlap(w, shape, other);
+      if (seen) now.push_back(id_of(w, other));
+      return true;
+    };
+    w.moving_tree.query(w.boxes[shape], w.shapes[shape].filter.mask, visit);
+    if (w.bodies[body].type != BodyType::Static) {
+      w.still_tree.query(w.boxes[shape], w.shapes[shape].filter.mask, visit);
+    }
+    std::sort(now.begin(), now.end(), before);
+    const ShapeId id = id_of(w, shape);
+    for (const ShapeId& visitor : now) {
+      if (!std::binary_search(sensor.visitors.begin(), sensor.visitors.end(), visitor, before)) {
+        w.events.sensor_begin.push_back({id, visitor});
+      }
+    }
+    for (const ShapeId& visitor : sensor.visitors) {
+      if (!std::binary_search(now.begin(), now.end(), visitor, before)) {
+        w.events.sensor_end.push_back({id, visitor});
+      }
+    }
+    sensor.visitors.assign(now.begin(), now.end());
+  }
+}
+
+template void update_sensors(WorldData<float>&);
+template void update_sensors(WorldData<double>&);
+
+}  // namespace plumb

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// Things in slots that stay where they are. A slot that becomes free is used again, the last freed first,
+/// with the next generation. An odd generation is in use.
+template <class T>
+class Slots {
+ public:
+  int add(const T& value) {
+    int index;
+    if (free_.empty()) {
+      index = static_cast<int>(items_.size());
+      items_.push_back(value);
+      generations_.push_back(1);
+    } else {
+      index = free_.back();
+      free_.pop_back();
+      items_[index] = value;
+      ++generations_[index];
+    }
+    return index;
+  }
+  void remove(int index) {
+    items_[index] = T{};
+    ++generations_[index];
+    free_.push_back(index);
+  }
+
+  T& operator[](int index) { return items_[index]; }
+  const T& operator[](int index) const { return items_[index]; }
+
+  /// Slots, in use or free: indices are below this.
+  int size() const { return static_cast<int>(items_.size()); }
+  int count() const { return static_cast<int>(items_.size() - free_.size()); }
+  bool used(int index) const { return (generations_[index] & 1) != 0; }
+  std::uint32_t generation(int index) const { return generations_[index]; }
+  bool holds(std::uint32_t index, std::uint32_t generation) const {
+    return index < items_.size() && generations_[index] == generation && (generation & 1) != 0;
+  }
+
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (int i = 0; i < size(); ++i) {
+      if (used(i)) visit(i, items_[i]);
+    }
+  }
+
+ private:
+  std::vector<T> items_;
+  std::vector<std::uint32_t> generations_;
+  std::vector<int> free_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,126 @@
+#include "engine/world/validate.h"
+
+#include <cmath>
+
+#include "engine/geometry/convex_hull.h"
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+
+namespace plumb {
+namespace {
+
+[[noreturn]] void refuse(const std::string& subject, const std::string& field, double value,
+                         const std::string& problem) {
+  throw Error(Error::Kind::Value, subject, field, shortest(value), problem);
+}
+
+std::string text_of(Vec2d v) { return "[" + shortest(v.x) + ", " + shortest(v.y) + "]"; }
+
+void require_share(const std::string& subject, const std::string& field, double value) {
+  if (!(value >= 0 && value <= 1)) refuse(subject, field, value, "must be a number from 0 to 1");
+}
+
+void check(const std::string& subject, const Material& material) {
+  require_not_negative(subject, "friction", material.friction);
+  require_share(subject, "restitution", material.restitution);
+  require_not_negative(subject, "rolling_resistance", material.rolling_resistance);
+  require_finite(subject, "surface_speed", material.surface_speed);
+}
+
+struct CheckGeometry {
+  const std::string subject = "shape";
+  void operator()(const Circle& circle) const { require_positive(subject, "radius", circle.radius); }
+  void operator()(const Box& box) const {
+    require_positive(subject, "width", box.width);
+    require_positive(subject, "height", box.height);
+  }
+  void operator()(const Capsule& capsule) const {
+    require_finite(subject, "start", capsule.start);
+    require_finite(subject, "end", capsule.end);
+    require_positive(subject, "radius", capsule.radius);
+  }
+  void operator()(const Polygon& polygon) const {
+    require_not_negative(subject, "radius", polygon.radius);
+    for (const Vec2d point : polygon.points) require_finite(subject, "points", point);
+    convex_hull(polygon.points);  // refuses what has no area
+  }
+  void operator()(const Segment& segment) const {
+    require_finite(subject, "start", segment.start);
+    require_finite(subject, "end", segment.end);
+    if (!(length_squared(segment.end - segment.start) > kSmallestNumber * kSmallestNumber)) {
+      throw Error(Error::Kind::Value, subject, "end", text_of(segment.end), "must be apart from the start");
+    }
+  }
+};
+
+}  // namespace
+
+void require_finite(const std::string& subject, const std::string& field, double value) {
+  if (!(std::abs(value) <= kLargestNumber))
+    refuse(subject, field, value, "must be a number between -1e12 and 1e12");
+}
+
+void require_finite(const std::string& subject, const std::string& field, Vec2d value) {
+  if (!(std::abs(value.x) <= kLargestNumber && std::abs(value.y) <= kLargestNumber)) {
+    throw Error(Error::Kind::Value, subject, field, text_of(value), "must be numbers between -1e12 and 1e12");
+  }
+}
+
+void require_not_negative(const std::string& subject, const std::string& field, double value) {
+  if (!(value >= 0 && value <= kLargestNumber))
+    refuse(subject, field, value, "must be a number from 0 to 1e12");
+}
+
+void require_positive(const std::string& subject, const std::string& field, double value) {
+  if (!(value >= kSmallestNumber && value <= kLargestNumber)) {
+    refuse(subject, field, value, "must be a positive number between 1e-12 and 1e12");
+  }
+}
+
+void validate(const WorldDefinition& definition) { require_finite("world", "gravity", definition.gravity); }
+
+void validate(const BodyDefinition& definition) {
+  const std::string subject = definition.name.empty() ? "body" : "body " + quoted(definition.name);
+  require_finite(subject, "position", definition.position);
+  require_finite(subject, "angle", definition.angle);
+  require_finite(subject, "velocity", definition.velocity);
+  require_finite(subject, "angular_velocity", definition.angular_velocity);
+  require_finite(subject, "gravity_scale", definition.gravity_scale);
+  require_not_negative(subject, "linear_damping", definition.linear_damping);
+  require_not_negative(subject, "angular_damping", definition.angular_damping);
+  if (!definition.mass) return;
+  require_positive(subject, "mass", definition.mass->mass);
+  require_finite(subject, "centre", definition.mass->centre);
+  require_positive(subject, "inertia", definition.mass->inertia);
+}
+
+void validate(const ShapeDefinition& definition) {
+  const std::string subject = "shape";
+  std::visit(CheckGeometry{}, definition.geometry);
+  require_finite(subject, "position", definition.position);
+  require_finite(subject, "angle", definition.angle);
+  require_not_negative(subject, "density", definition.density);
+  check(subject, definition.material);
+}
+
+void validate(const ChainDefinition& definition) {
+  const std::string subject = "chain";
+  const std::size_t least = definition.closed ? 3 : 2;
+  if (definition.points.size() < least) {
+    throw Error(Error::Kind::Value, subject, "points", std::to_string(definition.points.size()),
+                "must be " + std::to_string(least) + " or more points");
+  }
+  for (std::size_t i = 0; i < definition.points.size(); ++i) {
+    require_finite(subject, "points", definition.points[i]);
+    const bool last = i + 1 == definition.points.size();
+    if (last && !definition.closed) break;
+    const Vec2d next = definition.points[last ? 0 : i + 1];
+    if (!(length_squared(next - definition.points[i]) > kSmallestNumber * kSmallestNumber)) {
+      throw Error(Error::Kind::Value, subject, "points", text_of(next),
+                  "must be apart from the point before it");
+    }
+  }
+  check(subject, definition.material);
+}
+
+}  // namespace plumb

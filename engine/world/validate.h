@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "engine/world/definitions.h"
+
+/// Bad input is refused before anything changes: each function throws Error (Value) that names the thing, its
+/// field and the value.
+namespace plumb {
+
+void validate(const WorldDefinition& definition);
+void validate(const BodyDefinition& definition);
+void validate(const ShapeDefinition& definition);
+void validate(const ChainDefinition& definition);
+
+/// A single number or vector of a call: finite and, in size, at most kLargestNumber.
+void require_finite(const std::string& subject, const std::string& field, double value);
+void require_finite(const std::string& subject, const std::string& field, Vec2d value);
+void require_not_negative(const std::string& subject, const std::string& field, double value);
+void require_positive(const std::string& subject, const std::string& field, double value);
+
+/// Beyond this, squares and cubes of a float would not be finite.
+inline constexpr double kLargestNumber = 1e12;
+inline constexpr double kSmallestNumber = 1e-12;
+
+}  // namespace plumb

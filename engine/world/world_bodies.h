@@ -1,0 +1,281 @@
+#pragma once
+
+#include "engine/world/bodies.h"
+#include "engine/world/contact_reading.h"
+#include "engine/world/contacts.h"
+#include "engine/world/islands.h"
+#include "engine/world/validate.h"
+#include "engine/world/world.h"
+
+/// The members of BasicWorld about bodies; world.cpp instantiates them.
+namespace plumb {
+
+template <class Real>
+BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
+                                     std::span<const ShapeDefinition> shapes) {
+  validate(definition);
+  for (const ShapeDefinition& shape : shapes) validate(shape);
+  const int body = add_body(*data_, definition, shapes);
+  return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
+}
+template <class Real>
+BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition, const ShapeDefinition& shape) {
+  return create_body(definition, std::span(&shape, 1));
+}
+template <class Real>
+void BasicWorld<Real>::destroy(BodyId body) {
+  remove_body(*data_, place(body));
+}
+template <class Real>
+bool BasicWorld<Real>::valid(BodyId body) const {
+  return data_->bodies.holds(body.index, body.generation);
+}
+template <class Real>
+std::vector<BodyId> BasicWorld<Real>::bodies() const {
+  std::vector<BodyId> all;
+  data_->bodies.for_each([&](int body, const BodyRecord<Real>&) {
+    all.push_back({static_cast<std::uint32_t>(body), data_->bodies.generation(body)});
+  });
+  return all;
+}
+
+template <class Real>
+Vec2d BasicWorld<Real>::position(BodyId body) const {
+  return origin_of(*data_, place(body));
+}
+template <class Real>
+Vec2d BasicWorld<Real>::centre(BodyId body) const {
+  return data_->position[place(body)];
+}
+template <class Real>
+double BasicWorld<Real>::angle(BodyId body) const {
+  return data_->bodies[place(body)].angle;
+}
+template <class Real>
+Vec2d BasicWorld<Real>::velocity(BodyId body) const {
+  return data_->motion[place(body)].velocity.template as<double>();
+}
+template <class Real>
+double BasicWorld<Real>::angular_velocity(BodyId body) const {
+  return static_cast<double>(data_->motion[place(body)].angular_velocity);
+}
+template <class Real>
+Vec2d BasicWorld<Real>::velocity_at(BodyId body, Vec2d point) const {
+  return velocity(body) + cross(angular_velocity(body), point - centre(body));
+}
+template <class Real>
+Vec2d BasicWorld<Real>::world_point(BodyId body, Vec2d local) const {
+  const Rotation<Real> q = data_->rotation[place(body)];
+  return position(body) + Rotation<double>{q.c, q.s} * local;
+}
+template <class Real>
+Vec2d BasicWorld<Real>::local_point(BodyId body, Vec2d world) const {
+  const Rotation<Real> q = data_->rotation[place(body)];
+  return Rotation<double>{q.c, -q.s} * (world - position(body));
+}
+template <class Real>
+BodyState BasicWorld<Real>::state(BodyId body) const {
+  return {centre(body), angle(body), velocity(body), angular_velocity(body)};
+}
+
+template <class Real>
+void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
+  const int index = place(body);
+  require_finite("body", "position", position);
+  require_finite("body", "angle", angle);
+  place_body(*data_, index, position, angle);
+}
+template <class Real>
+void BasicWorld<Real>::set_velocity(BodyId body, Vec2d velocity) {
+  const int index = place(body);
+  require_finite("body", "velocity", velocity);
+  if (data_->bodies[index].type == BodyType::Static) return;
+  wake(index);
+  data_->motion[index].velocity = velocity.as<Real>();
+}
+template <class Real>
+void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity) {
+  const int index = place(body);
+  require_finite("body", "angular_velocity", angular_velocity);
+  if (data_->bodies[index].type == BodyType::Static) return;
+  wake(index);
+  data_->motion[index].angular_velocity = static_cast<Real>(angular_velocity);
+}
+template <class Real>
+void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, double dt) {
+  const int index = place(body);
+  require_finite("body", "position", position);
+  require_finite("body", "angle", angle);
+  require_positive("body", "dt", dt);
+  const Rotation<double> q = rotation_of(angle);
+  const Vec2d target = position + q * data_->bodies[index].centre.template as<double>();
+  set_velocity(body, (1 / dt) * (target - centre(body)));
+  set_angular_velocity(body, (angle - this->angle(body)) / dt);
+}
+
+template <class Real>
+void BasicWorld<Real>::apply_force(BodyId body, Vec2d force) {
+  apply_force(body, force, centre(body));
+}
+template <class Real>
+void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
+  const int index = place(body);
+  require_finite("body", "force", force);
+  require_finite("body", "point", point);
+  if (!data_->gives_way(index)) return;
+  wake(index);
+  data_->bodies[index].force += force.as<Real>();
+  data_->bodies[index].torque += static_cast<Real>(cross(point - data_->position[index], force));
+}
+template <class Real>
+void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
+  const int index = place(body);
+  require_finite("body", "torque", torque);
+  if (!data_->gives_way(index)) return;
+  wake(index);
+  data_->bodies[index].torque += static_cast<Real>(torque);
+}
+template <class Real>
+void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse) {
+  apply_impulse(body, impulse, centre(body));
+}
+template <class Real>
+void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
+  const int index = place(body);
+  require_finite("body", "impulse", impulse);
+  require_finite("body", "point", point);
+  if (!data_->gives_way(index)) return;
+  wake(index);
+  data_->motion[index].apply(impulse.as<Real>(),
+                             static_cast<Real>(cross(point - data_->position[index], impulse)));
+}
+template <class Real>
+void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
+  const int index = place(body);
+  require_finite("body", "angular_impulse", impulse);
+  if (!data_->gives_way(index)) return;
+  wake(index);
+  data_->motion[index].apply({}, static_cast<Real>(impulse));
+}
+
+template <class Real>
+BodyType BasicWorld<Real>::type(BodyId body) const {
+  return data_->bodies[place(body)].type;
+}
+template <class Real>
+void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
+  plumb::set_type(*data_, place(body), type);
+}
+template <class Real>
+double BasicWorld<Real>::mass(BodyId body) const {
+  const int index = place(body);
+  return data_->gives_way(index) ? static_cast<double>(data_->bodies[index].mass) : 0;
+}
+template <class Real>
+double BasicWorld<Real>::inertia(BodyId body) const {
+  const int index = place(body);
+  return data_->gives_way(index) ? static_cast<double>(data_->bodies[index].inertia) : 0;
+}
+template <class Real>
+void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
+  const int index = place(body);
+  validate(BodyDefinition{.mass = mass});
+  plumb::set_mass(*data_, index, mass);
+  wake(index);
+}
+template <class Real>
+void BasicWorld<Real>::use_densities(BodyId body) {
+  const int index = place(body);
+  data_->bodies[index].mass_given = false;
+  update_mass(*data_, index);
+  wake(index);
+}
+template <class Real>
+void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
+  const int index = place(body);
+  require_finite("body", "gravity_scale", scale);
+  data_->bodies[index].gravity_scale = static_cast<Real>(scale);
+  wake(index);
+}
+template <class Real>
+void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
+  const int index = place(body);
+  require_not_negative("body", "linear_damping", linear);
+  require_not_negative("body", "angular_damping", angular);
+  data_->bodies[index].linear_damping = static_cast<Real>(linear);
+  data_->bodies[index].angular_damping = static_cast<Real>(angular);
+}
+template <class Real>
+void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
+  const int index = place(body);
+  BodyRecord<Real>& record = data_->bodies[index];
+  record.lock_x = x, record.lock_y = y, record.lock_rotation = rotation;
+  const bool turns = record.type == BodyType::Dynamic && !rotation && record.inertia > 0;
+  data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
+  if (rotation && record.type == BodyType::Dynamic) data_->motion[index].angular_velocity = 0;
+  forget_manifolds(*data_, index);
+  wake(index);
+}
+template <class Real>
+bool BasicWorld<Real>::awake(BodyId body) const {
+  return data_->bodies[place(body)].awake;
+}
+template <class Real>
+void BasicWorld<Real>::set_awake(BodyId body, bool awake) {
+  const int index = place(body);
+  if (awake) {
+    wake(index);
+  } else {
+    put_to_sleep(*data_, index);
+  }
+}
+template <class Real>
+void BasicWorld<Real>::set_may_sleep(BodyId body, bool may_sleep) {
+  const int index = place(body);
+  data_->bodies[index].may_sleep = may_sleep;
+  if (!may_sleep) wake(index);
+}
+template <class Real>
+std::uint64_t BasicWorld<Real>::user_data(BodyId body) const {
+  return data_->bodies[place(body)].user_data;
+}
+template <class Real>
+const std::string& BasicWorld<Real>::name(BodyId body) const {
+  return data_->names[place(body)];
+}
+template <class Real>
+std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
+  std::vector<ShapeId> all;
+  for (int shape = data_->bodies[place(body)].first_shape; shape != kNone;
+       shape = data_->shapes[shape].next) {
+    all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
+  }
+  return all;
+}
+template <class Real>
+std::vector<JointId> BasicWorld<Real>::joints(BodyId body) const {
+  std::vector<JointId> all;
+  for_each_edge(data_->joints, data_->bodies[place(body)].first_joint, [&](int edge, const JointRecord&) {
+    all.push_back({static_cast<std::uint32_t>(edge / 2), data_->joints.generation(edge / 2)});
+  });
+  return all;
+}
+template <class Real>
+std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
+  std::vector<ContactReading> all;
+  for_each_edge(data_->contacts, data_->bodies[place(body)].first_contact,
+                [&](int, const ContactRecord& contact) {
+                  if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
+                  all.push_back(reading_of(*data_, contact, constraint_of(*data_, contact)));
+                });
+  return all;
+}
+
+// Whoever touches a body from outside does not want it to sleep on at once.
+template <class Real>
+void BasicWorld<Real>::wake(int body) {
+  wake_body(*data_, body);
+  data_->bodies[body].still_for = 0;
+}
+
+}  // namespace plumb

@@ -1,0 +1,188 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/collide/dynamic_tree.h"
+#include "engine/collide/pair_set.h"
+#include "engine/geometry/convex_mass.h"
+#include "engine/solve/body_motion.h"
+#include "engine/solve/contact_graph.h"
+#include "engine/solve/joint_set.h"
+#include "engine/world/corner_pool.h"
+#include "engine/world/definitions.h"
+#include "engine/world/events.h"
+#include "engine/world/slots.h"
+
+/// What a world consists of. Bodies, shapes, contacts and joints live in slots that never move; what the
+/// solver works on lies in arrays of its own. Lists that run through the slots (a body's shapes, contacts,
+/// joints) are links of indices, -1 at their ends.
+namespace plumb {
+
+inline constexpr int kNone = -1;
+
+/// The cold part of a body: read once a step at most.
+template <class Real>
+struct BodyRecord {
+  BodyType type = BodyType::Dynamic;
+  bool awake = false;  ///< in the list of awake bodies; never a static one
+  bool may_sleep = true;
+  bool lock_x = false, lock_y = false, lock_rotation = false;
+  bool mass_given = false;
+  int awake_index = kNone;
+  int first_shape = kNone, first_contact = kNone,
+      first_joint = kNone;  ///< contact and joint: edge = 2 index + side
+  int shape_count = 0, contact_count = 0, joint_count = 0;
+  int constraints = 0;         ///< contacts with points, and joints: 0 is free flight
+  Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
+  Vec2<Real> centre{};         ///< m, of mass, in the body's frame
+  Vec2<Real> force{};          ///< N, until the end of the next step
+  Real torque = 0;             ///< N m, likewise
+  Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
+  Real half_width = 0;  ///< m, smallest half width of its shapes
+  Real still_for = 0;   ///< s
+  double angle = 0;     ///< rad, whole turns counted
+  std::uint64_t user_data = 0;
+};
+
+/// What collision reads of a shape, in the frame of its body's centre of mass.
+template <class Real>
+struct ShapeForm {
+  int corner = 0;  ///< first in the pool; a chain's segment has its neighbours before and after
+  std::uint16_t count = 0;
+  bool chain = false, sensor = false;
+  Real radius = 0;  ///< m, of rounding
+  Real extent = 0;  ///< m, half the size of the shape
+};
+
+template <class Real>
+struct ShapeRecord {
+  int body = 0;
+  int next = kNone;  ///< of the same body
+  int proxy = kNone;
+  int chain = kNone;   ///< that it is a segment of
+  bool moved = false;  ///< in the list of boxes to search pairs for
+  bool hit_events = false, pre_solve = false;
+  Filter filter{};
+  float friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
+  double density = 0;
+  std::uint64_t user_data = 0;
+};
+
+enum class ContactHome : std::uint8_t {
+  Near,    ///< awake, boxes overlap, no points
+  Graph,   ///< awake, with points: in the constraint graph
+  Parked,  ///< with points, all its bodies asleep
+  Idle,    ///< without points, all its bodies asleep
+};
+
+struct ContactRecord {
+  int shape_a = 0, shape_b = 0;
+  int body_a = 0, body_b = 0;
+  int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};  ///< edges in the two bodies' lists
+  ContactHome home = ContactHome::Near;
+  std::int8_t colour = 0;
+  bool touching = false;  ///< as events tell it
+  bool pre_solve = false, hit_events = false;
+  int index = 0;  ///< in its home
+};
+
+struct JointRecord {
+  int body_a = 0, body_b = 0;
+  int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};
+  int slot = 0;  ///< in the joint set
+  bool collide = false, active = false;
+  double break_force = 0, break_torque = 0;  ///< N, N m; 0: never
+  std::uint64_t user_data = 0;
+};
+
+struct SensorRecord {
+  int shape = 0;
+  std::vector<ShapeId> visitors{};  ///< that overlapped it after the last step, by index
+};
+
+struct ChainRecord {
+  int body = 0;
+  std::vector<int> shapes{};
+};
+
+/// How one awake body's velocity changes in a substep of its own accord.
+template <class Real>
+struct Kick {
+  Vec2<Real> velocity{};         ///< m/s
+  Real spin = 0;                 ///< rad/s
+  Real keep = 1, keep_spin = 1;  ///< what damping leaves
+  /// m/s, rad/s: taken from the velocity when a body in free flight moves, so that constant acceleration is
+  /// exact: x(h) = x + v h + a h^2/2 = x + (v(h) - a h/2) h.
+  Vec2<Real> lag{};
+  Real lag_spin = 0;
+  bool locked_x = false, locked_y = false;
+};
+
+template <class Real>
+struct WorldData {
+  WorldDefinition settings;
+  double time = 0;
+  std::int64_t steps = 0;
+  double last_h = 0;  ///< s, substep of the last step
+
+  // Bodies, by index.
+  Slots<BodyRecord<Real>> bodies;
+  std::vector<std::string> names;
+  std::vector<BodyMotion<Real>> motion;
+  std::vector<Rotation<Real>> rotation;
+  std::vector<Vec2d> position;  ///< m, of the centres of mass
+  std::vector<Real> extents;    ///< m, from the centre of mass to the farthest point
+  std::vector<char> enlarged;   ///< a shape of it left its stored box in the last step
+  std::vector<int> awake;
+
+  // Shapes, by index.
+  Slots<ShapeRecord<Real>> shapes;
+  std::vector<ShapeForm<Real>> forms;
+  std::vector<Aabb<Real>> boxes;  ///< tight
+  CornerPool<Real> corners;
+  Slots<ChainRecord> chains;
+  std::vector<int> moved_shapes;
+  DynamicTree<Real> still_tree, moving_tree;  ///< static; kinematic and dynamic
+
+  // Contacts.
+  Slots<ContactRecord> contacts;
+  PairSet pairs;
+  std::vector<int> near;
+  ContactGraph<Real> graph;
+  std::vector<ContactConstraint<Real>> parked;
+
+  Slots<JointRecord> joints;
+  JointSet<Real> joint_set;
+
+  std::vector<SensorRecord> sensors;
+  std::vector<int> breakable;  ///< joints
+  Events events;
+  std::vector<Kick<Real>> kicks;  ///< by place in `awake`
+
+  // Kept between steps for their room alone.
+  std::vector<int> scratch, island_of;
+  std::vector<char> restless;
+  std::vector<std::pair<int, int>> found_pairs;
+  std::vector<int> lost_contacts, ended_contacts, touch_changes, fast_bodies;
+  std::vector<ContactConstraint<Real>> begun_contacts;
+  std::vector<double> fractions;
+  std::vector<ShapeId> visitors;
+  std::vector<ConvexMass> mass_parts;
+
+  /// Asked about contacts with the shapes that want it, after their manifold was made; false: not in this
+  /// step.
+  std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
+
+  SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
+  bool gives_way(int body) const { return bodies[body].type == BodyType::Dynamic; }
+  Convex<Real> convex(int shape) const {
+    const ShapeForm<Real>& form = forms[shape];
+    return {corners.data() + form.corner + (form.chain ? 1 : 0), form.count, form.radius};
+  }
+  DynamicTree<Real>& tree_of(BodyType type) { return type == BodyType::Static ? still_tree : moving_tree; }
+};
+
+}  // namespace plumb

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "engine/world/bodies.h"
+#include "engine/world/islands.h"
+#include "engine/world/validate.h"
+#include "engine/world/world.h"
+
+/// The members of BasicWorld about shapes, chains and joints; world.cpp instantiates them.
+namespace plumb {
+
+template <class Real>
+ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
+  const int index = place(body);
+  validate(definition);
+  const int shape = add_shape(*data_, index, definition);
+  return {static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)};
+}
+template <class Real>
+void BasicWorld<Real>::destroy(ShapeId shape) {
+  const int index = place(shape);
+  if (data_->shapes[index].chain != kNone) {
+    throw Error(Error::Kind::Value, "shape", "handle", std::to_string(index),
+                "is a segment of a chain; destroy the chain");
+  }
+  remove_shape(*data_, index);
+}
+template <class Real>
+bool BasicWorld<Real>::valid(ShapeId shape) const {
+  return data_->shapes.holds(shape.index, shape.generation);
+}
+template <class Real>
+BodyId BasicWorld<Real>::body(ShapeId shape) const {
+  const int body = data_->shapes[place(shape)].body;
+  return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
+}
+template <class Real>
+std::uint64_t BasicWorld<Real>::user_data(ShapeId shape) const {
+  return data_->shapes[place(shape)].user_data;
+}
+template <class Real>
+Material BasicWorld<Real>::material(ShapeId shape) const {
+  const ShapeRecord<Real>& record = data_->shapes[place(shape)];
+  return {record.friction, record.restitution, record.rolling_resistance, record.surface_speed};
+}
+template <class Real>
+void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
+  const int index = place(shape);
+  validate(ShapeDefinition{.material = material});
+  plumb::set_material(*data_, index, material);
+}
+template <class Real>
+Filter BasicWorld<Real>::filter(ShapeId shape) const {
+  return data_->shapes[place(shape)].filter;
+}
+template <class Real>
+void BasicWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
+  plumb::set_filter(*data_, place(shape), filter);
+}
+template <class Real>
+std::vector<ShapeId> BasicWorld<Real>::overlapping(ShapeId sensor) const {
+  const int index = place(sensor);
+  for (const SensorRecord& record : data_->sensors) {
+    if (record.shape == index) return record.visitors;
+  }
+  throw Error(Error::Kind::Value, "shape", "sensor", "false",
+              "is not a sensor; make it one with `sensor = true`");
+}
+
+template <class Real>
+ChainId BasicWorld<Real>::create_chain(BodyId body, const ChainDefinition& definition) {
+  const int index = place(body);
+  validate(definition);
+  const int chain = add_chain(*data_, index, definition);
+  return {static_cast<std::uint32_t>(chain), data_->chains.generation(chain)};
+}
+template <class Real>
+void BasicWorld<Real>::destroy(ChainId chain) {
+  remove_chain(*data_, place(chain));
+}
+template <class Real>
+bool BasicWorld<Real>::valid(ChainId chain) const {
+  return data_->chains.holds(chain.index, chain.generation);
+}
+template <class Real>
+std::vector<ShapeId> BasicWorld<Real>::segments(ChainId chain) const {
+  std::vector<ShapeId> all;
+  for (const int shape : data_->chains[place(chain)].shapes) {
+    all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
+  }
+  return all;
+}
+
+template <class Real>
+JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition& definition) {
+  const int body_a = place(a), body_b = place(b);
+  require_not_negative("joint", "break_force", definition.break_force);
+  require_not_negative("joint", "break_torque", definition.break_torque);
+  const int joint = add_joint(*data_, body_a, body_b, definition);
+  return {static_cast<std::uint32_t>(joint), data_->joints.generation(joint)};
+}
+template <class Real>
+void BasicWorld<Real>::destroy(JointId joint) {
+  remove_joint(*data_, place(joint));
+}
+template <class Real>
+bool BasicWorld<Real>::valid(JointId joint) const {
+  return data_->joints.holds(joint.index, joint.generation);
+}
+template <class Real>
+const JointKind& BasicWorld<Real>::kind(JointId joint) const {
+  return data_->joint_set.definition(data_->joints[place(joint)].slot);
+}
+template <class Real>
+void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
+  const JointRecord& record = data_->joints[place(joint)];
+  data_->joint_set.change(record.slot, kind);
+  wake(record.body_a), wake(record.body_b);
+}
+template <class Real>
+JointReading BasicWorld<Real>::read(JointId joint) const {
+  WorldData<Real>& w = *data_;
+  const int slot = w.joints[place(joint)].slot;
+  const Real rate = w.last_h > 0 ? static_cast<Real>(1 / w.last_h) : Real(0);
+  // What moved in the last step is part of the positions already.
+  SolverBodies<Real> bodies = w.solver_bodies();
+  const auto [a, b] = w.joint_set.bodies(slot);
+  const BodyMotion<Real> motion_a = w.motion[a], motion_b = w.motion[b];
+  for (const int body : {a, b}) w.motion[body].moved = {}, w.motion[body].turned = 0;
+  const JointError<Real> error = w.joint_set.error(slot, bodies);
+  JointReading reading{static_cast<double>(w.joint_set.force(slot, rate)),
+                       static_cast<double>(w.joint_set.torque(slot, rate)),
+                       static_cast<double>(error.linear),
+                       static_cast<double>(error.angular),
+                       static_cast<double>(w.joint_set.angle(slot, bodies)),
+                       static_cast<double>(w.joint_set.translation(slot, bodies)),
+                       static_cast<double>(w.joint_set.length(slot, bodies))};
+  w.motion[a] = motion_a, w.motion[b] = motion_b;
+  return reading;
+}
+template <class Real>
+std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
+  const JointRecord& record = data_->joints[place(joint)];
+  const auto id = [&](int body) {
+    return BodyId{static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
+  };
+  return {id(record.body_a), id(record.body_b)};
+}
+
+}  // namespace plumb
