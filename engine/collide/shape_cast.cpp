@@ -49,7 +49,7 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
     if (!(approach > 0)) return {};  // this normal keeps them apart for good
     const double next = fraction + std::max(gap, 0.0) / approach;
     if (next > 1) return {};
-    if (gap <= rounding || next <= fraction) return hit_at<Real>(next, false, hulls, radius_a);
+    if (gap <= rounding || next <= fraction) break;
     fraction = next;
     pose.position = start + fraction * way;
     hulls = hull_distance(a, b, pose, &cache);
