@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bench/field/field_world.h"
+
+namespace plumb::field {
+
+/// Each is defined where its library was found.
+std::unique_ptr<FieldWorld> create_box2d(const WorldSettings& settings);
+std::unique_ptr<FieldWorld> create_chipmunk(const WorldSettings& settings);
+std::unique_ptr<FieldWorld> create_plumb(const WorldSettings& settings);
+
+std::string chipmunk_version();
+
+}  // namespace plumb::field

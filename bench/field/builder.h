@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bench/field/field_world.h"
+
+namespace plumb::field {
+
+struct BodyRecord {
+  BodyHandle handle;
+  BodyDefinition definition;
+  std::vector<ShapeDefinition> shapes;
+  MassProperties mass;
+  bool alive = true;
+};
+
+struct JointRecord {
+  int a = 0, b = 0;  ///< indices of bodies
+  RevoluteDefinition definition;
+  bool alive = true;
+};
+
+/// What stands in the world, as it was asked for: what the ruler measures by.
+struct Inventory {
+  std::vector<BodyRecord> bodies;
+  std::vector<JointRecord> joints;
+
+  Counts counts() const;  ///< `touching` stays 0
+};
+
+/// What an engine used so far.
+struct Cost {
+  double seconds = 0;
+  std::int64_t allocations = 0;
+  std::int64_t bytes = 0;  ///< that it holds on to
+};
+
+/// Builds a scene in a world, and keeps the books: what was built, and what the engine's own calls cost.
+/// Nothing else enters the cost.
+class Builder {
+ public:
+  explicit Builder(FieldWorld& world) : world_(world) {}
+
+  /// Returns the body's index in the inventory.
+  int create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes);
+  int create_body(const BodyDefinition& body, const ShapeDefinition& shape);
+  int create_body(const BodyDefinition& body, const std::vector<ShapeDefinition>& shapes);
+  void destroy_body(int body);
+  void create_revolute(int a, int b, const RevoluteDefinition& joint);
+  void set_velocity(int body, Vec2d velocity, double spin);
+  void step(int count = 1);
+
+  /// Of every body that was ever made; those that are gone keep zeros.
+  std::vector<BodyState> states() const;
+  const Inventory& inventory() const { return inventory_; }
+  const Cost& cost() const { return cost_; }
+
+ private:
+  template <class Call>
+  auto metered(const Call& call);
+
+  FieldWorld& world_;
+  Inventory inventory_;
+  Cost cost_;
+};
+
+}  // namespace plumb::field

@@ -1,0 +1,30 @@
+#include "bench/field/engines.h"
+
+#include <vector>
+
+#include "bench/field/adapters.h"
+
+namespace plumb::field {
+
+std::span<const Engine> engines() {
+  static const std::vector<Engine> all{
+#ifdef PLUMB_FIELD_BOX2D
+      {"box2d", PLUMB_FIELD_BOX2D, "", create_box2d},
+#else
+      {"box2d", "2.4", "install libbox2d-dev and build again", nullptr},
+#endif
+#ifdef PLUMB_FIELD_CHIPMUNK
+      {"chipmunk", chipmunk_version(), "", create_chipmunk},
+#else
+      {"chipmunk", "7", "install libchipmunk-dev and build again", nullptr},
+#endif
+#ifdef PLUMB_FIELD_PLUMB
+      {"plumb", PLUMB_FIELD_PLUMB, "", create_plumb},
+#else
+      {"plumb", "", "this checkout has no engine/world/world.h", nullptr},
+#endif
+  };
+  return all;
+}
+
+}  // namespace plumb::field

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "bench/field/definitions.h"
+#include "bench/field/mass.h"
+
+namespace plumb::field {
+
+/// How the worlds are stepped. Each engine takes what it has, with the default that its documentation gives.
+struct WorldSettings {
+  Vec2d gravity{0, -10};                                 ///< m/s^2
+  double dt = 1.0 / 60;                                  ///< s
+  int substeps = 4;                                      ///< of engines that solve by substeps
+  int velocity_iterations = 8, position_iterations = 3;  ///< of Box2D 2.4
+  int iterations = 10;                                   ///< of Chipmunk
+  bool sleeping = false;
+  bool continuous = true;
+};
+
+/// An engine's world. One call costs one virtual call, which is nothing beside a step.
+class FieldWorld {
+ public:
+  virtual ~FieldWorld() = default;
+
+  /// Of a dynamic body with the given mass, whatever the engine would make of the densities.
+  virtual BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
+                                 const MassProperties& mass) = 0;
+  /// With its shapes and joints.
+  virtual void destroy_body(BodyHandle body) = 0;
+  virtual void create_revolute(BodyHandle a, BodyHandle b, const RevoluteDefinition& joint) = 0;
+  virtual void set_velocity(BodyHandle body, Vec2d velocity, double spin) = 0;
+  virtual void step() = 0;
+
+  virtual BodyState state(BodyHandle body) const = 0;
+  virtual Counts counts() const = 0;
+  virtual Settings settings() const = 0;
+};
+
+}  // namespace plumb::field

@@ -1,0 +1,203 @@
+// The field's scenes on every engine, one after another in turn, with the quality beside the time.
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include "bench/field/measure.h"
+#include "bench/field/report.h"
+#include "engine/scene/suggest.h"
+#include "harness/interrupt.h"
+#include "harness/style.h"
+
+namespace plumb::field {
+namespace {
+
+enum Exit { kOk = 0, kFailed = 1, kUsage = 2, kMissing = 3, kOutput = 4, kInterrupted = 130 };
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  plumb_field                                        all scenes on all engines; this takes a while\n"
+    "  plumb_field --quick                                small scenes and few steps: whether all work\n"
+    "  plumb_field large_pyramid tumbler --repeat 5\n"
+    "  plumb_field joint_grid --engine box2d --engine chipmunk --format csv\n"
+    "Times are medians over the repetitions; speed is Box2D's time over the engine's. Depths and joints' "
+    "gaps are\n"
+    "the worst and the mean of ten looks at the run, heights and speeds those at its end. See "
+    "docs/speed.md.\n"
+    "Exit codes: 0 ok, 1 an engine failed, 2 usage, 3 an engine that is not in this build, 4 stdout cannot "
+    "be\n"
+    "written, 130 interrupted.";
+
+/// The program cannot go on: what to say, and the exit code.
+struct Stop : std::runtime_error {
+  Stop(Exit exit, const std::string& text) : std::runtime_error(text), code(exit) {}
+  Exit code;
+};
+
+struct Options {
+  std::vector<std::string> scenes, engines;
+  std::string format = "table", continuous = "scene";
+  int steps = 0;
+  bool list = false, sleeping = false;
+};
+
+/// To stderr; when that is full nobody can be told.
+void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw Stop(errno == EPIPE ? kOk : kOutput, fmt::format("stdout: {}", std::strerror(errno)));
+}
+
+/// The entries of `all` that `names` name, in the order of `all`; all when there are no names.
+template <class Entry>
+std::vector<const Entry*> select(std::span<const Entry> all, const std::vector<std::string>& names,
+                                 const char* what) {
+  std::vector<std::string> known;
+  for (const Entry& entry : all) known.push_back(entry.name);
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      throw Stop(kUsage, fmt::format("there is no {} '{}'{}; see `plumb_field --list`", what, name,
+                                     did_you_mean(name, known)));
+  std::vector<const Entry*> out;
+  for (const Entry& entry : all)
+    if (names.empty() || std::ranges::find(names, entry.name) != names.end()) out.push_back(&entry);
+  return out;
+}
+
+std::vector<const Engine*> select_engines(const std::vector<std::string>& names) {
+  std::vector<const Engine*> chosen = select(engines(), names, "engine");
+  for (const Engine* engine : chosen) {
+    if (engine->missing.empty()) continue;
+    const std::string text =
+        fmt::format("engine '{}' is not in this build: {}", engine->name, engine->missing);
+    if (!names.empty()) throw Stop(kMissing, text);
+    say(fmt::format("plumb_field: {}\n", text));
+  }
+  std::erase_if(chosen, [](const Engine* engine) { return !engine->missing.empty(); });
+  if (chosen.empty()) throw Stop(kMissing, "no engine is in this build");
+  return chosen;
+}
+
+std::string list_text() {
+  std::string out = "Scenes:\n";
+  for (const Scene& scene : scenes()) out += fmt::format("  {:<15} {}\n", scene.name, scene.summary);
+  out += "Engines:\n";
+  for (const Engine& engine : engines())
+    out += fmt::format("  {:<15} {}\n", engine.name,
+                       engine.missing.empty() ? engine.version : "not in this build: " + engine.missing);
+  return out;
+}
+
+/// One line on a terminal's stderr; nothing elsewhere.
+class ProgressLine {
+ public:
+  void show(const Progress& progress) {
+    if (!on_) return;
+    say(fmt::format("\r\x1b[K{}/{} {}", progress.done, progress.total, progress.what));
+    std::fflush(stderr);
+  }
+  void clear() {
+    if (!on_) return;
+    say("\r\x1b[K");
+    std::fflush(stderr);
+  }
+
+ private:
+  bool on_ = isatty(STDERR_FILENO) != 0;
+};
+
+int run(const Plan& plan, const std::string& format) {
+  const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
+  ProgressLine line;
+  std::vector<Measurement> all;
+  if (format == "csv") print(csv_header());
+  const auto done = [&](std::vector<Measurement>& row) {
+    line.clear();
+    if (format == "table") print(table(row, style));
+    if (format == "csv")
+      for (const Measurement& m : row) print(csv_row(m, yardstick_of(row, *m.scene)));
+    all.insert(all.end(), row.begin(), row.end());
+  };
+  measure(
+      plan, [&](const Progress& progress) { line.show(progress); }, done, harness::interrupted);
+  line.clear();
+  if (format == "table") print(settings_text(all, style));
+  if (format == "json") print(json(all, plan));
+  if (harness::interrupted()) return kInterrupted;
+  const bool failed = std::ranges::any_of(all, [](const Measurement& m) { return !m.failure.empty(); });
+  return failed ? kFailed : kOk;
+}
+
+void describe(CLI::App& app, Options& options, Plan& plan) {
+  app.footer(kFooter);
+  app.add_option("scene", options.scenes, "scenes to run; all when none is named")->type_name("SCENE");
+  app.add_option("--engine", options.engines, "engines to run; all when none is named")
+      ->delimiter(',')
+      ->type_name("NAME");
+  app.add_option("--steps", options.steps, "measured steps, in place of each scene's own")
+      ->check(CLI::Range(10, 10000000))
+      ->type_name("N");
+  app.add_option("--repeat", plan.repeat, "repetitions, each in a new world (3)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("R");
+  app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  app.add_option("--continuous", options.continuous,
+                 "continuous collision: on, off, or as the scene has it (scene)")
+      ->check(CLI::IsMember({"on", "off", "scene"}));
+  app.add_flag("--sleeping", options.sleeping, "let bodies at rest sleep");
+  app.add_option("--format", options.format, "table, json or csv (table)")
+      ->check(CLI::IsMember({"table", "json", "csv"}));
+  app.add_flag("--quick", plan.quick, "small scenes and few steps; figures mean little");
+  app.add_flag("--list", options.list, "name the scenes and the engines, and end");
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("The scenes that the field measures itself with, on every engine, in turn", "plumb_field");
+  Options options;
+  Plan plan;
+  describe(app, options, plan);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    throw Stop(kUsage, fmt::format("{}; see `plumb_field --help`", error.what()));
+  }
+  if (options.list) return print(list_text()), kOk;
+  plan.scenes = select(std::span<const Scene>(scenes()), options.scenes, "scene");
+  plan.engines = select_engines(options.engines);
+  if (options.steps > 0) plan.steps = options.steps;
+  if (options.continuous != "scene") plan.continuous = options.continuous == "on";
+  plan.settings.sleeping = options.sleeping;
+  return run(plan, options.format);
+}
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  harness::catch_interrupts();
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const Stop& stop) {
+    if (stop.code != kOk) say(fmt::format("plumb_field: {}\n", stop.what()));
+    return stop.code;
+  } catch (const std::exception& error) {
+    say(fmt::format("plumb_field: {}\n", error.what()));
+    return kFailed;
+  }
+}
+
+}  // namespace
+}  // namespace plumb::field
+
+int main(int argc, char** argv) { return plumb::field::main(argc, argv); }

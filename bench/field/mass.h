@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "bench/field/definitions.h"
+
+namespace plumb::field {
+
+struct MassProperties {
+  double mass = 0;     ///< kg
+  Vec2d centre{};      ///< m, in the body's frame
+  double inertia = 0;  ///< kg m^2, about the centre
+};
+
+/// Of bodies made of `shapes`, each by its density. Where shapes overlap both count. A polygon's rounding
+/// counts; a segment has no mass.
+MassProperties mass_of(std::span<const ShapeDefinition> shapes);
+
+}  // namespace plumb::field

@@ -1,0 +1,206 @@
+#include "bench/field/measure.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "bench/field/heap.h"
+
+namespace plumb::field {
+namespace {
+
+constexpr int kSamples = 10;  // of the quality of a run
+
+/// One world with one scene in it.
+class Run {
+ public:
+  Run(const Scene& scene, const Engine& engine, const Plan& plan)
+      : scene_(scene),
+        settings_(settings_of(scene, plan)),
+        world_(engine.create(settings_)),
+        builder_(*world_) {
+    built_ = scene.build(builder_, plan.quick);
+    for (const Top& top : built_.tops) heights_.push_back(height_of(top));
+    advance(scene.warm_up);
+  }
+
+  /// Mean time of `steps` steps; between tenths of them `sample` looks on.
+  template <class Sample>
+  double timed(int steps, const Sample& sample) {
+    const double start = builder_.cost().seconds;
+    std::int64_t allocations = 0;
+    int counted = 0, done = 0;
+    for (int i = 1; i <= kSamples; ++i) {
+      const int until = static_cast<int>(static_cast<std::int64_t>(steps) * i / kSamples);
+      const std::int64_t before = builder_.cost().allocations;
+      advance(until - done);
+      if (2 * i > kSamples) {
+        allocations += builder_.cost().allocations - before;
+        counted += until - done;
+      }
+      done = until;
+      sample();
+    }
+    allocations_a_step_ = counted == 0 ? 0 : static_cast<double>(allocations) / counted;
+    return (builder_.cost().seconds - start) / steps;
+  }
+
+  void describe(Measurement& out) {
+    out.settings = world_->settings();
+    out.counted = world_->counts();
+    out.asked = builder_.inventory().counts();
+    out.continuous = settings_.continuous;
+    out.allocations_a_step = allocations_a_step_;
+    const int bodies = out.asked.bodies;
+    if (heap::counted() && bodies > 0) out.bytes_a_body = static_cast<double>(builder_.cost().bytes) / bodies;
+    if (!built_.tops.empty()) out.height = least_height();
+    out.escaped = escaped();
+    const std::vector<BodyState> before = builder_.states();
+    builder_.step();
+    out.speed = measure_speed(builder_.inventory(), before, builder_.states(), settings_.dt);
+  }
+
+  Quality quality() const { return measure_quality(builder_.inventory(), builder_.states()); }
+
+ private:
+  static WorldSettings settings_of(const Scene& scene, const Plan& plan) {
+    WorldSettings out = plan.settings;
+    out.gravity = scene.gravity;
+    out.continuous = plan.continuous.value_or(scene.continuous);
+    return out;
+  }
+
+  void advance(int steps) {
+    if (!built_.before_step) {
+      builder_.step(steps);
+      return;
+    }
+    for (int i = 0; i < steps; ++i) {
+      built_.before_step(builder_, step_++);
+      builder_.step();
+    }
+  }
+
+  double height_of(const Top& top) const {
+    return world_->state(builder_.inventory().bodies[top.body].handle).position.y - top.ground;
+  }
+
+  double least_height() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < heights_.size(); ++i)
+      least = std::min(least, height_of(built_.tops[i]) / heights_[i]);
+    return least;
+  }
+
+  int escaped() const {
+    if (!built_.region) return 0;
+    int out = 0;
+    const std::vector<BodyState> states = builder_.states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Vec2d p = states[i].position;
+      const bool inside = p.x >= built_.region->low.x && p.x <= built_.region->high.x &&
+                          p.y >= built_.region->low.y && p.y <= built_.region->high.y;
+      out += builder_.inventory().bodies[i].alive && !inside;
+    }
+    return out;
+  }
+
+  const Scene& scene_;
+  WorldSettings settings_;
+  std::unique_ptr<FieldWorld> world_;
+  Builder builder_;
+  Built built_;
+  std::vector<double> heights_;
+  double allocations_a_step_ = 0;
+  int step_ = 0;
+};
+
+/// Depths and gaps of joints: the worst of all samples, and the means over them. The rest is the last one's.
+class Samples {
+ public:
+  void add(const Quality& sample) {
+    finite_ = finite_ && sample.finite;
+    deepest_ = std::max(deepest_, sample.deepest);
+    depths_ += sample.mean_depth * sample.overlapping;
+    overlapping_ += sample.overlapping;
+    worst_joint_ = std::max(worst_joint_, sample.worst_joint);
+    joints_ += sample.mean_joint;
+    worst_limit_ = std::max(worst_limit_, sample.worst_limit);
+    ++count_;
+    last_ = sample;
+  }
+
+  Quality summary() const {
+    Quality out = last_;
+    out.finite = finite_;
+    out.deepest = deepest_;
+    out.mean_depth = overlapping_ == 0 ? 0 : depths_ / overlapping_;
+    out.worst_joint = worst_joint_;
+    out.mean_joint = count_ == 0 ? 0 : joints_ / count_;
+    out.worst_limit = worst_limit_;
+    return out;
+  }
+
+ private:
+  bool finite_ = true;
+  double deepest_ = 0, depths_ = 0, worst_joint_ = 0, joints_ = 0, worst_limit_ = 0;
+  int overlapping_ = 0, count_ = 0;
+  Quality last_;
+};
+
+void run_once(const Plan& plan, bool first, Measurement& out) {
+  Run run(*out.scene, *out.engine, plan);
+  if (!first) {
+    out.step_seconds.push_back(run.timed(out.steps, [] {}));
+    return;
+  }
+  Samples samples;
+  out.step_seconds.push_back(run.timed(out.steps, [&] { samples.add(run.quality()); }));
+  out.quality = samples.summary();
+  if (!out.quality.finite) {
+    out.failure = "a pose or a velocity is not finite";
+    return;
+  }
+  run.describe(out);
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+void measure(const Plan& plan, const std::function<void(const Progress&)>& progress,
+             const std::function<void(std::vector<Measurement>&)>& done,
+             const std::function<bool()>& interrupted) {
+  const int engines = static_cast<int>(plan.engines.size());
+  Progress now{0, static_cast<int>(plan.scenes.size()) * engines * plan.repeat, ""};
+  for (const Scene* scene : plan.scenes) {
+    std::vector<Measurement> row(engines);
+    for (int i = 0; i < engines; ++i) {
+      row[i].scene = scene;
+      row[i].engine = plan.engines[i];
+      row[i].steps = plan.steps.value_or(plan.quick ? scene->quick_steps : scene->steps);
+    }
+    for (int repetition = 0; repetition < plan.repeat; ++repetition) {
+      for (int turn = 0; turn < engines; ++turn) {
+        if (interrupted()) return;
+        Measurement& out = row[(repetition + turn) % engines];
+        now.what = scene->name + " on " + out.engine->name;
+        progress(now);
+        ++now.done;
+        if (!out.failure.empty()) continue;
+        try {
+          run_once(plan, repetition == 0, out);
+        } catch (const std::exception& error) {
+          out.failure = error.what();
+        }
+      }
+    }
+    done(row);
+  }
+}
+
+}  // namespace plumb::field

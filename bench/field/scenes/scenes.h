@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bench/field/scene.h"
+
+namespace plumb::field {
+
+// One file a scene. The parameters follow the field's own benchmark of the same name (Box2D v3,
+// shared/benchmarks.c, August 2026), so that figures can be compared with what others publish.
+Scene large_pyramid();
+Scene many_pyramids();
+Scene joint_grid();
+Scene tumbler();
+Scene smash();
+Scene spinner();
+Scene washer();
+Scene rain();
+Scene junkyard();
+Scene compounds();
+
+// Small worlds, in which what a step costs besides its work shows.
+Scene empty();
+Scene one_free_body();
+Scene chain_10();
+Scene pyramid_10();
+Scene free_10000();
+
+}  // namespace plumb::field
