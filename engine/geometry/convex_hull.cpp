@@ -96,11 +96,8 @@ Corners convex_hull(std::span<const Vec2d> points) {
   };
   if (sorted.size() < 3) refuse_flat();
 
-  // About the first point, so that a hull far from the origin keeps its digits.
-  const Vec2d origin = sorted.front();
-  Vec2d lower{}, upper{};
-  for (Vec2d& point : sorted) {
-    point -= origin;
+  Vec2d lower = sorted.front(), upper = lower;
+  for (const Vec2d point : sorted) {
     lower = {std::min(lower.x, point.x), std::min(lower.y, point.y)};
     upper = {std::max(upper.x, point.x), std::max(upper.y, point.y)};
   }
@@ -113,7 +110,7 @@ Corners convex_hull(std::span<const Vec2d> points) {
   Corners corners;
   for (const Vec2d point : hull) corners.push_back({point, {}});
   set_normals(corners);
-  return translated(corners, origin);
+  return corners;
 }
 
 Corners box_corners(double half_width, double half_height, Vec2d center, Rotation<double> rotation) {

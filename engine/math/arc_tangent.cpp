@@ -38,19 +38,21 @@ double quotient_tail(double a, double b, double q) {
 /// atan(y / x) for 0 <= y <= x, x normal. With the nearest k/8 to y/x,
 /// atan(y/x) = atan(k/8) + atan(r), r = (y - x k/8) / (x + y k/8), |r| < 1/15.
 TwoDoubles first_octant(double y, double x) {
-  const int k = static_cast<int>(8 * (y / x) + 0.5);
+  // A little late to the next node, so that y >= x k/16 and the difference below has no rounding (Sterbenz).
+  const int k = static_cast<int>(8 * (y / x) + 0.4999);
   const double ratio = 0.125 * k;
   // x k/8 in two parts without rounding: the upper part has 8 bits to spare.
   const double upper = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~std::uint64_t{0xFF});
   const double lower = x - upper;
   const double over = (y - ratio * upper) - ratio * lower, under = x + ratio * y;
   const double r = over / under;
+  const double under_tail = (x - under) + ratio * y;
   // The series of the arc tangent; the first term left out is below 1e-20 of r.
   const double z = r * r;
   constexpr double k3 = -1.0 / 3, k5 = 1.0 / 5, k7 = -1.0 / 7, k9 = 1.0 / 9, k11 = -1.0 / 11, k13 = 1.0 / 13;
   const double series = z * (k3 + z * (k5 + z * (k7 + z * (k9 + z * (k11 + z * k13)))));
   const TwoDoubles arc = kArcs[k];
-  const double small = r * series + (quotient_tail(over, under, r) + arc.tail);
+  const double small = r * series + ((quotient_tail(over, under, r) - r * under_tail / under) + arc.tail);
   const double rest = r + small;
   const double sum = arc.value + rest;
   // What the two sums have rounded off: it decides the last place once a quarter turn is added.
@@ -62,8 +64,8 @@ TwoDoubles first_quadrant(double y, double x) {
   const bool steep = y > x;
   double adjacent = steep ? y : x, opposite = steep ? x : y;
   // Sums must not overflow and quotients must not lose bits to underflow: powers of two are exact.
-  if (adjacent > 0x1p1000) {
-    adjacent *= 0x1p-100, opposite *= 0x1p-100;
+  if (adjacent > 0x1p900) {
+    adjacent *= 0x1p-200, opposite *= 0x1p-200;
   } else if (adjacent < 0x1p-900) {
     adjacent *= 0x1p100, opposite *= 0x1p100;
   }
