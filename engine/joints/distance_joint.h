@@ -17,12 +17,12 @@ struct DistanceRows : JointTraits<0, 1> {
   DistanceRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b);
-    const Real length = std::sqrt(length_squared(out.point.gap));
+    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
+    const Real length = std::sqrt(length_squared(point.gap));
     // Anchors that coincide have no direction; any one moves them apart.
-    const Vec2<Real> u = length > 0 ? (1 / length) * out.point.gap : Vec2<Real>{1, 0};
-    out.axial[0] = out.point.row(u, length);
-    out.arm_b = out.point.arm_b;
+    const Vec2<Real> u = length > 0 ? (1 / length) * point.gap : Vec2<Real>{1, 0};
+    out.axial[0] = point.row(u, length);
+    out.arm_b = point.arm_b;
   }
 };
 

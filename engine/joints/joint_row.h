@@ -29,26 +29,33 @@ struct JointRow {
   Real residual = 0;                  ///< C, m or rad
 };
 
-/// Where the anchors are. With the impulse P on b at its anchor goes -P on a at the same point of the world,
-/// so that angular momentum is conserved however far the anchors are apart; `arm_a` leads there.
+/// Where the anchors are.
 template <class Real>
 struct AnchorPoint {
-  Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass to anchor b
+  Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass
   Vec2<Real> gap{};             ///< m, anchor b less anchor a
 
-  /// C = n . gap, where n turns with a:
+  /// The row of C = n . gap, where n turns with a:
   /// dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a + gap)).
   JointRow<Real> row(Vec2<Real> n, Real residual) const {
-    return {-n, n, -cross(arm_a, n), cross(arm_b, n), residual};
+    return {-n, n, -cross(arm_a + gap, n), cross(arm_b, n), residual};
   }
   JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
+
+  /// Both arms lead to the middle of the gap, so that an impulse on b and its opposite on a conserve angular
+  /// momentum however far the anchors are apart. Their Jacobian is that of the gap as seen from a frame that
+  /// turns at the mean of the bodies' rates.
+  AnchorPoint middle() const { return {arm_a + Real(0.5) * gap, arm_b - Real(0.5) * gap, gap}; }
+  /// The row of n . gap for a point in the middle.
+  JointRow<Real> middle_row(Vec2<Real> n) const {
+    return {-n, n, -cross(arm_a, n), cross(arm_b, n), dot(n, gap)};
+  }
 };
 
 template <class Real>
 AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a, Vec2<Real> anchor_b) {
-  const Vec2<Real> arm_b = pose.rotation_b * anchor_b;
-  const Vec2<Real> reach = pose.offset + arm_b;
-  return {reach, arm_b, reach - pose.rotation_a * anchor_a};
+  const Vec2<Real> arm_a = pose.rotation_a * anchor_a, arm_b = pose.rotation_b * anchor_b;
+  return {arm_a, arm_b, pose.offset + (arm_b - arm_a)};
 }
 
 /// All that a kind may tell of a pose; it fills what its constants announce.

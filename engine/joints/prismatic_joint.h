@@ -19,12 +19,12 @@ struct PrismaticRows : JointTraits<2, 1> {
   PrismaticRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b);
+    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
     const Vec2<Real> n = pose.rotation_a * axis;
     out.block[0] = {{}, {}, -1, 1, pose.angle};
-    out.block[1] = out.point.row(perpendicular(n));
-    out.axial[0] = out.point.row(n);
-    out.arm_b = out.point.arm_b;
+    out.block[1] = point.row(perpendicular(n));
+    out.axial[0] = point.row(n);
+    out.arm_b = point.arm_b;
   }
 };
 

@@ -17,12 +17,12 @@ struct WeldRows : JointTraits<3, 0> {
   WeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b);
-    const Vec2<Real> x{pose.rotation_a.c, pose.rotation_a.s};
+    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
+    const AnchorPoint<Real> middle = point.middle();
     out.block[0] = {{}, {}, -1, 1, pose.angle};
-    out.block[1] = out.point.row(x);
-    out.block[2] = out.point.row(perpendicular(x));
-    out.arm_b = out.point.arm_b;
+    out.block[1] = middle.middle_row({1, 0});
+    out.block[2] = middle.middle_row({0, 1});
+    out.arm_b = point.arm_b;
   }
 };
 
@@ -40,7 +40,7 @@ struct SoftWeldRows : JointTraits<0, 0> {
   SoftWeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b);
+    out.point = anchor_point(pose, anchor_a, anchor_b).middle();
   }
 };
 

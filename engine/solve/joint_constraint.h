@@ -1,0 +1,240 @@
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "engine/joints/pulley_joint.h"
+#include "engine/joints/ratchet_joint.h"
+#include "engine/solve/joint_angle.h"
+#include "engine/solve/joint_block.h"
+#include "engine/solve/joint_coordinate.h"
+#include "engine/solve/joint_point.h"
+
+namespace plumb {
+
+/// Stands where a kind lacks a part.
+template <int>
+struct NoPart {};
+
+/// A joint of kind `Kind` ready to be solved. Only the parts that the kind has take room; they are solved in
+/// the order turn, axial, block, point, such that what is rigid holds best.
+template <class Real, template <class> class Kind>
+struct JointConstraint {
+  using Rows = Kind<Real>;
+  using Definition = typename Rows::Definition;
+  static constexpr AngleUse kAngle = Rows::kAngle;
+  static constexpr bool kRatchet = std::is_same_v<Rows, RatchetRows<Real>>;
+  static constexpr bool kPulley = std::is_same_v<Rows, PulleyRows<Real>>;
+  /// The mouse alone: body a has no part in it.
+  static constexpr bool kOneBody = Rows::kGrounded && !kPulley;
+  static constexpr int kAxial = Rows::kAxial, kBlock = Rows::kBlock;
+  template <bool kHas, class Part, int kTag>
+  using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
+
+  int joint = 0, a = 0, b = 0;
+  Real known_h = 0;                 ///< s, that the rules have been set for
+  Vec2<Real> offset{}, offset_a{};  ///< m, at the step's start
+  Vec2<Real> arm_b{};
+  Rows kind{};
+  [[no_unique_address]] If<kAngle != AngleUse::None, JointAngle, 0> angle{};
+  [[no_unique_address]] If<kRatchet || kPulley, JointMemory, 1> memory{};
+  [[no_unique_address]] If<Rows::kTurn, JointCoordinate<Real, true>, 2> turn{};
+  std::array<JointCoordinate<Real, false>, kAxial> axial{};
+  [[no_unique_address]] If<(kBlock > 0), JointBlock<Real, kBlock>, 3> block{};
+  [[no_unique_address]] If<Rows::kPoint, JointPoint<Real>, 4> point{};
+
+  /// Takes the definition's parameters; impulses and memory stay where they still mean the same.
+  void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
+    kind = Rows(definition, centre_a, centre_b);
+    const JointRules rules = rules_of(definition);
+    if constexpr (Rows::kTurn) turn.load(rules.turn);
+    for (int i = 0; i < kAxial; ++i) axial[i].load(rules.axial[i]);
+    if constexpr (Rows::kPoint) point.load(rules.point);
+    if constexpr (kPulley) {
+      // A length that was given is not the one as placed.
+      if (definition.length) memory = {*definition.length, 1};
+    }
+    known_h = 0;
+  }
+
+  /// Springs and bounds for substeps of h, s.
+  void set_substep(const Definition& definition, Real h) {
+    const JointRules rules = rules_of(definition);
+    if constexpr (Rows::kTurn) turn.set_substep(rules.turn, h);
+    for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], h);
+    if constexpr (Rows::kPoint) point.set_substep(rules.point, h);
+    known_h = h;
+  }
+
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    offset = find_offset(bodies, b);
+    if constexpr (kPulley) offset_a = find_offset_a(bodies);
+    if constexpr (kAngle != AngleUse::None) count_turns(bodies, step.h);
+    if constexpr (kRatchet) {
+      const double tooth = kind.tooth_at(angle.start);
+      if (memory.known == 0) memory = {tooth, 1};
+    }
+    if constexpr (kPulley) recall_length(bodies);
+    if (step.warm_start != 1) scale(step.warm_start);
+  }
+
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    JointVelocities<Real> v = velocities(bodies);
+    JointRows<Real> rows;
+    const JointPose<Real> at = pose(bodies);
+    if constexpr (kRatchet) click(at.angle);
+    kind.evaluate(at, rows);
+    arm_b = rows.arm_b;
+    if constexpr (Rows::kTurn) turn.warm_start(at.angle, v, step);
+    for (int i = 0; i < kAxial; ++i) {
+      axial[i].row = rows.axial[i];
+      axial[i].warm_start(rows.axial[i].residual, v, step);
+    }
+    if constexpr (kBlock > 0) {
+      for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
+      block.warm_start(v);
+    }
+    if constexpr (Rows::kPoint) point.warm_start(rows.point, v, step);
+    store(v, bodies);
+  }
+
+  void pass(const SolverBodies<Real>& bodies, const JointStep<Real>& step, JointPass which) {
+    JointVelocities<Real> v = velocities(bodies);
+    if constexpr (Rows::kTurn) turn.solve(v, which);
+    for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
+    if constexpr (kBlock > 0) block.solve(v, step, which);
+    if constexpr (Rows::kPoint) point.solve(v, which);
+    store(v, bodies);
+  }
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kRelax); }
+
+  /// How the bodies stand now; turns are counted on.
+  JointPose<Real> pose(const SolverBodies<Real>& bodies) {
+    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
+    if constexpr (Rows::kGrounded) {
+      at.offset = offset + motion_b.moved;
+      at.offset_a = offset_a + motion_a.moved;
+    } else {
+      at.offset = offset + (motion_b.moved - motion_a.moved);
+    }
+    if constexpr (kAngle == AngleUse::Geared) {
+      at.angle = static_cast<Real>(angle.start) + (motion_b.turned - kind.ratio * motion_a.turned);
+      angle.a = angle.start_a + motion_a.turned;
+      angle.b = angle.start_b + motion_b.turned;
+    } else if constexpr (kAngle != AngleUse::None) {
+      const Real turned = motion_b.turned - motion_a.turned;
+      at.angle = static_cast<Real>(angle.start) + turned;
+      angle.b = angle.start_b + turned;
+    }
+    return at;
+  }
+
+  /// The pose and the rows as bodies are now, at any time: counts from what was seen last.
+  std::pair<JointPose<Real>, JointRows<Real>> look(const SolverBodies<Real>& bodies) const {
+    JointConstraint now = *this;
+    const Vec2<Real> moved_a = bodies.motion[a].moved, moved_b = bodies.motion[b].moved;
+    JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
+    at.offset = find_offset(bodies, b) + (Rows::kGrounded ? moved_b : moved_b - moved_a);
+    if constexpr (kPulley) at.offset_a = find_offset_a(bodies) + moved_a;
+    if constexpr (kAngle != AngleUse::None) {
+      now.count_turns(bodies, 0);
+      at.angle = static_cast<Real>(now.angle.start);
+    }
+    JointRows<Real> rows;
+    kind.evaluate(at, rows);
+    return {at, rows};
+  }
+
+  /// Linear impulse on b, and the angular one about the point that `arm_b` leads to.
+  std::pair<Vec2<Real>, Real> reaction() const {
+    Vec2<Real> linear{};
+    Real angular = 0;
+    const auto count = [&](const JointRow<Real>& row, Real impulse) {
+      linear += impulse * row.linear_b;
+      angular += impulse * (row.angular_b - cross(arm_b, row.linear_b));
+    };
+    if constexpr (Rows::kTurn) angular += turn.impulse();
+    for (int i = 0; i < kAxial; ++i) count(axial[i].row, axial[i].impulse());
+    if constexpr (kBlock > 0)
+      for (int i = 0; i < kBlock; ++i) count(block.row[i], block.impulse[i]);
+    if constexpr (Rows::kPoint) linear += point.impulse;
+    return {linear, angular};
+  }
+
+  /// Forgets impulses and what was counted.
+  void forget() {
+    scale(0);
+    if constexpr (kAngle != AngleUse::None) angle = {};
+    if constexpr (kRatchet) memory = {};
+  }
+
+ private:
+  Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
+    if constexpr (Rows::kGrounded) return (bodies.position[body] - kind.ground_b).template as<Real>();
+    return (bodies.position[body] - bodies.position[a]).template as<Real>();
+  }
+
+  Vec2<Real> find_offset_a(const SolverBodies<Real>& bodies) const {
+    return (bodies.position[a] - kind.ground_a).template as<Real>();
+  }
+
+  JointVelocities<Real> velocities(const SolverBodies<Real>& bodies) const {
+    JointVelocities<Real> v(bodies.motion[a], bodies.motion[b]);
+    if constexpr (kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+    return v;
+  }
+  void store(const JointVelocities<Real>& v, const SolverBodies<Real>& bodies) const {
+    v.store(bodies.motion[a], bodies.motion[b]);
+  }
+
+  void scale(Real factor) {
+    if constexpr (Rows::kTurn) turn.scale(factor);
+    for (auto& coordinate : axial) coordinate.scale(factor);
+    if constexpr (kBlock > 0)
+      for (Real& impulse : block.impulse) impulse *= factor;
+    if constexpr (Rows::kPoint) point.impulse *= factor;
+  }
+
+  /// The angle at the step's start. Turns are counted from where the last substep must have ended.
+  void count_turns(const SolverBodies<Real>& bodies, Real h) requires(kAngle != AngleUse::None) {
+    const Rotation<Real> q_a = bodies.rotation[a], q_b = bodies.rotation[b];
+    const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
+    if constexpr (kAngle == AngleUse::Geared) {
+      const double now_a = angle_of(q_a), now_b = angle_of(q_b);
+      angle.a = angle.known ? nearest_turn(now_a, angle.a + h * w_a) : now_a;
+      // Gears are put together such that teeth meet: the first time, b's turn is the one that fits.
+      const double fits = kind.exact_ratio * angle.a + kind.reference;
+      angle.b = nearest_turn(now_b, angle.known ? angle.b + h * w_b : fits);
+      angle.start = angle.b - fits;
+      angle.start_a = angle.a;
+    } else {
+      const double now = relative_angle(q_a, q_b);
+      angle.b = angle.known ? nearest_turn(now, angle.b + h * (w_b - w_a)) : now;
+      angle.start = angle.b - kind.reference;
+      if constexpr (kAngle == AngleUse::Wrapped) angle.start = nearest_turn(angle.start, 0);
+    }
+    angle.start_b = angle.b;
+    angle.known = 1;
+  }
+
+  /// The ratchet has passed a tooth: it will not go back behind it.
+  void click(Real now) requires kRatchet {
+    const double tooth = kind.tooth_at(now);
+    if (tooth > memory.value) memory.value = tooth;
+    turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+  }
+
+  /// A rope whose length was not given has the one that it is placed with.
+  void recall_length(const SolverBodies<Real>& bodies) requires kPulley {
+    if (memory.known == 0) {
+      JointRows<Real> rows;
+      kind.evaluate(pose(bodies), rows);
+      memory = {static_cast<double>(rows.axial[0].residual), 1};
+    }
+    axial[0].rule[0].origin = static_cast<Real>(memory.value);
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <utility>
+
+#include "engine/joints/revolute_joint.h"
+#include "engine/solve/joint_point.h"
+
+namespace plumb {
+
+/// The plain revolute joint, without limits, motor or spring: by far the most frequent one, and compact.
+template <class Real>
+struct HingeConstraint {
+  int joint = 0, a = 0, b = 0;
+  Real known_h = 0;  ///< nothing here depends on it
+  Vec2<Real> anchor_a{}, anchor_b{};
+  Vec2<Real> offset{};  ///< m, at the step's start
+  Vec2<Real> impulse{};
+  Vec2<Real> arm_a{}, arm_b{};
+  Vec2<Real> bias{};  ///< m/s
+  Symmetric2<Real> mass{};
+
+  using Definition = RevoluteDefinition;
+
+  void load(const RevoluteDefinition& definition, Vec2d centre_a, Vec2d centre_b) {
+    const RevoluteRows<Real> rows(definition, centre_a, centre_b);
+    anchor_a = rows.anchor_a;
+    anchor_b = rows.anchor_b;
+  }
+
+  void set_substep(const RevoluteDefinition&, Real h) { known_h = h; }
+  void forget() { impulse = {}; }
+  std::pair<Vec2<Real>, Real> reaction() const { return {impulse, 0}; }
+
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
+    impulse *= step.warm_start;
+  }
+
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    JointVelocities<Real> v(motion_a, motion_b);
+    const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
+                               .rotation_a = bodies.rotation[a],
+                               .rotation_b = bodies.rotation[b]};
+    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
+    arm_a = point.arm_a;
+    arm_b = point.arm_b;
+    bias = step.softness.bias_rate * point.gap;
+    mass = point_mass(v, arm_a, arm_b);
+    v.apply(impulse, arm_a, arm_b);
+    v.store(motion_a, motion_b);
+  }
+
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    JointVelocities<Real> v(motion_a, motion_b);
+    const Vec2<Real> delta = -(step.softness.mass_scale * (mass * (v.at(arm_a, arm_b) + bias)) +
+                               step.softness.impulse_scale * impulse);
+    impulse += delta;
+    v.apply(delta, arm_a, arm_b);
+    v.store(motion_a, motion_b);
+  }
+
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+    BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    JointVelocities<Real> v(motion_a, motion_b);
+    const Vec2<Real> delta = -(mass * v.at(arm_a, arm_b));
+    impulse += delta;
+    v.apply(delta, arm_a, arm_b);
+    v.store(motion_a, motion_b);
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/solve/joint_rule.h"
+#include "engine/solve/joint_velocities.h"
+
+namespace plumb {
+
+/// A symmetric 2x2 matrix.
+template <class Real>
+struct Symmetric2 {
+  Real xx = 0, xy = 0, yy = 0;
+  friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
+    return {m.xx * v.x + m.xy * v.y, m.xy * v.x + m.yy * v.y};
+  }
+};
+
+/// The effective mass of a point that two bodies share, the inverse of
+///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
+/// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
+/// cancels. Where it is 0 (nothing but turning is free, about one arm) the trace stands in: a short step.
+template <class Real>
+Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Vec2<Real> arm_b) {
+  const Real m = v.m_a + v.m_b;
+  const Vec2<Real> a = v.i_a * arm_a, b = v.i_b * arm_b;
+  const Real xx = m + (a.y * arm_a.y + b.y * arm_b.y);
+  const Real yy = m + (a.x * arm_a.x + b.x * arm_b.x);
+  const Real xy = -(a.x * arm_a.y + b.x * arm_b.y);
+  const Real determinant = m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b);
+  if (determinant > 0) {
+    const Real inverse = 1 / determinant;
+    return {inverse * yy, -inverse * xy, inverse * xx};
+  }
+  const Real trace = xx + yy;
+  const Real share = trace > 0 ? 1 / trace : 0;
+  return {share, 0, share};
+}
+
+/// Both components of the gap between two anchors, solved at once, by a rule that bounds the vector's length.
+template <class Real>
+struct JointPoint {
+  SolverRule<Real> rule{};  ///< without sign and origin
+  Vec2<Real> impulse{};     ///< N s, on b
+  AnchorPoint<Real> point{};
+  Symmetric2<Real> mass{};
+  Vec2<Real> bias[2]{};
+  Real mass_scale[2]{1, 1}, impulse_scale[2]{};
+
+  void load(const RowRule& r) {
+    if (r.role != rule.role) impulse = {};
+    rule.load(r);
+  }
+  void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
+
+  void warm_start(const AnchorPoint<Real>& at, JointVelocities<Real>& v, const JointStep<Real>& step) {
+    point = at;
+    mass = point_mass(v, at.arm_a, at.arm_b);
+    RowTerm<Real> term[2];
+    rule.terms(1, 1, step, term);
+    for (int pass = 0; pass < 2; ++pass) {
+      bias[pass] = term[pass].bias * at.gap;
+      mass_scale[pass] = term[pass].mass;
+      impulse_scale[pass] = term[pass].scale;
+    }
+    v.apply(impulse, at.arm_a, at.arm_b);
+  }
+
+  void solve(JointVelocities<Real>& v, JointPass pass) {
+    const Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
+    const Vec2<Real> before = impulse;
+    impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
+    const Real size = length_squared(impulse);
+    if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
+    v.apply(impulse - before, point.arm_a, point.arm_b);
+  }
+};
+
+}  // namespace plumb
