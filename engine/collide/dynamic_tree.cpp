@@ -40,23 +40,31 @@ void DynamicTree<Real>::remove(int proxy) {
 
 template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
+  const Aabb<Real> wanted = box;  // which may be another leaf's, that moves when this one is taken out
   Node leaf = take_leaf(proxy);
-  leaf.box = box;
+  leaf.box = wanted;
   insert_leaf(leaf);
 }
 
 template <class Real>
 void DynamicTree<Real>::enlarge(int proxy, const Aabb<Real>& box) {
   Node& leaf = node(slots_[proxy]);
-  if (leaf.box.contains(box)) return;
-  leaf.box = merged(leaf.box, box);
-  const Aabb<Real> grown = leaf.box;
+  if (!leaf.box.overlaps(box)) {
+    move(proxy, box);
+    return;
+  }
+  leaf.box = box;
+  ++enlargements_;
   for (int slot = leaf.parent; slot != kNone;) {
     Node& above = node(slot);
-    // What is above a marked node is marked, and contains it.
-    if (above.tag != 0 && above.box.contains(grown)) return;
-    above.box = merged(above.box, grown);
-    above.tag = 1;
+    if (above.tag == 0) {
+      above.tag = 1;
+      ++marks_;
+    } else if (above.box.contains(box)) {
+      // What is above a marked node is marked, and contains it.
+      return;
+    }
+    above.box = merged(above.box, box);
     slot = above.parent;
   }
 }
@@ -81,6 +89,7 @@ void DynamicTree<Real>::clear() {
   free_pairs_.clear();
   free_proxies_.clear();
   size_ = 0;
+  enlargements_ = marks_ = 0;
 }
 
 template <class Real>

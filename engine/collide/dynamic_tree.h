@@ -15,9 +15,9 @@ namespace plumb {
 /// inner node knows the categories below it, and a query with a mask passes over subtrees that have none of
 /// them. The tree changes in two ways: leaf by leaf (insert, remove, move), by the surface-area heuristic
 /// (Goldsmith and Salmon 1987) with rotations on the way up (Kopta et al. 2012); and in bulk, by enlarging
-/// boxes where they are and then rebuilding from above what was enlarged.
+/// boxes where they are and rebuilding from above what was enlarged. Queries are right at any time between.
 ///
-/// Boxes are finite, lower <= upper (a point is a box). A proxy names a leaf from insert() to remove(),
+/// Boxes have lower <= upper; a point is a box. A proxy names a leaf from insert() to remove(),
 /// whatever moves in between; naming any other is outside the contract. The same calls give the same tree,
 /// bit for bit, and visits in the same order. Queries may run at the same time as other queries.
 template <class Real>
@@ -31,7 +31,9 @@ class DynamicTree {
   void remove(int proxy);
   /// The leaf is taken out and put back in where `box` belongs.
   void move(int proxy, const Aabb<Real>& box);
-  /// The leaf's box grows to contain `box`, and so do those above it, in place; marks them for rebuild().
+  /// Gives the leaf `box`, and grows the boxes above it in place until they contain it; marks them for
+  /// rebuild(). Cheaper than move() by an order of magnitude, for boxes that move a little: a box that does
+  /// not overlap the leaf's old one is moved.
   void enlarge(int proxy, const Aabb<Real>& box);
   void set_category(int proxy, std::uint32_t category);
 
@@ -39,10 +41,14 @@ class DynamicTree {
   int user(int proxy) const { return node(slots_[proxy]).tag; }
   std::uint32_t category(int proxy) const { return node(slots_[proxy]).category; }
 
-  /// Builds anew what was enlarged since the last time: inner nodes that are marked, down to leaves and to
-  /// subtrees without a mark. Returns how many of these were arranged, 0 when nothing was marked.
+  /// To be called after the enlarging of each step. Builds the marked part of the tree anew, from the root
+  /// down to leaves and subtrees without a mark, split at the middle of the centres; its boxes are exact
+  /// again. Puts that off until as many boxes were enlarged as nodes are marked: by then the tree is at most
+  /// a few per cent worse, and the cost is shared by several steps. Returns how many leaves and subtrees were
+  /// arranged.
   int rebuild();
-  /// The same for the whole tree, and lays its nodes out in the order of a query: after loading many boxes.
+  /// The same for the whole tree and at once; lays the nodes out in the order of a query. For use after
+  /// loading many boxes.
   int rebuild_all();
 
   /// Calls visit(int user, int proxy) -> bool for each leaf whose box overlaps `box` (touching counts) and
@@ -89,6 +95,12 @@ class DynamicTree {
   using Node = TreeNode<Real>;
   using Pair = TreePair<Real>;
 
+  // A leaf or subtree to arrange: half its centre, and which one it is.
+  struct Item {
+    Vec2<Real> center;
+    int place;
+  };
+
   static constexpr int kNone = -1;
   static constexpr int kRoot = 0;
   // Ways down that a traversal may still have to take: never more than the height. Trees that are higher go
@@ -113,7 +125,7 @@ class DynamicTree {
   void rotate(int slot);
 
   void gather(bool everything);
-  void build(int slot, Node* items, int count, int budget);
+  void build(int slot, Item* items, int count, int budget);
   int build_gathered();
 
   // Goes to the nodes below `pair` that enter(node) lets in, along the parents, without a stack; false when
@@ -132,10 +144,12 @@ class DynamicTree {
   std::vector<int> slots_;   // proxy -> slot of its leaf
   std::vector<int> free_pairs_, free_proxies_;
   int size_ = 0;
+  std::int64_t enlargements_ = 0, marks_ = 0;  // since the last rebuild
 
   // Scratch of rebuild().
   std::vector<int> loose_pairs_;
-  std::vector<Node> items_;
+  std::vector<Node> held_;
+  std::vector<Item> items_;
   int next_loose_ = 0;
 };
 

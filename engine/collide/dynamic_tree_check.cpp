@@ -61,9 +61,10 @@ bool DynamicTree<Real>::inner_is_sound(int slot) const {
   if (here.link <= 0 || here.link >= static_cast<int>(pairs_.size())) return false;
   const auto& [a, b] = pairs_[here.link].children;
   const Aabb<Real> box = merged(a.box, b.box);
+  const bool exact = here.box.lower == box.lower && here.box.upper == box.upper;
+  const bool clean = here.tag == 0 && !a.marked() && !b.marked();
   return a.parent == slot && b.parent == slot && here.category == (a.category | b.category) &&
-         here.box.lower == box.lower && here.box.upper == box.upper && (here.tag == 0 || here.tag == 1) &&
-         (here.tag == 1 || !(a.marked() || b.marked()));
+         (clean ? exact : here.tag == 1 && here.box.contains(box));
 }
 
 template <class Real>
@@ -111,6 +112,8 @@ template <class Real>
 void DynamicTree<Real>::save(std::vector<std::byte>& out) const {
   ByteWriter writer(out);
   writer.value(std::int32_t{size_});
+  writer.value(enlargements_);
+  writer.value(marks_);
   writer.values(pairs_);
   writer.values(slots_);
   writer.values(free_pairs_);
@@ -122,6 +125,8 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   ByteReader reader(in);
   DynamicTree copy;
   copy.size_ = reader.value<std::int32_t>("tree of boxes");
+  copy.enlargements_ = reader.value<std::int64_t>("tree of boxes");
+  copy.marks_ = reader.value<std::int64_t>("tree of boxes");
   reader.values(copy.pairs_, "nodes of a tree of boxes");
   reader.values(copy.slots_, "leaves of a tree of boxes");
   reader.values(copy.free_pairs_, "free nodes of a tree of boxes");
@@ -129,6 +134,8 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   ByteReader::require(copy.valid(), "tree of boxes", "is damaged");
   // Copies, so that the room of this tree stays and later steps allocate nothing.
   size_ = copy.size_;
+  enlargements_ = copy.enlargements_;
+  marks_ = copy.marks_;
   pairs_.assign(copy.pairs_.begin(), copy.pairs_.end());
   slots_.assign(copy.slots_.begin(), copy.slots_.end());
   free_pairs_.assign(copy.free_pairs_.begin(), copy.free_pairs_.end());

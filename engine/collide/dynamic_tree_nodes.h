@@ -7,6 +7,11 @@
 
 #include "engine/geometry/aabb.h"
 
+#if defined(__SSE2__) && !defined(PLUMB_SCALAR)
+#include <emmintrin.h>
+#define PLUMB_TREE_SSE2
+#endif
+
 namespace plumb {
 
 /// A node of DynamicTree: all that a traversal reads, 32 bytes in float.
@@ -15,7 +20,7 @@ struct TreeNode {
   Aabb<Real> box{};
   std::uint32_t category = 0;  ///< inner: all categories below
   std::int32_t link = 0;       ///< inner: the pair of its children; leaf: ~proxy
-  std::int32_t tag = 0;        ///< inner: 1 when a box below was enlarged; leaf: the user's number
+  std::int32_t tag = 0;        ///< inner: 1 when it may be too large; leaf: the user's number
   std::int32_t parent = -1;    ///< slot of the node above; -1 at the root
 
   bool is_leaf() const { return link < 0; }
@@ -50,6 +55,28 @@ class OverlapTest {
   Aabb<Real> box_;
   std::uint32_t mask_;
 };
+
+#ifdef PLUMB_TREE_SSE2
+/// The same in one comparison: with the upper sides negated, a node's box must not exceed this one's in any
+/// of (lower x, lower y, -upper x, -upper y).
+template <>
+class OverlapTest<float> {
+ public:
+  OverlapTest(const Aabb<float>& box, std::uint32_t mask)
+      : limits_(_mm_setr_ps(box.upper.x, box.upper.y, -box.lower.x, -box.lower.y)),
+        signs_(_mm_setr_ps(0.0f, 0.0f, -0.0f, -0.0f)),
+        mask_(mask) {}
+
+  bool operator()(const TreeNode<float>& node) const {
+    const __m128 sides = _mm_xor_ps(_mm_load_ps(&node.box.lower.x), signs_);
+    return (_mm_movemask_ps(_mm_cmple_ps(sides, limits_)) == 15) & ((node.category & mask_) != 0);
+  }
+
+ private:
+  __m128 limits_, signs_;
+  std::uint32_t mask_;
+};
+#endif
 
 /// Where a swept box enters nodes: the slab test (Kay and Kajiya 1986) for nodes grown by half the swept box.
 /// Rounding is on the safe side: with unit roundoff u = epsilon/2, the distances to a slab have errors below
