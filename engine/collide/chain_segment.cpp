@@ -7,6 +7,10 @@ namespace {
 /// Bends below this, in rad, do not count: a curve of short segments is as smooth as a line.
 constexpr double kFlat = 0.01;
 
+/// Minus the sine of the slope, 45 degrees, from which a normal points into the ground.
+template <class Real>
+constexpr Real kInto = Real(0.70710678118654752);
+
 /// How the chain goes on at one end of a segment.
 template <class Real>
 struct Neighbour {
@@ -41,7 +45,9 @@ struct AdmitOwn {
     if (end.open) return Normal::Admit;
     if (!end.convex) return Normal::Snap;
     const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
-    return inside >= -Real(kFlat) ? Normal::Admit : Normal::Skip;
+    if (inside >= -Real(kFlat)) return Normal::Admit;
+    // Into the ground rather than along it: what has sunk in so deep is this segment's to lift.
+    return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
   }
   void widen(FacingEdges<Real>& edges) const {
     edges.slack_before = before.convex ? Real(0) : slack;
