@@ -51,7 +51,7 @@ bool in_front(const WorldData<Real>& w, int chain_segment, Vec2<Real> point, con
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, int shape, int other) {
   const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
-  const Vec2d origin = w.position[body];
+  const Vec2d origin = w.position[body] - w.motion[body].moved.template as<double>();  // where it started
   const Sweep<Real> sweep = sweep_of(w, body, origin), other_sweep = sweep_of(w, other_body, origin);
   if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);

@@ -141,7 +141,7 @@ void sleep_islands(WorldData<Real>& w) {
   const auto tie = [&](int a, int b) {
     if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
     // What lies on a moving platform does not sleep.
-    for (const auto &[platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
+    for (const auto& [platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
       if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) restless[rider] = 1;
     }
   };

@@ -23,7 +23,7 @@ void find_pairs(WorldData<Real>& w) {
   }
   for (const int shape : w.moved_shapes) w.shapes[shape].moved = false;
   w.moved_shapes.clear();
-  for (const auto &[a, b] : found) {
+  for (const auto& [a, b] : found) {
     if (!w.pairs.contains(a, b)) create_contact(w, a, b);
   }
 }

@@ -148,6 +148,11 @@ class BasicWorld {
   /// 64-bit FNV-1a over the bits of every body's state: equal on every platform for the same calls.
   std::uint64_t hash() const;
 
+  /// What the world consists of, for the engine's own extensions (queries, snapshots, force laws):
+  /// world_data.h.
+  WorldData<Real>& data() { return *data_; }
+  const WorldData<Real>& data() const { return *data_; }
+
  private:
   int place(BodyId body) const;
   int place(ShapeId shape) const;
