@@ -27,17 +27,8 @@ struct Hulls {
 
   /// The vertex farthest along -direction.
   Vertex lowest(Vec2d direction) const {
-    return vertex(farthest(a, direction), farthest(b, -(b_in_a.rotation.inverse() * direction)));
-  }
-
-  static int farthest(const Convex<Real>& shape, Vec2d direction) {
-    int best = 0;
-    double most = dot(shape.corners[0].point.template as<double>(), direction);
-    for (int i = 1; i < shape.count; ++i) {
-      const double here = dot(shape.corners[i].point.template as<double>(), direction);
-      if (here > most) most = here, best = i;
-    }
-    return best;
+    return vertex(farthest_corner(a, direction),
+                  farthest_corner(b, -(b_in_a.rotation.inverse() * direction)));
   }
 
   /// vertex q - vertex p, without the rounding that the distance of the shapes would add.
@@ -79,12 +70,6 @@ Simplex triangle_simplex(const Simplex& segment, const Vertex& r) {
   return first.square <= second.square ? first : second;
 }
 
-bool has(const Simplex& simplex, const Vertex& vertex) {
-  for (int k = 0; k < simplex.count; ++k)
-    if (simplex.vertices[k].a == vertex.a && simplex.vertices[k].b == vertex.b) return true;
-  return false;
-}
-
 double size_of(Vec2d v) { return std::abs(v.x) + std::abs(v.y); }
 
 template <class Real>
@@ -120,7 +105,7 @@ Axis best_axis(const Convex<Real>& shape, const Convex<Real>& other, const Pose<
     const double length = std::sqrt(length_squared(e));
     if (!(length > 0)) continue;
     const Vec2d normal{e.y / length, -e.x / length};
-    const int j = Hulls<Real>::farthest(other, -(other_in_shape.rotation.inverse() * normal));
+    const int j = farthest_corner(other, -(other_in_shape.rotation.inverse() * normal));
     const Vec2d from_p =
         other_in_shape.position + other_in_shape.rotation * other.corners[j].point.template as<double>() - p;
     const double separation = dot(normal, from_p);
@@ -206,8 +191,8 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
   while (!touching && iteration < kMaxIterations) {
     ++iteration;
     const Vertex next = hulls.lowest(simplex.outward);
-    if (has(simplex, next)) break;
-    // No vertex lies nearer to the origin along the normal: nothing to gain but roundings.
+    // No vertex lies nearer to the origin along the normal, but for roundings. One of the simplex itself
+    // never gains more than them: |m . (p - q)| with m = fl(p - q) turned is below 2 epsilon |m| (|p| + |q|).
     const Vec2d reference = simplex.vertices[0].w;
     const double gain = dot(simplex.outward, reference - next.w);
     if (!(gain > kRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w)))) break;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "engine/geometry/convex.h"
@@ -18,6 +20,27 @@ struct SimplexCache {
   bool edge_of_a() const { return count == 2 && corner_a[0] != corner_a[1]; }
   bool edge_of_b() const { return count == 2 && corner_b[0] != corner_b[1]; }
 };
+
+/// The corner farthest along `direction`, in the shape's frame.
+template <class Real>
+int farthest_corner(const Convex<Real>& shape, Vec2d direction) {
+  int best = 0;
+  double most = dot(shape.corners[0].point.template as<double>(), direction);
+  for (int i = 1; i < shape.count; ++i) {
+    const double here = dot(shape.corners[i].point.template as<double>(), direction);
+    if (here > most) most = here, best = i;
+  }
+  return best;
+}
+
+/// m: from the origin of the shape's frame to its farthest corner.
+template <class Real>
+double reach_of(const Convex<Real>& shape) {
+  double square = 0;
+  for (int i = 0; i < shape.count; ++i)
+    square = std::max(square, length_squared(shape.corners[i].point.template as<double>()));
+  return std::sqrt(square);
+}
 
 /// The distance of two hulls without their rounding, in a's frame and in double precision.
 struct HullDistance {

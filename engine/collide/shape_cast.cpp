@@ -10,14 +10,6 @@ namespace plumb {
 namespace {
 
 template <class Real>
-double farthest_corner(const Convex<Real>& shape) {
-  double square = 0;
-  for (int i = 0; i < shape.count; ++i)
-    square = std::max(square, length_squared(shape.corners[i].point.template as<double>()));
-  return std::sqrt(square);
-}
-
-template <class Real>
 CastResult<Real> hit_at(double fraction, bool overlapped, const HullDistance& hulls, double radius_a) {
   return {true, overlapped, static_cast<Real>(fraction),
           (hulls.point_a + radius_a * hulls.normal).template as<Real>(), hulls.normal.template as<Real>()};
@@ -36,7 +28,7 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
   const double radius_a = static_cast<double>(a.radius), radius = radius_a + static_cast<double>(b.radius);
   const Vec2d start = b_in_a.position.template as<double>(), way = translation.template as<double>();
   Pose<double> pose{start, {static_cast<double>(b_in_a.rotation.c), static_cast<double>(b_in_a.rotation.s)}};
-  const double size = farthest_corner(a) + farthest_corner(b) + radius;
+  const double size = reach_of(a) + reach_of(b) + radius;
   const double rounding = kRounding * (size + std::abs(start.x) + std::abs(start.y));
 
   SimplexCache cache;

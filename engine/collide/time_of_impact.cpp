@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-constexpr int kMaxIterations = 4096;
+constexpr int kMaxIterations = 4096;  // the worst seen: two a radian, for rods that pass closely all the time
 
 /// q r: the rotation by both angles.
 constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
@@ -35,13 +35,13 @@ struct Turning {
   const Convex<Real>& shape;
   Rotation<double> start;
   double turn;
-  double reach = 0;  ///< m, from the centre of rotation to the farthest corner
+  double reach;  ///< m, from the centre of rotation to the farthest corner
 
   Turning(const Convex<Real>& convex, const Sweep<Real>& sweep)
-      : shape(convex), start(unit(sweep.start_rotation)), turn(static_cast<double>(sweep.turn)) {
-    for (int i = 0; i < shape.count; ++i) reach = std::max(reach, length_squared(corner(i)));
-    reach = std::sqrt(reach);
-  }
+      : shape(convex),
+        start(unit(sweep.start_rotation)),
+        turn(static_cast<double>(sweep.turn)),
+        reach(reach_of(convex)) {}
   Vec2d corner(int i) const { return shape.corners[i].point.template as<double>(); }
   Rotation<double> rotation(double fraction) const { return turned_by(fraction * turn, start); }
 };
@@ -77,8 +77,9 @@ class Approach {
 
   /// m: what roundings may do to a separation up to a fraction.
   double rounding(double fraction) const {
+    const double way = speed_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
     return kRounding *
-           (std::abs(start_.x) + std::abs(start_.y) + fraction * speed_ + a_.reach + b_.reach + radius_);
+           (std::abs(start_.x) + std::abs(start_.y) + fraction * way + a_.reach + b_.reach + radius_);
   }
 
   /// The separation of the surfaces; the points and the normal of the hulls are in the directions of the
@@ -102,13 +103,14 @@ class Approach {
   bool window(double separation, double& first, double& last) const;
 
   /// A time after the last one measured, up to `remaining`, for which the shapes stay at least `separation`
-  /// apart.
+  /// apart. Near an edge the normal that turns with it serves best: all of the edge keeps its height there.
   double safe_step(double separation, double remaining) const {
-    double step = safe_step(separation, remaining, 0);
-    if (step < remaining && a_.turn != 0 && cache_.edge_of_a())
-      step = std::max(step, safe_step(separation, remaining, a_.turn));
-    if (step < remaining && b_.turn != 0 && cache_.edge_of_b() && b_.turn != a_.turn)
-      step = std::max(step, safe_step(separation, remaining, b_.turn));
+    const bool with_a = a_.turn != 0 && cache_.edge_of_a();
+    const bool with_b = b_.turn != 0 && cache_.edge_of_b();
+    double step = 0;
+    if (with_a) step = safe_step(separation, remaining, a_.turn);
+    if (with_b && step < remaining) step = std::max(step, safe_step(separation, remaining, b_.turn));
+    if (!with_a && !with_b) step = safe_step(separation, remaining, 0);
     return step;
   }
 
@@ -143,20 +145,14 @@ bool Approach<Real>::window(double separation, double& first, double& last) cons
 
 /// Below what normal . corner stays for every corner: the least at `t`. The normal turns too; `rate` is how
 /// fast the body turns against it. normal . r = |r| cos(angle + rate t), whose second derivative is never
-/// less than -rate^2 |r|.
+/// less than -rate^2 |r|. To first order it is r . (normal + t normal'), so that the least is a farthest
+/// corner.
 template <class Real>
 Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
                              double t) const {
-  const Vec2d local = rotation.inverse() * normal;
-  Bound best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < body.shape.count; ++i) {
-    const Vec2d r = body.corner(i);
-    const Bound bound{dot(local, r), rate * cross(r, local), rate * rate * body.reach};
-    const double value = bound.at(t);
-    if (value < least) least = value, best = bound;
-  }
-  return best;
+  const Vec2d local = rotation.inverse() * normal, change = -rate * perpendicular(local);
+  const Vec2d r = body.corner(farthest_corner(body.shape, -(local + t * change)));
+  return {dot(local, r), dot(change, r), rate * rate * body.reach};
 }
 
 /// The separation along a normal that turns at `axis_turn` is no more than the distance, and is the least

@@ -25,7 +25,8 @@ struct ImpactResult {
     Separated,   ///< they keep their distance through the whole interval; fraction 1
     Hit,         ///< they come as close as the target at `fraction`, and never before
     Overlapped,  ///< they overlap at the start; fraction 0
-    Failed       ///< too many iterations; they keep their distance up to `fraction`, what follows is unknown
+    Failed  ///< 4096 iterations (thousands of radians within reach of each other) were too few: they keep
+            ///< their distance up to `fraction`; what follows is unknown
   };
   State state = State::Separated;
   Real fraction = 1;          ///< rounded towards 0

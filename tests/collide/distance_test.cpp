@@ -104,6 +104,28 @@ TYPED_TEST(Distance, TouchingIsExact) {
   EXPECT_EQ(at(disc, 1.5, 0.25), 0);
   EXPECT_EQ(at(disc, 1.75, 0.25), 0.25);
   EXPECT_EQ(at(disc, 4, 5), 4.5);
+  for (std::uint8_t i = 0; i < 4; ++i)  // wherever the search begins
+    for (std::uint8_t j = 0; j < 4; ++j)
+      for (const Real x : {Real(-2), Real(2)})
+        for (const Real y : {Real(-2), Real(0), Real(2)}) {
+          SimplexCache cache{1, {i, 0}, {j, 0}};
+          const auto got = distance<Real>(box, box, {{x, y}, {}}, &cache);
+          EXPECT_EQ(got.distance, 0);
+          EXPECT_EQ(length_squared(got.normal), 1);
+          EXPECT_EQ(got.point_a, got.point_b);
+        }
+}
+
+// The normal of an edge has all of its digits at any distance.
+TYPED_TEST(Distance, NormalFromFarAway) {
+  using Real = TypeParam;
+  const Shape<Real> small = truth::box_of<Real>(1e-3, 1e-3), point = truth::shape_of<Real>({{0, 0}});
+  for (const double angle : {0.1, 0.7, 2.0}) {
+    const Rotation<Real> q{static_cast<Real>(std::cos(angle)), static_cast<Real>(std::sin(angle))};
+    const auto got = distance<Real>(point, small, {{Real(1e3) * q.c, Real(1e3) * q.s}, q});
+    EXPECT_TRUE(truth::near(got.normal.x, q.c, 4 * std::numeric_limits<Real>::epsilon()));
+    EXPECT_TRUE(truth::near(got.normal.y, q.s, 4 * std::numeric_limits<Real>::epsilon()));
+  }
 }
 
 TYPED_TEST(Distance, NormalOfATouchingEdgeIsTheEdgesOwn) {
@@ -198,6 +220,26 @@ TYPED_TEST(Distance, SizesAMillionTimesApart) {
     const double away = size * random.uniform(0, 2);
     const Pose<Real> pose{(away * random.direction()).template as<Real>(), random.rotation<Real>()};
     ASSERT_NO_FATAL_FAILURE(check<Real>(a, b, pose, distance<Real>(a, b, pose)));
+  }
+}
+
+// Sizes beyond all reason, and corners that coincide: numbers, always.
+TYPED_TEST(Distance, NothingBreaksIt) {
+  using Real = TypeParam;
+  Random random(7);
+  for (int k = 0; k < 20000; ++k) {
+    const double size = random.decade(-18, 18);
+    Shape<Real> a = truth::random_shape<Real>(random, size, kMaxCorners),
+                b = truth::random_shape<Real>(random, size * random.decade(-15, 0), kMaxCorners);
+    if (random.chance(0.3)) a.corners.back() = a.corners.front();
+    if (random.chance(0.3)) b.corners.assign(b.corners.size(), b.corners.front());
+    const Pose<Real> pose{(size * random.decade(-15, 15) * random.direction()).template as<Real>(),
+                          random.rotation<Real>()};
+    const auto got = distance<Real>(a, b, pose);
+    ASSERT_TRUE(got.distance >= 0 && std::isfinite(got.distance));
+    ASSERT_TRUE(std::isfinite(got.point_a.x + got.point_a.y) && std::isfinite(got.point_b.x + got.point_b.y));
+    ASSERT_TRUE(truth::near(length_squared(got.normal), 1, 1e-6));
+    ASSERT_LE(got.iterations, 20);
   }
 }
 

@@ -107,6 +107,7 @@ TYPED_TEST(RayCast, ClosedForms) {
 
   EXPECT_FALSE(cast(box, {-5, 1}, {3.5, 0}).hit);                  // too short
   EXPECT_FALSE(cast(box, {-5, 1}, {-8, 0}).hit);                   // away
+  EXPECT_FALSE(cast(box, {-5, 3}, {8, 0}).hit);                    // above it, parallel to an edge
   EXPECT_FALSE(cast(box, {0, 0}, {8, 0}).hit);                     // from inside
   EXPECT_FALSE(cast(box, {1, 0}, {-8, 0}).hit);                    // from the surface
   EXPECT_FALSE(cast(box, {-5, 1}, {0, 0}).hit);                    // no motion
@@ -154,6 +155,10 @@ TYPED_TEST(RayCast, OneSided) {
   EXPECT_FALSE(cast({0, 0}, {0, 4}).hit);    // from on it
   EXPECT_FALSE(cast({2, -2}, {0, 4}).hit);   // past its end
   EXPECT_TRUE(cast({-3, -2}, {4, 4}).hit);
+
+  const Shape<Real> round = truth::shape_of<Real>({{-1, 0}, {1, 0}}, 0.5);
+  EXPECT_TRUE((ray_cast<Real>(round, {2, Real(0.125)}, {-2, Real(0.125)}).hit));
+  EXPECT_FALSE((ray_cast_one_sided<Real>(round, {2, Real(0.125)}, {-2, Real(0.125)}).hit));  // behind
 }
 
 // The signed distance is unique; the point is on the surface at that distance, along the normal.
@@ -201,6 +206,10 @@ TYPED_TEST(RayCast, ContainsItsSurface) {
   EXPECT_TRUE((contains<Real>(segment, {Real(0.5), 0})));
   EXPECT_FALSE((contains<Real>(segment, {Real(0.5), Real(1e-6)})));
   EXPECT_TRUE((contains<Real>(point, {3, 4})));
+  const Shape<Real> slope = truth::shape_of<Real>({{0, 0}, {4, 4}});
+  EXPECT_EQ((nearest_point<Real>(slope, {2, 2}).distance), 0);  // its normal is the segment's
+  EXPECT_TRUE(near(nearest_point<Real>(slope, {2, 2}).normal.x, std::sqrt(Wide(0.5)),
+                   std::numeric_limits<Real>::epsilon()));
   EXPECT_EQ((nearest_point<Real>(point, {3, 4}).distance), 0);
   EXPECT_EQ((length_squared(nearest_point<Real>(point, {3, 4}).normal)), 1);
 }
