@@ -208,6 +208,20 @@ TYPED_TEST(DynamicTreeShape, StaysGoodInLongMotion) {
   EXPECT_LT(tree.cost(), 1.15 * tree_of(boxes).cost());
 }
 
+// A leaf that goes to the other end of the world must not take the boxes above it along.
+TYPED_TEST(DynamicTreeShape, LeapsDoNotStretchTheTree) {
+  using Real = TypeParam;
+  constexpr int kBoxes = 2000;
+  Boxes<Real> boxes = scattered<Real>(kBoxes);
+  DynamicTree<Real> tree = tree_of(boxes);
+  for (int i = 0; i < 40; ++i) {
+    boxes[i] = boxes[kBoxes - 1 - i];
+    tree.enlarge(i, boxes[i]);
+  }
+  EXPECT_TRUE(tree.valid());
+  EXPECT_LT(tree.cost(), 1.1 * tree_of(boxes).cost());
+}
+
 TYPED_TEST(DynamicTreeShape, RebuildsOnlyWhatIsMarked) {
   using Real = TypeParam;
   constexpr int kBoxes = 4096;
@@ -293,6 +307,10 @@ TYPED_TEST(DynamicTreeShape, DamagedSnapshotsAreRefused) {
 }
 
 TYPED_TEST(DynamicTreeShape, ABoxOfTheTreeItselfMayBeGiven) {
+  DynamicTree<TypeParam> two =
+      tree_of(Boxes<TypeParam>{square<TypeParam>(0, 0, 1), square<TypeParam>(9, 9, 2)});
+  two.move(0, two.box(1));
+  EXPECT_EQ(two.box(0).lower.x, 7);
   DynamicTree<TypeParam> tree = tree_of(scattered<TypeParam>(64));
   for (int i = 0; i + 1 < 64; ++i) {
     const Aabb<TypeParam> box = tree.box(i + 1);

@@ -263,6 +263,32 @@ TYPED_TEST(DynamicTreeTest, SweepsMeetWhatAListOfBoxesSays) {
   EXPECT_GT(met, 10000);
 }
 
+// A swept box whose side slides along a leaf's, or that stops where it touches: whether they do is a matter
+// of the last bit, and what exact arithmetic calls touching must be visited.
+TYPED_TEST(DynamicTreeTest, SweepsThatOnlyTouch) {
+  using Real = TypeParam;
+  DynamicTree<Real> tree;
+  tree.insert({{0, 0}, {1, 1}}, 1, 0);
+  int touching = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const Vec2<Real> lower{this->uniform(0, 1), this->uniform(0, 1)};
+    tree.move(0, {lower, {lower.x + 1, lower.y + 1}});
+    const Vec2<Real> half{this->uniform(0, 2), this->uniform(0, 2)};
+    Vec2<Real> origin{-3, lower.y - half.y}, translation{9, 0};
+    if (round % 2 == 0) {
+      const Real gap = this->uniform(0, 100) * std::numeric_limits<Real>::epsilon();
+      origin = {lower.x - half.x - gap, lower.y};
+      translation.x = static_cast<Real>((long double)lower.x - half.x - origin.x);
+    }
+    bool visited = false;
+    tree.ray_cast(origin, translation, half, 1, [&](int, Real fraction) { return visited = true, fraction; });
+    if (met_at(tree.box(0), origin, translation, half) > 1) continue;
+    ++touching;
+    EXPECT_TRUE(visited);
+  }
+  EXPECT_GT(touching, 10000);
+}
+
 TYPED_TEST(DynamicTreeTest, SweepsFindTheFirstAndLookAtFew) {
   using Real = TypeParam;
   constexpr int kBoxes = 2000;
