@@ -42,12 +42,15 @@ struct AnchorPoint {
   }
   JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
 
+  /// Both arms lead to anchor b, which conserves angular momentum. The Jacobian is that of the gap as seen
+  /// from a: right for gaps that may be wide, where a's frame is what b is placed in.
+  AnchorPoint at_b() const { return {arm_a + gap, arm_b, gap}; }
   /// Both arms lead to the middle of the gap, so that an impulse on b and its opposite on a conserve angular
-  /// momentum however far the anchors are apart. Their Jacobian is that of the gap as seen from a frame that
+  /// momentum too. Their Jacobian is that of the gap as seen from a frame that
   /// turns at the mean of the bodies' rates.
   AnchorPoint middle() const { return {arm_a + Real(0.5) * gap, arm_b - Real(0.5) * gap, gap}; }
-  /// The row of n . gap for a point in the middle.
-  JointRow<Real> middle_row(Vec2<Real> n) const {
+  /// The row of n . gap with the arms as they are.
+  JointRow<Real> plain_row(Vec2<Real> n) const {
     return {-n, n, -cross(arm_a, n), cross(arm_b, n), dot(n, gap)};
   }
 };

@@ -18,7 +18,7 @@ struct MotorRows : JointTraits<0, 0> {
   MotorRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b).middle();
+    out.point = anchor_point(pose, anchor_a, anchor_b).at_b();
   }
 };
 

@@ -20,8 +20,8 @@ struct WeldRows : JointTraits<3, 0> {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
     const AnchorPoint<Real> middle = point.middle();
     out.block[0] = {{}, {}, -1, 1, pose.angle};
-    out.block[1] = middle.middle_row({1, 0});
-    out.block[2] = middle.middle_row({0, 1});
+    out.block[1] = middle.plain_row({1, 0});
+    out.block[2] = middle.plain_row({0, 1});
     out.arm_b = point.arm_b;
   }
 };

@@ -16,8 +16,25 @@ struct JointBlock {
   Real inverse_pivot[N]{};
   Real impulse[N]{};
 
-  void warm_start(JointVelocities<Real>& v) {
-    factorise(v);
+  /// For the rows as they are.
+  void factorise(const JointVelocities<Real>& v) {
+    constexpr Real kNothing = 32 * std::numeric_limits<Real>::epsilon();
+    Real pivot[N];
+    for (int i = 0; i < N; ++i) {
+      const Real diagonal = v.inverse_mass(row[i], row[i]);
+      Real rest = diagonal;
+      for (int j = 0; j < i; ++j) {
+        Real sum = v.inverse_mass(row[i], row[j]);
+        for (int k = 0; k < j; ++k) sum -= lower[i][k] * pivot[k] * lower[j][k];
+        lower[i][j] = sum * inverse_pivot[j];
+        rest -= lower[i][j] * lower[i][j] * pivot[j];
+      }
+      const bool free = rest > kNothing * diagonal;
+      pivot[i] = free ? rest : 0;
+      inverse_pivot[i] = free ? 1 / rest : 0;
+    }
+  }
+  void warm_start(JointVelocities<Real>& v) const {
     for (int i = 0; i < N; ++i) v.apply(row[i], impulse[i]);
   }
 
@@ -35,25 +52,6 @@ struct JointBlock {
       const Real delta = -s.mass_scale * x[i] - s.impulse_scale * impulse[i];
       impulse[i] += delta;
       v.apply(row[i], delta);
-    }
-  }
-
- private:
-  void factorise(const JointVelocities<Real>& v) {
-    constexpr Real kNothing = 8 * std::numeric_limits<Real>::epsilon();
-    Real pivot[N];
-    for (int i = 0; i < N; ++i) {
-      const Real diagonal = v.inverse_mass(row[i], row[i]);
-      Real rest = diagonal;
-      for (int j = 0; j < i; ++j) {
-        Real sum = v.inverse_mass(row[i], row[j]);
-        for (int k = 0; k < j; ++k) sum -= lower[i][k] * pivot[k] * lower[j][k];
-        lower[i][j] = sum * inverse_pivot[j];
-        rest -= lower[i][j] * lower[i][j] * pivot[j];
-      }
-      const bool free = rest > kNothing * diagonal;
-      pivot[i] = free ? rest : 0;
-      inverse_pivot[i] = free ? 1 / rest : 0;
     }
   }
 };

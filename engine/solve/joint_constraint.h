@@ -76,25 +76,35 @@ struct JointConstraint {
     }
     if constexpr (kPulley) recall_length(bodies);
     if (step.warm_start != 1) scale(step.warm_start);
+    evaluate(bodies, step);
   }
 
-  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-    JointVelocities<Real> v = velocities(bodies);
+  /// All rows at the poses as they are now.
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    const JointVelocities<Real> v = velocities(bodies);
     JointRows<Real> rows;
     const JointPose<Real> at = pose(bodies);
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
-    if constexpr (Rows::kTurn) turn.warm_start(at.angle, v, step);
+    if constexpr (Rows::kTurn) turn.evaluate(at.angle, v, step);
     for (int i = 0; i < kAxial; ++i) {
       axial[i].row = rows.axial[i];
-      axial[i].warm_start(rows.axial[i].residual, v, step);
+      axial[i].evaluate(rows.axial[i].residual, v, step);
     }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
-      block.warm_start(v);
+      block.factorise(v);
     }
-    if constexpr (Rows::kPoint) point.warm_start(rows.point, v, step);
+    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step);
+  }
+
+  void warm_start(const SolverBodies<Real>& bodies) const {
+    JointVelocities<Real> v = velocities(bodies);
+    if constexpr (Rows::kTurn) turn.warm_start(v);
+    for (int i = 0; i < kAxial; ++i) axial[i].warm_start(v);
+    if constexpr (kBlock > 0) block.warm_start(v);
+    if constexpr (Rows::kPoint) point.warm_start(v);
     store(v, bodies);
   }
 
@@ -107,7 +117,10 @@ struct JointConstraint {
     store(v, bodies);
   }
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kRelax); }
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    evaluate(bodies, step);
+    pass(bodies, step, kRelax);
+  }
 
   /// How the bodies stand now; turns are counted on.
   JointPose<Real> pose(const SolverBodies<Real>& bodies) {

@@ -45,8 +45,8 @@ struct JointCoordinate {
     return sum;
   }
 
-  /// `q`: the coordinate.
-  void warm_start(Real q, JointVelocities<Real>& v, const JointStep<Real>& step) {
+  /// `q`: the coordinate, at the pose of `row`.
+  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step) {
     if (count == 0) return;
     if constexpr (kAngular) {
       inverse_mass = v.i_a + v.i_b;
@@ -55,7 +55,9 @@ struct JointCoordinate {
     }
     const Real mass = inverse_mass > 0 ? 1 / inverse_mass : 0;
     for (int i = 0; i < count; ++i) rule[i].terms(q, mass, step, solved[i].term);
-    apply(v, impulse());
+  }
+  void warm_start(JointVelocities<Real>& v) const {
+    if (count > 0) apply(v, impulse());
   }
 
   void solve(JointVelocities<Real>& v, JointPass pass) {

@@ -34,19 +34,13 @@ struct HingeConstraint {
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
     offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
     impulse *= step.warm_start;
+    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    evaluate(bodies, step, motion_a, motion_b, JointVelocities<Real>(motion_a, motion_b));
   }
 
-  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  void warm_start(const SolverBodies<Real>& bodies) const {
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
-    const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
-                               .rotation_a = bodies.rotation[a],
-                               .rotation_b = bodies.rotation[b]};
-    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
-    arm_a = point.arm_a;
-    arm_b = point.arm_b;
-    bias = step.softness.bias_rate * point.gap;
-    mass = point_mass(v, arm_a, arm_b);
     v.apply(impulse, arm_a, arm_b);
     v.store(motion_a, motion_b);
   }
@@ -61,13 +55,28 @@ struct HingeConstraint {
     v.store(motion_a, motion_b);
   }
 
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
+    evaluate(bodies, step, motion_a, motion_b, v);
     const Vec2<Real> delta = -(mass * v.at(arm_a, arm_b));
     impulse += delta;
     v.apply(delta, arm_a, arm_b);
     v.store(motion_a, motion_b);
+  }
+
+ private:
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                const BodyMotion<Real>& motion_a, const BodyMotion<Real>& motion_b,
+                const JointVelocities<Real>& v) {
+    const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
+                               .rotation_a = bodies.rotation[a],
+                               .rotation_b = bodies.rotation[b]};
+    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
+    arm_a = point.arm_a;
+    arm_b = point.arm_b;
+    bias = step.softness.bias_rate * point.gap;
+    mass = point_mass(v, arm_a, arm_b);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "engine/solve/joint_rule.h"
 #include "engine/solve/joint_velocities.h"
@@ -19,7 +20,8 @@ struct Symmetric2 {
 /// The effective mass of a point that two bodies share, the inverse of
 ///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
 /// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
-/// cancels. Where it is 0 (nothing but turning is free, about one arm) the trace stands in: a short step.
+/// cancels. Where it is as good as 0 (nothing but turning is free, about one arm) the trace stands in: a
+/// short step.
 template <class Real>
 Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Vec2<Real> arm_b) {
   const Real m = v.m_a + v.m_b;
@@ -28,11 +30,11 @@ Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Ve
   const Real yy = m + (a.x * arm_a.x + b.x * arm_b.x);
   const Real xy = -(a.x * arm_a.y + b.x * arm_b.y);
   const Real determinant = m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b);
-  if (determinant > 0) {
+  const Real trace = xx + yy;
+  if (determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
     const Real inverse = 1 / determinant;
     return {inverse * yy, -inverse * xy, inverse * xx};
   }
-  const Real trace = xx + yy;
   const Real share = trace > 0 ? 1 / trace : 0;
   return {share, 0, share};
 }
@@ -53,18 +55,20 @@ struct JointPoint {
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
 
-  void warm_start(const AnchorPoint<Real>& at, JointVelocities<Real>& v, const JointStep<Real>& step) {
+  void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step) {
     point = at;
     mass = point_mass(v, at.arm_a, at.arm_b);
-    RowTerm<Real> term[2];
+    const Vec2<Real> before = bias[kSolve];
+    RowTerm<Real> term[2]{};
     rule.terms(1, 1, step, term);
     for (int pass = 0; pass < 2; ++pass) {
       bias[pass] = term[pass].bias * at.gap;
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
-    v.apply(impulse, at.arm_a, at.arm_b);
+    if (rule.role == RowRole::Spring) bias[kRelax] = before;
   }
+  void warm_start(JointVelocities<Real>& v) const { v.apply(impulse, point.arm_a, point.arm_b); }
 
   void solve(JointVelocities<Real>& v, JointPass pass) {
     const Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];

@@ -40,7 +40,8 @@ struct SolverRule {
     if (role == RowRole::Spring) spring = softness<Real>(rule.spring.hertz, rule.spring.damping_ratio, h);
   }
 
-  /// Both terms for a coordinate at `q` whose effective mass is `mass`.
+  /// Both terms for a coordinate at `q` whose effective mass is `mass`, at the poses after a substep: `relax`
+  /// of this substep, `solve` of the next one. A spring's force belongs to where the substep began.
   void terms(Real q, Real mass, const JointStep<Real>& step, RowTerm<Real> (&term)[2]) const {
     const Real c = sign * (q - origin);
     const Softness<Real> soft = role == RowRole::Spring ? spring : step.softness;
@@ -51,7 +52,7 @@ struct SolverRule {
         term[kSolve] = pull, term[kRelax] = hold;
         return;
       case RowRole::Spring:
-        term[kSolve] = term[kRelax] = pull;
+        term[kRelax] = {term[kSolve].bias, pull.mass, pull.scale}, term[kSolve] = pull;
         return;
       case RowRole::Limit:
         // While it is open it may close within the substep, and no faster.

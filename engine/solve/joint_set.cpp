@@ -260,8 +260,8 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
 }
 
 template <class Real>
-void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  parts_->for_each_active([bodies, step](auto& constraint) { constraint.warm_start(bodies, step); });
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+  parts_->for_each_active([bodies](const auto& constraint) { constraint.warm_start(bodies); });
 }
 
 template <class Real>

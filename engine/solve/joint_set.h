@@ -65,12 +65,14 @@ class JointSet {
   /// Forgets impulses and counted turns: a body of the joint has been put elsewhere.
   void forget(int joint);
 
+  /// Evaluates all rows at the step's start.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Evaluates all rows at the current poses and applies the impulses of the last substep.
+  /// Applies the impulses of the last substep.
   void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Impulses that hold velocities and pull errors back softly.
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Impulses that hold velocities only: takes out what pulling back put in. Springs keep their force.
+  /// Evaluates all rows at the poses after the motion and holds velocities only: takes out what pulling back
+  /// put in. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
 
   /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
@@ -81,8 +83,10 @@ class JointSet {
   /// How far the rigid rows and the limits are from what they hold, where bodies are now: at `position` +
   /// `moved`, with `rotation`. Springs and motors have no error.
   JointError<Real> error(int joint, const SolverBodies<Real>& bodies) const;
-  /// rad, of b relative to a less the reference angle, whole turns counted since the joint was added:
-  /// revolute, prismatic, weld, wheel, motor, ratchet, friction.
+  /// rad, of b relative to a less the reference angle (the target, the phase): revolute, prismatic, weld,
+  /// wheel, motor, ratchet, friction. Whole turns are counted from the joint's first step on by revolute
+  /// joints with limits, spring or motor, by wheels, ratchets and friction; of others it is in [-pi, pi].
+  /// They are counted right while the bodies turn less than pi, relative to each other, in a substep.
   Real angle(int joint, const SolverBodies<Real>& bodies) const;
   /// m, of anchor b along the axis from anchor a: prismatic, wheel.
   Real translation(int joint, const SolverBodies<Real>& bodies) const;
