@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "tests/collide/convex_truth.h"
 
@@ -84,6 +85,17 @@ TEST(Capsules, EndToEndAndCrossed) {
   EXPECT_NEAR(crossed.points[0].separation, -0.7, 1e-15);
 }
 
+// An end that lies on the other's axis tells no side: the rest of its capsule does.
+TEST(Capsules, AnEndOnTheOthersAxisLeavesToItsOwnSide) {
+  for (const double off : {-1e-12, 0.0, 1e-12})
+    for (const double side : {-1.0, 1.0}) {
+      const auto manifold = collide(kCapsule, kCapsule, at(0.3, side + off, M_PI / 2));
+      ASSERT_GE(manifold.count, 1);
+      EXPECT_NEAR(manifold.normal.y, side, 1e-15);
+      EXPECT_NEAR(manifold.points[0].separation, -0.5, 1e-11);
+    }
+}
+
 TEST(Capsules, LieOnBoxesWithTwoPoints) {
   const Solid<double> table(box_corners(3, 0.5), 0);
   expect_points(collide(table, kCapsule, at(1, 0.74)), {0, 1}, {{0, 0.495}, {2, 0.495}}, -0.01);
@@ -138,6 +150,30 @@ void expect_steady_names() {
 TEST(Names, AreSteadyInRest) {
   expect_steady_names<float>();
   expect_steady_names<double>();
+}
+
+// Nearly parallel faces: the normal is a's own, to the bit, whichever is deeper by a little, apart or not.
+TEST(Normals, OfTheFirstShapeInRest) {
+  const Rotation<double> tilt = rotation_of(0.3);
+  const Corners hexagon = convex_hull(
+      std::vector<Vec2d>{{-0.5, 0}, {-0.25, -0.25}, {0.25, -0.25}, {0.5, 0}, {0.25, 0.25}, {-0.25, 0.25}});
+  const Corners box = box_corners(0.5, 0.25), capsule = capsule_corners({-0.5, 0}, {0.5, 0});
+  for (const auto& [below, radius_a] :
+       {std::pair(box, 0.0), std::pair(hexagon, 0.0), std::pair(capsule, 0.25)})
+    for (const auto& [above, radius_b] :
+         {std::pair(box, 0.0), std::pair(hexagon, 0.0), std::pair(capsule, 0.25)})
+      for (const double overhang : {0.0, 0.2, -0.37})
+        for (const double gap : {-0.003, 0.0005, 0.003})
+          for (const double angle : {-2e-4, -1e-8, 0.0, 1e-8, 2e-4}) {
+            const Solid<double> a(transformed(below, {{}, tilt}), radius_a), b(above, radius_b);
+            Vec2d top{};
+            for (const auto& corner : a.corners)
+              if (dot(corner.normal, tilt * Vec2d{0, 1}) > dot(top, tilt * Vec2d{0, 1})) top = corner.normal;
+            const Pose<double> pose{tilt * Vec2d{overhang, 0.5 + gap}, rotation_of(0.3 + angle)};
+            const auto manifold = collide(a, b, pose);
+            ASSERT_EQ(manifold.count, 2);
+            EXPECT_EQ(manifold.normal, top) << overhang << ' ' << gap << ' ' << angle;
+          }
 }
 
 // A box that tips up about its corner keeps that corner's name until it stands on it.
