@@ -20,6 +20,13 @@ struct ContactPoint {
   Real approach = 0;                          ///< m/s, velocity along n at the step's start
 };
 
+/// How a contact answers an overlap.
+enum class ContactHardness : std::uint8_t {
+  Soft,   ///< between bodies that give way
+  Stiff,  ///< against one that does not
+  Rigid,  ///< held by a direct solution
+};
+
 /// The touching of two shapes: manifold and constraint in one, kept from step to step. It is rebuilt only
 /// when the bodies have moved relative to each other by more than `travel_left`; until then the separations
 /// are carried on to first order, as the solver does within a step.
@@ -38,8 +45,8 @@ struct ContactConstraint {
   int contact = 0;           ///< its record
   std::uint16_t features[2] = {0, 0};
   std::uint8_t count = 0;  ///< points in use
-  bool stiff = false;      ///< against a body that does not give way
-  bool touching = false;   ///< as events tell it
+  ContactHardness hardness = ContactHardness::Soft;
+  bool touching = false;  ///< as events tell it
 };
 
 }  // namespace plumb

@@ -68,7 +68,7 @@ Real separation_now(const Pair<Real>& pair, const ContactPoint<Real>& p, Real cl
 
 template <class Real>
 void solve_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const ContactStep<Real>& step) {
-  const Softness<Real>& soft = c.stiff ? step.stiff : step.soft;
+  const Softness<Real>& soft = step.softness[static_cast<int>(c.hardness)];
   Pair<Real> pair(motion, c);
   const Real closed = dot(pair.n, pair.b.moved - pair.a.moved);
   for (int i = 0; i < c.count; ++i) {

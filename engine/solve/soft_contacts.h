@@ -8,11 +8,10 @@ namespace plumb {
 /// What the passes over contacts need besides the constraints.
 template <class Real>
 struct ContactStep {
-  Real inverse_h = 0;         ///< 1/s, of the substep
-  Softness<Real> soft{};      ///< between bodies that give way
-  Softness<Real> stiff{};     ///< against one that does not
-  Real warm_start = 1;        ///< this substep over the last one: impulses grow with the time they act in
-  Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
+  Real inverse_h = 0;            ///< 1/s, of the substep
+  Softness<Real> softness[3]{};  ///< by ContactHardness
+  Real warm_start = 1;           ///< this substep over the last one: impulses grow with the time they act in
+  Real bounce_threshold = 0;     ///< m/s; slower impacts do not bounce
 };
 
 /// Applies the impulses of the substep before: what was needed then is nearly what is needed now.

@@ -12,6 +12,14 @@ inline constexpr double kStiffFrequencyShare = 0.25;
 /// Far over-critical: overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
+/// Share of an overlap that a contact which is solved directly takes back in a substep.
+inline constexpr double kPushShare = 0.1;
+
+/// Islands with no more rows than this, whose factorisation costs no more multiplications, are solved
+/// directly.
+inline constexpr int kDirectRows = 128;
+inline constexpr double kDirectCost = 20000;
+
 /// The same for joints.
 inline constexpr double kJointFrequencyShare = 0.25;
 inline constexpr double kJointDampingRatio = 2;

@@ -4,6 +4,7 @@
 
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
+#include "engine/world/union_find.h"
 
 namespace plumb {
 namespace {
@@ -47,26 +48,6 @@ void park_ties(WorldData<Real>& w, int body) {
     }
   });
 }
-
-// Sets of bodies, joined pair by pair; the smallest index stands for its set.
-class UnionFind {
- public:
-  UnionFind(std::vector<int>& parents, int size) : parents_(parents) {
-    parents_.resize(size);
-    for (int i = 0; i < size; ++i) parents_[i] = i;
-  }
-  int find(int i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = find(a), b = find(b);
-    if (a != b) parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int>& parents_;
-};
 
 template <class Real>
 bool still(const WorldData<Real>& w, int body) {

@@ -106,7 +106,8 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
   c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
-  c.stiff = !w.gives_way(contact.body_a) || !w.gives_way(contact.body_b);
+  c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
+                                                                          : ContactHardness::Stiff;
 }
 
 // The bodies have moved little since the manifold was made: separations follow to first order. False when

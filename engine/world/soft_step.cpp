@@ -4,6 +4,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/solve/soft_contacts.h"
 #include "engine/world/constants.h"
+#include "engine/world/direct_islands.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -91,8 +92,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Vec2d gravity = w.settings.gravity;
   ContactStep<Real> contacts{
       .inverse_h = static_cast<Real>(1 / h),
-      .soft = softness<Real>(tuning::kContactFrequencyShare / h, tuning::kContactDampingRatio, h),
-      .stiff = softness<Real>(tuning::kStiffFrequencyShare / h, tuning::kContactDampingRatio, h),
+      .softness = {softness<Real>(tuning::kContactFrequencyShare / h, tuning::kContactDampingRatio, h),
+                   softness<Real>(tuning::kStiffFrequencyShare / h, tuning::kContactDampingRatio, h),
+                   Softness<Real>{static_cast<Real>(tuning::kPushShare / h), 1, 0}},
       .warm_start = warm_start,
       .bounce_threshold =
           static_cast<Real>(tuning::kRestingSteps * h * substeps * std::sqrt(length_squared(gravity)))};
@@ -106,18 +108,22 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
 
   prepare_kicks(w, h);
   if (jointed) w.joint_set.prepare(bodies, joints);
+  prepare_direct_islands(w);
   for (int substep = 0; substep < substeps; ++substep) {
     integrate_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     warm_start_contacts(bodies.motion, w.graph, contacts);
+    solve_direct_islands(w, contacts, true);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_contacts(bodies.motion, w.graph, contacts);
     integrate_positions(w, static_cast<Real>(h));
+    solve_direct_islands(w, contacts, false);
     if (jointed) w.joint_set.relax(bodies, joints);
     relax_contacts(bodies.motion, w.graph, contacts);
     contacts.warm_start = joints.warm_start = 1;
   }
   apply_restitution(bodies.motion, w.graph, contacts);
+  finish_direct_islands(w);
 }
 
 template void solve_soft_steps(WorldData<float>&, double, int);

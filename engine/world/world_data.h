@@ -10,6 +10,7 @@
 #include "engine/geometry/convex_mass.h"
 #include "engine/solve/body_motion.h"
 #include "engine/solve/contact_graph.h"
+#include "engine/solve/direct_rows.h"
 #include "engine/solve/joint_set.h"
 #include "engine/world/corner_pool.h"
 #include "engine/world/definitions.h"
@@ -121,6 +122,15 @@ struct Kick {
   bool locked_x = false, locked_y = false;
 };
 
+/// A small island whose constraints are solved all at once.
+template <class Real>
+struct DirectIsland {
+  std::vector<ContactConstraint<Real>*> contacts;
+  std::vector<int> joints;  ///< slots in the joint set
+  DirectRows<Real> system;
+  int body = kNone, constraints = 0;  ///< who stands for it, while islands are found
+};
+
 template <class Real>
 struct WorldData {
   WorldDefinition settings;
@@ -160,10 +170,12 @@ struct WorldData {
   std::vector<SensorRecord> sensors;
   std::vector<int> breakable;  ///< joints
   Events events;
+  std::vector<DirectIsland<Real>> direct;  ///< of this step; `direct_count` are in use
+  int direct_count = 0;
   std::vector<Kick<Real>> kicks;  ///< by place in `awake`
 
   // Kept between steps for their room alone.
-  std::vector<int> scratch, island_of;
+  std::vector<int> scratch, island_of, island_size, island_place;
   std::vector<char> restless;
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<int> lost_contacts, ended_contacts, touch_changes, fast_bodies;

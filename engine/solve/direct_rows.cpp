@@ -1,0 +1,167 @@
+#include "engine/solve/direct_rows.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+// What is added to the diagonal, as a share of it: rows that say the same thing twice share their load.
+constexpr double kSharing = 1e-7;
+// Times that rows are taken out before giving up.
+constexpr int kTries = 4;
+
+template <class Real>
+bool gives_way(const BodyMotion<Real>& body) {
+  return body.inverse_mass > 0 || body.inverse_inertia > 0;
+}
+
+// J_r M^-1 J_s^T, the part by one body that both act on.
+template <class Real>
+double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
+                Real angular_s) {
+  return double(body.inverse_mass) * (double(linear_r.x) * linear_s.x + double(linear_r.y) * linear_s.y) +
+         double(body.inverse_inertia) * angular_r * angular_s;
+}
+
+template <class Real>
+double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const DirectRow<Real>& s) {
+  double sum = 0;
+  if (r.a == s.a) sum += coupling(motion[r.a], r.linear_a, r.angular_a, s.linear_a, s.angular_a);
+  if (r.a == s.b) sum += coupling(motion[r.a], r.linear_a, r.angular_a, s.linear_b, s.angular_b);
+  if (r.b == s.a) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
+  if (r.b == s.b) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
+  return sum;
+}
+
+}  // namespace
+
+template <class Real>
+double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
+  // Blocks are neighbours when they act on the same body that gives way.
+  const int count = rows.empty() ? 0 : rows.back().block + 1;
+  neighbours_.resize(std::max<std::size_t>(neighbours_.size(), count));
+  for (int i = 0; i < count; ++i) neighbours_[i].clear();
+  block_first_.assign(count + 1, 0);
+  ends_.clear();
+  for (int i = static_cast<int>(rows.size()) - 1; i >= 0; --i) block_first_[rows[i].block] = i;
+  block_first_[count] = static_cast<int>(rows.size());
+  for (int block = 0; block < count; ++block) {
+    const DirectRow<Real>& row = rows[block_first_[block]];
+    if (gives_way(motion[row.a])) ends_.emplace_back(row.a, block);
+    if (gives_way(motion[row.b])) ends_.emplace_back(row.b, block);
+  }
+  std::sort(ends_.begin(), ends_.end());
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].first == ends_[i].first; ++j) {
+      neighbours_[ends_[i].second].push_back(ends_[j].second);
+      neighbours_[ends_[j].second].push_back(ends_[i].second);
+    }
+  }
+  // Breadth first from a block at the edge; the last one found from any start is one.
+  degree_.assign(count, 0);
+  const auto walk = [&](int start, int mark) {
+    const std::size_t begin = queue_.size();
+    queue_.push_back(start);
+    degree_[start] = mark;
+    for (std::size_t next = begin; next < queue_.size(); ++next) {
+      for (const int other : neighbours_[queue_[next]]) {
+        if (degree_[other] >= mark) continue;
+        degree_[other] = mark;
+        queue_.push_back(other);
+      }
+    }
+    return queue_.back();
+  };
+  queue_.clear();
+  for (int start = 0; start < count; ++start) {
+    if (degree_[start] != 0) continue;
+    const std::size_t begin = queue_.size();
+    const int edge = walk(start, 1);
+    queue_.resize(begin);
+    walk(edge, 2);
+  }
+  std::reverse(queue_.begin(), queue_.end());
+
+  sequence_.clear();
+  place_.resize(rows.size());
+  for (const int block : queue_) {
+    for (int row = block_first_[block]; row < block_first_[block + 1]; ++row) {
+      place_[row] = static_cast<int>(sequence_.size());
+      sequence_.push_back(row);
+    }
+  }
+  first_.resize(rows.size());
+  for (int i = 0; i < static_cast<int>(sequence_.size()); ++i) {
+    const int block = rows[sequence_[i]].block;
+    int first = place_[block_first_[block]];
+    for (const int other : neighbours_[block]) first = std::min(first, place_[block_first_[other]]);
+    first_[i] = first;
+  }
+  return EnvelopeMatrix::cost(first_);
+}
+
+template <class Real>
+void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
+  matrix_.reset(first_);
+  for (int i = 0; i < matrix_.size(); ++i) {
+    const DirectRow<Real>& row = rows[sequence_[i]];
+    if (!row.active) {
+      matrix_.at(i, i) = 1;  // no coupling, and no impulse
+      continue;
+    }
+    for (int j = first_[i]; j <= i; ++j) {
+      const DirectRow<Real>& other = rows[sequence_[j]];
+      if (other.active) matrix_.at(i, j) = coupling(motion, row, other);
+    }
+    matrix_.at(i, i) *= 1 + kSharing;
+  }
+  matrix_.factorise();
+}
+
+template <class Real>
+bool DirectRows<Real>::solve(BodyMotion<Real>* motion) {
+  x_.resize(rows.size());
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    for (int i = 0; i < matrix_.size(); ++i) {
+      const DirectRow<Real>& row = rows[sequence_[i]];
+      const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
+      x_[i] = row.active
+                  ? -double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
+                            dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias)
+                  : 0;
+    }
+    matrix_.solve(x_.data());
+    bool pulls = false;
+    for (int i = 0; i < matrix_.size(); ++i) {
+      DirectRow<Real>& row = rows[sequence_[i]];
+      if (!row.active || !row.one_sided || double(*row.impulse) + x_[i] >= 0) continue;
+      row.active = false;
+      pulls = true;
+    }
+    if (!pulls) break;
+    if (attempt + 1 == kTries) return false;
+    // What is taken out gives back what it had.
+    for (int i = 0; i < matrix_.size(); ++i) {
+      DirectRow<Real>& row = rows[sequence_[i]];
+      if (row.active || *row.impulse == 0) continue;
+      motion[row.a].apply(-*row.impulse * row.linear_a, -*row.impulse * row.angular_a);
+      motion[row.b].apply(-*row.impulse * row.linear_b, -*row.impulse * row.angular_b);
+      *row.impulse = 0;
+    }
+    factorise(motion);
+  }
+  for (int i = 0; i < matrix_.size(); ++i) {
+    const DirectRow<Real>& row = rows[sequence_[i]];
+    if (!row.active) continue;
+    const Real impulse = static_cast<Real>(x_[i]);
+    motion[row.a].apply(impulse * row.linear_a, impulse * row.angular_a);
+    motion[row.b].apply(impulse * row.linear_b, impulse * row.angular_b);
+    *row.impulse += impulse;
+  }
+  return true;
+}
+
+template class DirectRows<float>;
+template class DirectRows<double>;
+
+}  // namespace plumb

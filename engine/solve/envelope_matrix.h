@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+namespace plumb {
+
+/// A symmetric positive definite matrix of which each row is kept from its first entry to the diagonal, and
+/// its factorisation L D L^T, which fills in nothing outside of that envelope (George and Liu, Computer
+/// Solution of Large Sparse Positive Definite Systems, 1981, ch. 4). For what hangs together like a chain or
+/// a tower the cost is linear.
+class EnvelopeMatrix {
+ public:
+  /// Rows 0 .. first.size() - 1, row i from column first[i] <= i; all zero. Allocates only when it grows.
+  void reset(const std::vector<int>& first);
+
+  int size() const { return static_cast<int>(first_.size()); }
+  int first(int row) const { return first_[row]; }
+  double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
+
+  /// In place. A row that those before it leave nothing of is left out: its unknown is 0.
+  void factorise();
+
+  /// x <- A^-1 x.
+  void solve(double* x) const;
+
+  /// Multiplications that `factorise` makes for such an envelope.
+  static double cost(const std::vector<int>& first);
+
+ private:
+  std::vector<int> first_, start_;
+  std::vector<double> values_, inverse_pivots_, pivots_;
+};
+
+}  // namespace plumb

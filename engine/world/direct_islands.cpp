@@ -1,0 +1,139 @@
+#include "engine/world/direct_islands.h"
+
+#include <algorithm>
+
+#include "engine/world/constants.h"
+#include "engine/world/union_find.h"
+
+namespace plumb {
+namespace {
+
+// A contact's own hardness, outside of direct islands.
+template <class Real>
+ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+}
+
+// Islands by the body that stands for them, with the number of constraints of each in `w.island_size`.
+template <class Real>
+void find_islands(WorldData<Real>& w) {
+  UnionFind islands(w.island_of, w.bodies.size());
+  const auto tie = [&](int a, int b) {
+    if (w.gives_way(a) && w.gives_way(b)) islands.join(a, b);
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (joint.active) tie(joint.body_a, joint.body_b);
+  });
+  w.island_size.assign(w.bodies.size(), 0);
+  w.island_place.assign(w.bodies.size(), kNone);
+  const auto count = [&](int a, int b, int rows) {
+    w.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, c.count); });
+  for (const int body : w.awake) w.island_of[body] = islands.find(body);
+}
+
+template <class Real>
+DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
+  int& place = w.island_place[root];
+  if (place == kNone) {
+    place = w.direct_count++;
+    if (w.direct_count > static_cast<int>(w.direct.size())) w.direct.emplace_back();
+    w.direct[place].contacts.clear();
+  }
+  return w.direct[place];
+}
+
+template <class Real>
+void add_rows(DirectIsland<Real>& island) {
+  std::vector<DirectRow<Real>>& rows = island.system.rows;
+  rows.clear();
+  int block = 0;
+  for (ContactConstraint<Real>* c : island.contacts) {
+    const int before = static_cast<int>(rows.size());
+    for (int i = 0; i < c->count; ++i) {
+      ContactPoint<Real>& p = c->points[i];
+      // What neither presses nor overlaps is left to the sweeps.
+      if (p.normal_impulse == 0 && p.separation > 0) continue;
+      DirectRow<Real> row;
+      row.a = c->body_a, row.b = c->body_b;
+      row.linear_a = -c->normal, row.linear_b = c->normal;
+      row.angular_a = -p.arm_normal_a, row.angular_b = p.arm_normal_b;
+      row.impulse = &p.normal_impulse;
+      row.bias = p.separation;
+      row.one_sided = true;
+      row.block = block;
+      rows.push_back(row);
+    }
+    if (static_cast<int>(rows.size()) > before) ++block;
+  }
+}
+
+template <class Real>
+Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, Real at_start) {
+  const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
+  return at_start + dot(row.linear_b, b.moved - a.moved) + row.angular_a * a.turned +
+         row.angular_b * b.turned;
+}
+
+}  // namespace
+
+template <class Real>
+void prepare_direct_islands(WorldData<Real>& w) {
+  w.direct_count = 0;
+  find_islands(w);
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    const int root = w.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];
+    const int rows = w.island_size[root];
+    if (rows <= 2 || rows > tuning::kDirectRows) return;
+    island_at(w, root).contacts.push_back(&c);
+  });
+  for (int i = 0; i < w.direct_count; ++i) {
+    DirectIsland<Real>& island = w.direct[i];
+    add_rows(island);
+    if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
+      island.contacts.clear(), island.system.rows.clear();
+      continue;
+    }
+    for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
+    island.system.factorise(w.motion.data());
+  }
+}
+
+template <class Real>
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+  for (int i = 0; i < w.direct_count; ++i) {
+    DirectIsland<Real>& island = w.direct[i];
+    std::size_t next = 0;
+    for (ContactConstraint<Real>* c : island.contacts) {
+      for (int k = 0; k < c->count; ++k) {
+        if (next >= island.system.rows.size() ||
+            island.system.rows[next].impulse != &c->points[k].normal_impulse)
+          continue;
+        DirectRow<Real>& row = island.system.rows[next++];
+        const Real s = separation_now(w.motion.data(), row, c->points[k].separation);
+        const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)].bias_rate;
+        row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
+      }
+    }
+    island.system.solve(w.motion.data());
+  }
+}
+
+template <class Real>
+void finish_direct_islands(WorldData<Real>& w) {
+  for (int i = 0; i < w.direct_count; ++i) {
+    for (ContactConstraint<Real>* c : w.direct[i].contacts) c->hardness = hardness_of(w, *c);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                                 \
+  template void prepare_direct_islands(WorldData<Real>&);                               \
+  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
+  template void finish_direct_islands(WorldData<Real>&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace plumb {
+
+/// Sets of small integers, joined pair by pair; the smallest member stands for its set.
+class UnionFind {
+ public:
+  /// Each of 0 .. size - 1 alone, in the caller's memory.
+  UnionFind(std::vector<int>& parents, int size) : parents_(parents) {
+    parents_.resize(static_cast<std::size_t>(size));
+    for (int i = 0; i < size; ++i) parents_[i] = i;
+  }
+  int find(int i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    a = find(a), b = find(b);
+    if (a != b) parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int>& parents_;
+};
+
+}  // namespace plumb
