@@ -145,14 +145,20 @@ void DynamicTree<Real>::free_pair(int pair) {
   free_pairs_.push_back(pair);
 }
 
-/// An inner node's box, categories and mark from its children's.
+/// An inner node's box, categories and mark from its children's. Whether that changed any of them.
 template <class Real>
-void DynamicTree<Real>::update(int slot) {
+bool DynamicTree<Real>::update(int slot) {
   Node& here = node(slot);
   const auto& [a, b] = pairs_[here.link].children;
-  here.box = merged(a.box, b.box);
-  here.category = a.category | b.category;
-  if (a.marked() || b.marked()) here.tag = 1;
+  const Aabb<Real> box = merged(a.box, b.box);
+  const std::uint32_t category = a.category | b.category;
+  const int tag = here.tag | static_cast<int>(a.marked()) | static_cast<int>(b.marked());
+  const bool same = here.box.lower == box.lower && here.box.upper == box.upper && here.category == category &&
+                    here.tag == tag;
+  here.box = box;
+  here.category = category;
+  here.tag = tag;
+  return !same;
 }
 
 /// The node that costs least to pair with a leaf of `box`: the half perimeter of the new parent, and what the
@@ -213,9 +219,10 @@ void DynamicTree<Real>::insert_leaf(const Node& leaf) {
   joint.link = pair;
   joint.tag = 0;
   adopt(top);
-  for (int slot = top; slot != kNone; slot = node(slot).parent) {
-    update(slot);
-    rotate(slot);
+  // A rotation looks at three levels of boxes: where none of them changed, there is none, nor further up.
+  for (int slot = top, unchanged = 0; slot != kNone && unchanged < 3; slot = node(slot).parent) {
+    unchanged = update(slot) ? 0 : unchanged + 1;
+    if (rotate(slot)) unchanged = 0;
   }
 }
 
@@ -230,19 +237,14 @@ typename DynamicTree<Real>::Node DynamicTree<Real>::take_leaf(int proxy) {
   }
   put(leaf.parent, node(slot ^ 1));
   free_pair(slot >> 1);
-  for (int up = node(leaf.parent).parent; up != kNone; up = node(up).parent) {
-    Node& above = node(up);
-    const Aabb<Real> box = above.box;
-    const std::uint32_t category = above.category;
-    update(up);
-    if (above.category == category && above.box.lower == box.lower && above.box.upper == box.upper) break;
+  for (int up = node(leaf.parent).parent; up != kNone && update(up); up = node(up).parent) {
   }
   return leaf;
 }
 
 /// Exchanges a child with a child of its sibling where that makes the sibling smallest.
 template <class Real>
-void DynamicTree<Real>::rotate(int slot) {
+bool DynamicTree<Real>::rotate(int slot) {
   const int pair = first(node(slot).link);
   Real most_saved = 0;
   int lower = kNone, upper = kNone;
@@ -259,10 +261,11 @@ void DynamicTree<Real>::rotate(int slot) {
     upper = here;
     lower = first(sibling.link) + (saved_by_a >= saved_by_b ? 0 : 1);
   }
-  if (upper == kNone) return;
+  if (upper == kNone) return false;
   exchange(upper, lower);
   update(upper ^ 1);
   if (node(upper ^ 1).marked()) node(slot).tag = 1;
+  return true;
 }
 
 template class DynamicTree<float>;

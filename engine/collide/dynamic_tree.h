@@ -117,12 +117,12 @@ class DynamicTree {
   void adopt(int slot);
   int new_pair();
   void free_pair(int pair);
-  void update(int slot);
+  bool update(int slot);
 
   int best_sibling(const Aabb<Real>& box, std::uint32_t ties) const;
   void insert_leaf(const Node& leaf);
   Node take_leaf(int proxy);
-  void rotate(int slot);
+  bool rotate(int slot);
 
   void gather(bool everything);
   void build(int slot, Item* items, int count, int budget);
