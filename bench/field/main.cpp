@@ -149,6 +149,9 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--repeat", plan.repeat, "repetitions, each in a new world (3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("R");
+  app.add_option("--limit", plan.limit, "seconds of an engine's time after which a run is given up (300)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
   app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "bench/field/heap.h"
 
@@ -9,12 +12,18 @@ namespace plumb::field {
 namespace {
 
 constexpr int kSamples = 10;  // of the quality of a run
+constexpr int kLarge = 1000;  // bodies, from which on a look at the clock is nothing beside a step
+
+/// A run took too long; `what()` says how far it came.
+struct TooSlow : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// One world with one scene in it.
 class Run {
  public:
   Run(const Scene& scene, const Engine& engine, const Plan& plan)
-      : scene_(scene),
+      : limit_(plan.limit),
         settings_(settings_of(scene, plan)),
         world_(engine.create(settings_)),
         builder_(*world_) {
@@ -70,13 +79,17 @@ class Run {
   }
 
   void advance(int steps) {
-    if (!built_.before_step) {
-      builder_.step(steps);
-      return;
-    }
-    for (int i = 0; i < steps; ++i) {
-      built_.before_step(builder_, step_++);
-      builder_.step();
+    const bool one_by_one = built_.before_step || builder_.inventory().bodies.size() >= kLarge;
+    while (steps > 0) {
+      const int now = one_by_one ? 1 : steps;
+      if (built_.before_step) built_.before_step(builder_, taken_);
+      builder_.step(now);
+      taken_ += now;
+      steps -= now;
+      const double seconds = builder_.cost().seconds;
+      if (seconds > limit_)
+        throw TooSlow(fmt::format("given up after {} steps in {:.3g} s: {:.3g} ms a step", taken_, seconds,
+                                  1e3 * seconds / taken_));
     }
   }
 
@@ -104,14 +117,14 @@ class Run {
     return out;
   }
 
-  const Scene& scene_;
+  double limit_;  // s
   WorldSettings settings_;
   std::unique_ptr<FieldWorld> world_;
   Builder builder_;
   Built built_;
   std::vector<double> heights_;
   double allocations_a_step_ = 0;
-  int step_ = 0;
+  int taken_ = 0;  // steps
 };
 
 /// Depths and gaps of joints: the worst of all samples, and the means over them. The rest is the last one's.

@@ -18,6 +18,7 @@ struct Plan {
   std::optional<int> steps;        ///< measured steps, in place of the scene's
   bool quick = false;              ///< small scenes, few steps
   std::optional<bool> continuous;  ///< in place of the scene's
+  double limit = 300;              ///< s of an engine's own time, after which a run is given up
   WorldSettings settings;
 };
 
@@ -50,7 +51,7 @@ struct Measurement {
 /// turns, and each repetition starts with another one, so that what disturbs the machine disturbs them alike.
 /// The first repetition measures the quality as well, outside the clock. `progress` is called before each
 /// run, `done` after each scene; `interrupted` ends the whole between two runs.
-/// A state that is not finite and an engine that throws become a `failure`.
+/// A state that is not finite, an engine that throws and a run beyond the limit become a `failure`.
 void measure(const Plan& plan, const std::function<void(const Progress&)>& progress,
              const std::function<void(std::vector<Measurement>&)>& done,
              const std::function<bool()>& interrupted);

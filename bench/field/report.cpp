@@ -56,9 +56,12 @@ std::string range_cell(const Measurement& m, const Measurement*) {
   return fmt::format("{:+.0f}/{:+.0f} %", 100 * (least(m) / middle - 1), 100 * (most(m) / middle - 1));
 }
 
+/// "~" where the repetitions of the two overlap: then the noise hides which is faster.
 std::string ratio_cell(const Measurement& m, const Measurement* yardstick) {
   const auto ratio = speed_ratio(m, yardstick);
-  return ratio ? fmt::format("{:.2f}x", *ratio) : "";
+  if (!ratio) return "";
+  const bool apart = &m == yardstick || least(m) > most(*yardstick) || most(m) < least(*yardstick);
+  return fmt::format("{}{:.2f}x", apart ? "" : "~", *ratio);
 }
 
 bool has_pairs(const Measurement& m) {

@@ -223,6 +223,23 @@ TEST(Measure, TakesTurnsAndFillsEveryFigure) {
   }
 }
 
+TEST(Measure, GivesUpWhatTakesTooLong) {
+  Plan plan;
+  plan.scenes = {&scene_called("junkyard")};
+  plan.engines = present();
+  plan.repeat = 2;
+  plan.quick = true;
+  plan.limit = 1e-6;
+  std::vector<Measurement> row;
+  measure(
+      plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { row = done; },
+      [] { return false; });
+  for (const Measurement& m : row) {
+    EXPECT_EQ(m.failure.rfind("given up after 1 steps", 0), 0u) << m.failure;
+    EXPECT_TRUE(m.step_seconds.empty());
+  }
+}
+
 TEST(Median, OfOddAndEvenCounts) {
   EXPECT_EQ(median({3, 1, 2}), 2);
   EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
