@@ -81,7 +81,8 @@ TEST(BitSet, UnionOfDifferentSizes) {
   EXPECT_EQ(members(both), (std::vector<int>{3, 60, 700}));
   large |= small;
   EXPECT_EQ(members(large), members(both));
-  both |= both;
+  const BitSet& itself = both;
+  both |= itself;
   EXPECT_EQ(both.count(), 3);
 }
 
