@@ -66,11 +66,70 @@ Real separation_now(const Pair<Real>& pair, const ContactPoint<Real>& p, Real cl
   return p.separation + closed + p.arm_normal_b * pair.b.turned - p.arm_normal_a * pair.a.turned;
 }
 
+// What is asked of one point: v_n + bias = 0, yielding by `give` (of the effective mass) to the impulse.
+template <class Real>
+struct Demand {
+  Real bias = 0, give = 0;
+};
+
+template <class Real>
+void set_impulse(ContactPoint<Real>& p, Real impulse) {
+  p.normal_impulse = impulse;
+  p.peak_impulse = std::max(p.peak_impulse, impulse);
+}
+
+// Two points at once: (K + G) d = -(v + bias) - G lambda, lambda + d >= 0, for the four cases of which points
+// press. The points of one contact pull at each other through the body's turning; one after the other they
+// would need several sweeps.
+template <class Real>
+void press_both(Pair<Real>& pair, ContactConstraint<Real>& c, const Demand<Real>* demand) {
+  ContactPoint<Real>&p = c.points[0], &q = c.points[1];
+  const Real kp = 1 / p.normal_mass, kq = 1 / q.normal_mass;
+  const Real between = pair.ma + pair.mb + pair.ia * p.arm_normal_a * q.arm_normal_a +
+                       pair.ib * p.arm_normal_b * q.arm_normal_b;
+  const Real gp = demand[0].give * kp, gq = demand[1].give * kq;
+  const Real before_p = p.normal_impulse, before_q = q.normal_impulse;
+  // Residuals with both impulses taken away, so that the unknowns are the impulses themselves.
+  const Real rp = pair.along_normal(p) + demand[0].bias - kp * before_p - between * before_q;
+  const Real rq = pair.along_normal(q) + demand[1].bias - between * before_p - kq * before_q;
+  const Real dp = kp + gp, dq = kq + gq;
+  const Real determinant = dp * dq - between * between;
+  Real lp = (between * rq - dq * rp), lq = (between * rp - dp * rq);  // times the determinant
+  if (lp >= 0 && lq >= 0 && determinant > Real(1e-3) * dp * dq) {
+    const Real inverse = 1 / determinant;
+    lp *= inverse, lq *= inverse;
+  } else if (rp < 0 && rq * dp - between * rp >= 0) {
+    lp = -rp / dp, lq = 0;
+  } else if (rq < 0 && rp * dq - between * rq >= 0) {
+    lp = 0, lq = -rq / dq;
+  } else if (rp >= 0 && rq >= 0) {
+    lp = lq = 0;
+  } else {
+    lp = std::max(-rp / dp, Real(0));
+    lq = std::max(-(rq + between * lp) / dq, Real(0));
+  }
+  pair.push(p, lp - before_p);
+  pair.push(q, lq - before_q);
+  set_impulse(p, lp), set_impulse(q, lq);
+}
+
 template <class Real>
 void solve_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const ContactStep<Real>& step) {
   const Softness<Real>& soft = step.softness[static_cast<int>(c.hardness)];
   Pair<Real> pair(motion, c);
   const Real closed = dot(pair.n, pair.b.moved - pair.a.moved);
+  if (c.count == 2) {
+    Demand<Real> demand[2];
+    for (int i = 0; i < 2; ++i) {
+      const Real s = separation_now(pair, c.points[i], closed);
+      demand[i] = s > 0 ? Demand<Real>{s * step.inverse_h, 0}
+                        : Demand<Real>{std::max(soft.bias_rate * s, -c.push_speed),
+                                       soft.impulse_scale / soft.mass_scale};
+    }
+    press_both(pair, c, demand);
+    pair.store();
+    return;
+  }
   for (int i = 0; i < c.count; ++i) {
     ContactPoint<Real>& p = c.points[i];
     const Real s = separation_now(pair, p, closed);
@@ -88,13 +147,21 @@ void relax_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const Conta
   Pair<Real> pair(motion, c);
   const Real closed = dot(pair.n, pair.b.moved - pair.a.moved);
   Real pressure = 0;
-  for (int i = 0; i < c.count; ++i) {
-    ContactPoint<Real>& p = c.points[i];
-    const Real s = separation_now(pair, p, closed);
-    const Real gap_speed = std::max(s, Real(0)) * step.inverse_h;
-    pair.push(p, press(p, pair.along_normal(p) + gap_speed, Real(1), Real(0)));
-    pressure += p.normal_impulse;
-  }
+  if (c.count == 2) {
+    Demand<Real> demand[2];
+    for (int i = 0; i < 2; ++i) {
+      demand[i].bias = std::max(separation_now(pair, c.points[i], closed), Real(0)) * step.inverse_h;
+    }
+    press_both(pair, c, demand);
+    pressure = c.points[0].normal_impulse + c.points[1].normal_impulse;
+  } else
+    for (int i = 0; i < c.count; ++i) {
+      ContactPoint<Real>& p = c.points[i];
+      const Real s = separation_now(pair, p, closed);
+      const Real gap_speed = std::max(s, Real(0)) * step.inverse_h;
+      pair.push(p, press(p, pair.along_normal(p) + gap_speed, Real(1), Real(0)));
+      pressure += p.normal_impulse;
+    }
   // Coulomb: |lambda_t| <= mu lambda_n.
   for (int i = 0; i < c.count; ++i) {
     ContactPoint<Real>& p = c.points[i];

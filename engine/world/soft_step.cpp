@@ -41,7 +41,8 @@ void prepare_kicks(WorldData<Real>& w, double h) {
     if (record.angular_damping > 0)
       kick.keep_spin = static_cast<Real>(decay(h * double(record.angular_damping)));
     if (record.constraints == 0) kick.lag = Real(0.5) * kick.velocity, kick.lag_spin = Real(0.5) * kick.spin;
-    kick.locked_x = record.lock_x, kick.locked_y = record.lock_y;
+    if (record.lock_x) kick.locked_x = true, kick.velocity.x = kick.lag.x = motion.velocity.x = 0;
+    if (record.lock_y) kick.locked_y = true, kick.velocity.y = kick.lag.y = motion.velocity.y = 0;
   }
 }
 

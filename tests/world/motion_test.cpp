@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/world/support.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+class Motion : public testing::Test {};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(Motion, Precisions);
+
+// Rounding of a velocity that grows to v in n additions: each adds half a unit in the last place at most, and
+// the errors are mostly the same from one addition to the next.
+template <class Real>
+double rounding(double size, int additions) {
+  return 0.5 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * size * additions;
+}
+
+TYPED_TEST(Motion, FreeFlightUnderGravityIsTheParabola) {
+  BasicWorld<TypeParam> world;
+  const BodyId body = add_body(world, {3, 100}, {}, {2, 5});
+  run(world, 120);
+  const double t = 2, v = 5 - kGravity * t;
+  const int additions = 480;
+  EXPECT_NEAR(world.velocity(body).y, v, rounding<TypeParam>(16, additions));
+  EXPECT_NEAR(world.position(body).y, 100 + 5 * t - kGravity * t * t / 2,
+              rounding<TypeParam>(16, additions) * t / 2);
+  EXPECT_NEAR(world.position(body).x, 7, rounding<TypeParam>(2, additions));
+}
+
+TYPED_TEST(Motion, FarFromTheOriginNothingIsLost) {
+  BasicWorld<TypeParam> here, there;
+  const Vec2d far{1e7, -1e7};
+  const BodyId near_body = add_body(here, {0, 0}, {}, {1, 2}), far_body = add_body(there, far, {}, {1, 2});
+  run(here, 600), run(there, 600);
+  const Vec2d apart = (there.position(far_body) - far) - here.position(near_body);
+  // Positions are doubles: 600 additions at 1e7 m.
+  EXPECT_NEAR(apart.x, 0, 600 * 1e7 * 1.2e-16);
+  EXPECT_NEAR(apart.y, 0, 600 * 1e7 * 1.2e-16);
+}
+
+TYPED_TEST(Motion, ForceActsThroughOneStep) {
+  BasicWorld<TypeParam> world(weightless());
+  const BodyId body = add_body(world, {}, {.geometry = Box{2, 1}, .density = 3});  // 6 kg
+  world.apply_force(body, {12, 0}, {0, 0.5});
+  run(world, 2);
+  const double dt = 1.0 / 60, inertia = 6 * (4 + 1) / 12.0;
+  EXPECT_NEAR(world.velocity(body).x, 2 * dt, 1e-7);
+  EXPECT_NEAR(world.angular_velocity(body), -12 * 0.5 / inertia * dt, 1e-7);
+}
+
+TYPED_TEST(Motion, ImpulseAtACornerTurns) {
+  BasicWorld<TypeParam> world(weightless());
+  const BodyId body = add_body(world, {1, 1}, {.geometry = Box{1, 1}, .density = 2});
+  world.apply_impulse(body, {0, 3}, {1.5, 1.5});
+  EXPECT_NEAR(world.velocity(body).y, 1.5, 1e-6);
+  EXPECT_NEAR(world.angular_velocity(body), 3 * 0.5 / (2 * 2 / 12.0), 1e-5);
+  EXPECT_NEAR(world.velocity_at(body, {1.5, 1}).y, 1.5 + 4.5 * 0.5, 1e-5);
+}
+
+TYPED_TEST(Motion, DampingIsExponential) {
+  BasicWorld<TypeParam> world(weightless());
+  BodyDefinition definition;
+  definition.velocity = {10, 0};
+  definition.angular_velocity = 4;
+  definition.linear_damping = 0.7;
+  definition.angular_damping = 3;
+  const BodyId body = world.create_body(definition, ShapeDefinition{});
+  run(world, 90);
+  EXPECT_NEAR(world.velocity(body).x, 10 * std::exp(-0.7 * 1.5), rounding<TypeParam>(10, 360));
+  EXPECT_NEAR(world.angular_velocity(body), 4 * std::exp(-3 * 1.5), rounding<TypeParam>(4, 360));
+}
+
+TYPED_TEST(Motion, GravityScaleAndLocks) {
+  BasicWorld<TypeParam> world;
+  BodyDefinition definition;
+  definition.gravity_scale = -0.5;
+  const BodyId balloon = world.create_body(definition, ShapeDefinition{});
+  definition = {};
+  definition.position = {10, 0};
+  definition.velocity = {1, 1};
+  definition.angular_velocity = 1;
+  definition.lock_y = definition.lock_rotation = true;
+  const BodyId bead = world.create_body(definition, ShapeDefinition{});
+  run(world, 60);
+  EXPECT_NEAR(world.velocity(balloon).y, kGravity / 2, 1e-4);
+  EXPECT_NEAR(world.position(bead).x, 11, 1e-5);
+  EXPECT_EQ(world.position(bead).y, 0);
+  world.set_locks(bead, true, false, false);
+  run(world, 60);
+  EXPECT_NEAR(world.position(bead).x, 11, 1e-5);
+  EXPECT_LT(world.position(bead).y, -4);
+}
+
+TYPED_TEST(Motion, KinematicBodiesMoveAsToldAndPush) {
+  BasicWorld<TypeParam> world(weightless());
+  BodyDefinition definition;
+  definition.type = BodyType::Kinematic;
+  const BodyId pusher = world.create_body(definition, ShapeDefinition{.geometry = Box{1, 1}});
+  const BodyId box = add_box(world, {1.2, 0});
+  world.set_velocity(pusher, {1, 0});
+  run(world, 60);
+  EXPECT_NEAR(world.position(pusher).x, 1, 1e-6);
+  EXPECT_NEAR(world.velocity(box).x, 1, 1e-4);
+  EXPECT_GE(world.position(box).x, 2 - 1e-3);
+  world.move_towards(pusher, {1, 3}, 0.5, 1.0 / 60);
+  world.step();
+  EXPECT_NEAR(world.position(pusher).y, 3, 1e-5);
+  EXPECT_NEAR(world.angle(pusher), 0.5, 1e-6);
+}
+
+TYPED_TEST(Motion, SpinKeepsItsRateAndCountsTurns) {
+  BasicWorld<TypeParam> world(weightless());
+  BodyDefinition definition;
+  definition.angular_velocity = 100;
+  const BodyId body = world.create_body(definition, ShapeDefinition{.geometry = Box{1, 1}});
+  run(world, 600);
+  EXPECT_EQ(world.angular_velocity(body), 100);
+  // h w is rounded the same way each time; the sum of 600 doubles is rounded as well.
+  EXPECT_NEAR(world.angle(body), 1000, 2 * rounding<TypeParam>(1000, 2) + rounding<double>(1000, 600));
+}
+
+TYPED_TEST(Motion, TypeCanChange) {
+  BasicWorld<TypeParam> world;
+  add_ground(world);
+  const BodyId body = add_box(world, {0, 3});
+  world.set_type(body, BodyType::Static);
+  run(world, 30);
+  EXPECT_EQ(world.position(body).y, 3);
+  EXPECT_EQ(world.mass(body), 0);
+  world.set_type(body, BodyType::Dynamic);
+  EXPECT_NEAR(world.mass(body), 1, 1e-6);
+  run(world, 120);
+  EXPECT_NEAR(world.position(body).y, 0.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace plumb
