@@ -7,7 +7,7 @@ namespace plumb {
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                      Real reach) {
-  if (a.count == 4 && b.count == 4) return narrow::collide_boxes(a, b, b_in_a, reach);
+  if (a.count == 4 && b.count == 4) return narrow::collide_polygons(a, b, b_in_a, reach);
   if (b.count == 1) {
     if (a.count == 1) return narrow::collide_discs(a, b, b_in_a, reach);
     return narrow::collide_hull_disc(a, b, b_in_a, reach);

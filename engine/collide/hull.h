@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "engine/collide/contact_manifold.h"
+#include "engine/math/four.h"
 
 /// What the collision routines of single pairs of shapes share. Not for use outside engine/collide/.
 namespace plumb::narrow {
@@ -37,17 +38,25 @@ Real size_of(const Convex<Real>& shape) {
 }
 
 template <class Real>
+constexpr Real smaller(Real a, Real b) {
+  return b < a ? b : a;
+}
+template <class Real>
+constexpr Real larger(Real a, Real b) {
+  return b > a ? b : a;
+}
+
+template <class Real>
 Real smaller_size(const Convex<Real>& a, const Convex<Real>& b) {
-  const Real of_a = size_of(a), of_b = size_of(b);
-  return of_a < of_b ? of_a : of_b;
+  return smaller(size_of(a), size_of(b));
 }
 
 /// Corners in a common frame whose origin lies near them, so that a shape far from its body's origin loses no
-/// digits. Only the first `count` entries are written.
+/// digits. Written up to the next multiple of four, where the last corner is repeated.
 template <class Real>
 struct Hull {
-  Real x[kMaxCorners], y[kMaxCorners];    // m
-  Real nx[kMaxCorners], ny[kMaxCorners];  // outward normals of the edges that start there
+  alignas(16) Real x[kMaxCorners], y[kMaxCorners];    // m
+  alignas(16) Real nx[kMaxCorners], ny[kMaxCorners];  // outward normals of the edges that start there
   int count;
   int edges;  // the first so many edges can be touched: all of them, or the front of a chain's segment
   Real radius;
@@ -58,25 +67,52 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
-template <class Real>
-void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
-  out.count = shape.count;
-  out.edges = shape.count;
+/// Four corners from the `first` on, as x and y of their points and of their normals. `kFull`: there are
+/// four.
+template <bool kFull, class Real>
+inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)[4]) {
+  static_assert(sizeof(Corner<Real>) == 4 * sizeof(Real));
+  Four<Real> rows[4];
+  for (int i = 0; i < 4; ++i) {
+    const int corner = kFull || first + i < shape.count ? first + i : shape.count - 1;
+    rows[i] = Four<Real>::load(&shape.corners[corner].point.x);
+  }
+  transpose(rows, out);
+}
+
+/// For shapes with `kCount` corners; 0: with any number.
+template <int kCount, class Real>
+inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
+  const int count = kCount ? kCount : shape.count;
+  out.count = out.edges = count;
   out.radius = shape.radius;
-  for (int i = 0; i < shape.count; ++i) {
-    const Vec2<Real> p = position + rotation * shape.corners[i].point, n = rotation * shape.corners[i].normal;
-    out.x[i] = p.x, out.y[i] = p.y, out.nx[i] = n.x, out.ny[i] = n.y;
+  using Lanes = Four<Real>;
+  const Lanes c = Lanes::spread(rotation.c), s = Lanes::spread(rotation.s);
+  const Lanes px = Lanes::spread(position.x), py = Lanes::spread(position.y);
+  for (int i = 0; i < count; i += 4) {
+    Lanes in[4];
+    load_corners<kCount == 4>(shape, i, in);
+    (px + (c * in[0] - s * in[1])).store(out.x + i);
+    (py + (s * in[0] + c * in[1])).store(out.y + i);
+    (c * in[2] - s * in[3]).store(out.nx + i);
+    (s * in[2] + c * in[3]).store(out.ny + i);
   }
 }
 
-template <class Real>
-void place(Hull<Real>& out, const Convex<Real>& shape, Vec2<Real> origin) {
-  out.count = shape.count;
-  out.edges = shape.count;
+template <int kCount, class Real>
+inline void place(Hull<Real>& out, const Convex<Real>& shape, Vec2<Real> origin) {
+  const int count = kCount ? kCount : shape.count;
+  out.count = out.edges = count;
   out.radius = shape.radius;
-  for (int i = 0; i < shape.count; ++i) {
-    const Vec2<Real> p = shape.corners[i].point - origin, n = shape.corners[i].normal;
-    out.x[i] = p.x, out.y[i] = p.y, out.nx[i] = n.x, out.ny[i] = n.y;
+  using Lanes = Four<Real>;
+  const Lanes px = Lanes::spread(origin.x), py = Lanes::spread(origin.y);
+  for (int i = 0; i < count; i += 4) {
+    Lanes in[4];
+    load_corners<kCount == 4>(shape, i, in);
+    (in[0] - px).store(out.x + i);
+    (in[1] - py).store(out.y + i);
+    in[2].store(out.nx + i);
+    in[3].store(out.ny + i);
   }
 }
 
@@ -129,14 +165,15 @@ inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Ve
   const Real radii = edges.reference_radius + edges.incident_radius;
   const Real lift = edges.reference_radius - edges.incident_radius;
   const Vec2<Real> base = origin + edges.reference[0];
+  const int reference_shift = edges.reference_is_b ? 0 : 6;  // as in corner_pair
   for (int i = 0; i < 2; ++i) {
     const Real separation = y[i] - radii;
     if (separation > reach) continue;
     const int r = edges.reference_id[i], c = edges.incident_id[1 - i];
     out.points[out.count++] = {base + x[i] * tangent + Real(0.5) * (y[i] + lift) * edges.normal, separation,
-                               edges.reference_is_b ? corner_pair(c, r) : corner_pair(r, c)};
+                               static_cast<std::uint16_t>(r << reference_shift | c << (6 - reference_shift))};
   }
-  out.normal = edges.reference_is_b ? -edges.normal : edges.normal;
+  out.normal = edges.reference_is_b ? Real(-1) * edges.normal : edges.normal;
   return out;
 }
 
@@ -167,11 +204,6 @@ ContactManifold<Real> collide_hull_disc(const Convex<Real>& a, const Convex<Real
 template <class Real>
 ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach);
-
-/// Two boxes, by four axes; quadrilaterals that are no boxes are left to collide_polygons.
-template <class Real>
-ContactManifold<Real> collide_boxes(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                    Real reach);
 
 /// Any two hulls of which one has three corners or more.
 template <class Real>

@@ -21,35 +21,65 @@ struct AdmitAll {
   void widen(FacingEdges<Real>&) const {}
 };
 
-/// The edge of one hull that another is farthest out of, and the corner of the other that is least so.
+/// The edge of one hull that another is farthest out of.
 template <class Real>
 struct Face {
   Real separation;  // m, radii not counted
-  int edge, corner;
+  int edge;
 };
 
-/// Over all edges that can be touched; stops at one beyond `limit`.
+/// Four edges at once, and two by two which of them is farthest: the first of equals.
 template <class Real>
-Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
-  Face<Real> best{-std::numeric_limits<Real>::max(), 0, 0};
-  for (int i = 0; i < hull.edges; ++i) {
-    const Real nx = hull.nx[i], ny = hull.ny[i];
-    Real least = nx * other.x[0] + ny * other.y[0];
-    for (int j = 1; j < other.count; ++j) {
-      const Real out = nx * other.x[j] + ny * other.y[j];
-      least = out < least ? out : least;
-    }
-    const Real separation = least - (nx * hull.x[i] + ny * hull.y[i]);
-    if (separation > best.separation) {
-      best.separation = separation, best.edge = i;
-      if (separation > limit) return best;
-    }
+inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull<Real>& other, int count) {
+  using Lanes = Four<Real>;
+  const Lanes nx = Lanes::load(hull.nx + first), ny = Lanes::load(hull.ny + first);
+  Lanes out = nx * Lanes::spread(other.x[0]) + ny * Lanes::spread(other.y[0]);
+  for (int j = 1; j < count; ++j)
+    out = least(nx * Lanes::spread(other.x[j]) + ny * Lanes::spread(other.y[j]), out);
+  out = out - (nx * Lanes::load(hull.x + first) + ny * Lanes::load(hull.y + first));
+  Real s[4];
+  out.store(s);
+  const Real most_low = larger(s[0], s[1]), most_high = larger(s[2], s[3]);
+  const int low = s[1] > s[0], high = 2 + (s[3] > s[2]);
+  return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
+}
+
+/// Over all edges that can be touched; stops at one beyond `limit`. The numbers of corners are those of the
+/// hulls, and known when compiling, or 0. The last corner's repetitions never win over itself.
+template <int kCount, int kOther, class Real>
+inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
+  const int count = kOther ? kOther : other.count;
+  if (hull.edges == 1) {  // a chain's front
+    Real out = dot(hull.normal(0), other.point(0));
+    for (int j = 1; j < count; ++j)
+      if (const Real next = dot(hull.normal(0), other.point(j)); next < out) out = next;
+    return {out - dot(hull.normal(0), hull.point(0)), 0};
   }
-  const Vec2<Real> normal = hull.normal(best.edge);
-  Real least = dot(normal, other.point(0));
-  for (int j = 1; j < other.count; ++j)
-    if (const Real out = dot(normal, other.point(j)); out < least) least = out, best.corner = j;
+  Face<Real> best = farthest_of_four(hull, 0, other, count);
+  if (kCount == 4) return best;
+  for (int i = 4; i < hull.count && best.separation <= limit; i += 4)
+    if (const Face<Real> face = farthest_of_four(hull, i, other, count); face.separation > best.separation)
+      best = face;
   return best;
+}
+
+/// The corner that lies least far along a direction: the first of equals.
+template <int kCount, class Real>
+inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
+  if (kCount == 4) {
+    using Lanes = Four<Real>;
+    Real s[4];
+    (Lanes::spread(direction.x) * Lanes::load(hull.x) + Lanes::spread(direction.y) * Lanes::load(hull.y))
+        .store(s);
+    const Real least_low = smaller(s[0], s[1]), least_high = smaller(s[2], s[3]);
+    const int low = s[1] < s[0], high = 2 + (s[3] < s[2]);
+    return least_high < least_low ? high : low;
+  }
+  int corner = 0;
+  Real out = dot(direction, hull.point(0));
+  for (int j = 1; j < hull.count; ++j)
+    if (const Real next = dot(direction, hull.point(j)); next < out) out = next, corner = j;
+  return corner;
 }
 
 /// Where a point lies along an edge: -1 before its first corner, 1 beyond its second, 0 between.
@@ -67,120 +97,133 @@ int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   return dot(other.normal(before), normal) < dot(other.normal(corner), normal) ? before : corner;
 }
 
-template <class Real>
-FacingEdges<Real> facing_edges(const Hull<Real>& reference, const Face<Real>& face, const Hull<Real>& other,
-                               bool reference_is_b) {
-  const int end = reference.next(face.edge);
-  const int incident = facing_edge(other, face.corner, reference.normal(face.edge));
-  const int incident_end = other.next(incident);
+/// `kOther` is the number of corners of `other`, or 0.
+template <int kOther, class Real>
+inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, const Hull<Real>& other,
+                                      bool reference_is_b) {
   FacingEdges<Real> out;
-  out.normal = reference.normal(face.edge);
-  out.reference[0] = reference.point(face.edge), out.reference[1] = reference.point(end);
+  out.normal = reference.normal(edge);
+  const int end = reference.next(edge);
+  const int incident = facing_edge(other, support<kOther>(other, out.normal), out.normal);
+  const int incident_end = other.next(incident);
+  out.reference[0] = reference.point(edge), out.reference[1] = reference.point(end);
   out.incident[0] = other.point(incident), out.incident[1] = other.point(incident_end);
-  out.reference_id[0] = face.edge, out.reference_id[1] = end;
+  out.reference_id[0] = edge, out.reference_id[1] = end;
   out.incident_id[0] = incident, out.incident_id[1] = incident_end;
   out.reference_radius = reference.radius, out.incident_radius = other.radius;
   out.reference_is_b = reference_is_b;
   return out;
 }
 
-/// Whether the edges are parallel and one lies over the other: they touch along their length.
+/// Whether the reference edge's normal is right for hulls that are apart: the nearest corner lies over the
+/// edge, or the edges are parallel and touch along their length.
 template <class Real>
-bool flush(const FacingEdges<Real>& edges) {
+inline bool over_edge(const FacingEdges<Real>& edges) {
   const Vec2<Real> tangent = perpendicular(edges.normal);
   const Vec2<Real> start = edges.incident[1] - edges.reference[0],
                    end = edges.incident[0] - edges.reference[0];
-  const Vec2<Real> way = end - start;
-  const Real rise = dot(edges.normal, way), run = dot(tangent, way);
-  return std::fabs(rise) < Real(kParallel) * run && dot(tangent, end) > 0 &&
-         dot(tangent, start) < dot(tangent, edges.reference[1] - edges.reference[0]);
+  const Real rise = dot(edges.normal, end - start), start_x = dot(tangent, start), end_x = dot(tangent, end);
+  const Real length = dot(tangent, edges.reference[1] - edges.reference[0]);
+  if (std::fabs(rise) < Real(kParallel) * (end_x - start_x)) return end_x > 0 && start_x < length;
+  const Real nearest_x = rise > 0 ? start_x : end_x;
+  return nearest_x >= 0 && nearest_x <= length;
 }
 
-/// What touches first when two hulls are apart.
-enum class Feature : std::uint8_t { FaceOfA, FaceOfB, Corners };
-
+/// The faces of two hulls that are farthest out of each other.
 template <class Real>
-struct Nearest {
-  Feature feature;
-  int corner_a, corner_b;  // when it is two corners
+struct Faces {
+  Face<Real> a, b;
 };
 
-/// The separation along a normal is the distance times the cosine of the angle to the nearest direction,
-/// while the same corners stay in support: so the face with the greatest separation ends at, or is, the
-/// nearest feature of its hull.
+/// Two hulls that meet at the deepest corner of one alone: their edges miss each other by a rounding or by
+/// the preference.
 template <class Real>
-Nearest<Real> nearest_apart(const Hull<Real>& a, const Face<Real>& of_a, const Hull<Real>& b,
-                            const Face<Real>& of_b, bool prefer_b, bool is_flush) {
-  const Feature preferred = prefer_b ? Feature::FaceOfB : Feature::FaceOfA;
-  const int place_on_a = along(a, of_a.edge, b.point(of_a.corner));
-  const int place_on_b = along(b, of_b.edge, a.point(of_b.corner));
-  if (is_flush || (prefer_b ? place_on_b : place_on_a) == 0) return {preferred, 0, 0};
-  if (of_b.separation > of_a.separation) {
-    if (place_on_b == 0) return {Feature::FaceOfB, 0, 0};
-    return {Feature::Corners, of_b.corner, place_on_b < 0 ? of_b.edge : b.next(of_b.edge)};
-  }
-  if (place_on_a == 0) return {Feature::FaceOfA, 0, 0};
-  return {Feature::Corners, place_on_a < 0 ? of_a.edge : a.next(of_a.edge), of_a.corner};
+ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
+                                   bool reference_is_b, Real reach, Vec2<Real> origin) {
+  const Hull<Real>&reference = reference_is_b ? b : a, &other = reference_is_b ? a : b;
+  const Vec2<Real> normal = reference.normal(face.edge);
+  const int corner = support<0>(other, normal);
+  const Vec2<Real> point = other.point(corner);
+  const int end = along(reference, face.edge, point) < 0 ? face.edge : reference.next(face.edge);
+  if (reference_is_b)
+    return single_point(origin + point, -normal, face.separation, a.radius, b.radius, reach,
+                        corner_pair(corner, end));
+  return single_point(origin + point - face.separation * normal, normal, face.separation, a.radius, b.radius,
+                      reach, corner_pair(end, corner));
 }
 
-/// The manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size` is that of the
-/// smaller one. `admit` says which normals may be used; what it snaps gets that of a's first edge.
+/// Two hulls that meet at a face of one.
 template <class Real, class Admit>
-ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, Real size, Real reach,
-                                    Vec2<Real> origin, const Admit& admit) {
-  const Real limit = reach + a.radius + b.radius;
-  const Face<Real> of_a = farthest_face(a, b, limit);
-  if (of_a.separation > limit) return {};
-  const Face<Real> of_b = farthest_face(b, a, limit);
-  if (of_b.separation > limit) return {};
+inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                        FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
+                                        const Admit& admit) {
+  if (edges.reference_is_b) {
+    const Normal answer = admit(-edges.normal);
+    if (answer == Normal::Skip) return {};
+    if (answer == Normal::Snap) edges = facing_edges<0>(a, faces.a.edge, b, false);
+  }
+  if (!edges.reference_is_b) admit.widen(edges);
+  const ContactManifold<Real> out = clip(edges, reach, origin);
+  if (out.count > 0 || !Admit::kOpen) return out;
+  return touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges.reference_is_b, reach, origin);
+}
 
-  const bool prefer_b = of_b.separation > of_a.separation + Real(kPreference) * size;
-  FacingEdges<Real> edges = prefer_b ? facing_edges(b, of_b, a, true) : facing_edges(a, of_a, b, false);
-  Nearest<Real> nearest{prefer_b ? Feature::FaceOfB : Feature::FaceOfA, 0, 0};
-  if (of_a.separation > 0 || of_b.separation > 0)
-    nearest = nearest_apart(a, of_a, b, of_b, prefer_b, flush(edges));
-
-  if (nearest.feature == Feature::Corners) {
-    const Vec2<Real> on_a = a.point(nearest.corner_a), way = b.point(nearest.corner_b) - on_a;
+/// Two hulls that are apart, whose nearest features are no two faces. The separation along a normal is the
+/// distance times the cosine of the angle to the nearest direction, while the same corners stay in support:
+/// so the face with the greatest separation ends at, or is, the nearest feature of its hull.
+template <class Real, class Admit>
+ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                  bool prefer_b, Real size, Real reach, Vec2<Real> origin,
+                                  const Admit& admit) {
+  const bool nearer_b = faces.b.separation > faces.a.separation;
+  const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
+  const int edge = nearer_b ? faces.b.edge : faces.a.edge;
+  const int corner = support<0>(other, reference.normal(edge));
+  const int place = along(reference, edge, other.point(corner));
+  bool use_b = nearer_b;
+  if (place != 0) {
+    const int end = place < 0 ? edge : reference.next(edge);
+    const int on_a = nearer_b ? corner : end, on_b = nearer_b ? end : corner;
+    const Vec2<Real> way = b.point(on_b) - a.point(on_a);
     const Real distance = std::sqrt(length_squared(way));
+    use_b = prefer_b;
     if (distance > kDirection<Real> * size) {
       const Vec2<Real> normal{way.x / distance, way.y / distance};
       const Normal answer = admit(normal);
       if (answer == Normal::Skip) return {};
       if (answer == Normal::Admit)
-        return single_point(origin + on_a, normal, distance, a.radius, b.radius, reach,
-                            corner_pair(nearest.corner_a, nearest.corner_b));
-      nearest.feature = Feature::FaceOfA;
-    } else {
-      nearest.feature = prefer_b ? Feature::FaceOfB : Feature::FaceOfA;
+        return single_point(origin + a.point(on_a), normal, distance, a.radius, b.radius, reach,
+                            corner_pair(on_a, on_b));
+      use_b = false;
     }
   }
-  if (nearest.feature == Feature::FaceOfB) {
-    const Normal answer = admit(-b.normal(of_b.edge));
-    if (answer == Normal::Skip) return {};
-    if (answer == Normal::Snap) nearest.feature = Feature::FaceOfA;
-  }
+  FacingEdges<Real> edges =
+      use_b ? facing_edges<0>(b, faces.b.edge, a, true) : facing_edges<0>(a, faces.a.edge, b, false);
+  return touch_face(a, b, faces, edges, reach, origin, admit);
+}
 
-  const bool reference_is_b = nearest.feature == Feature::FaceOfB;
-  if (reference_is_b != prefer_b)
-    edges = reference_is_b ? facing_edges(b, of_b, a, true) : facing_edges(a, of_a, b, false);
-  if (!reference_is_b) admit.widen(edges);
-  const ContactManifold<Real> out = clip(edges, reach, origin);
-  if (out.count > 0 || !Admit::kOpen) return out;
-  // Edges that miss each other by a rounding or by the preference: the deepest corner alone.
-  const Face<Real>& face = reference_is_b ? of_b : of_a;
-  const Vec2<Real> corner = reference_is_b ? a.point(face.corner) : b.point(face.corner);
-  const int first = face.edge, second = reference_is_b ? b.next(first) : a.next(first);
-  const bool at_first = along(reference_is_b ? b : a, face.edge, corner) < 0;
-  const int other = at_first ? first : second;
-  if (reference_is_b) {
-    const Vec2<Real> normal = -b.normal(face.edge);
-    return single_point(origin + corner, normal, face.separation, a.radius, b.radius, reach,
-                        corner_pair(face.corner, other));
-  }
-  const Vec2<Real> normal = a.normal(face.edge);
-  return single_point(origin + corner - face.separation * normal, normal, face.separation, a.radius, b.radius,
-                      reach, corner_pair(other, face.corner));
+/// The manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size` gives that of
+/// the smaller one. `admit` says which normals may be used; what it snaps gets that of a's first edge. `kA`
+/// and `kB` are their numbers of corners, or 0.
+template <int kA, int kB, class Real, class Size, class Admit>
+inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
+                                           Real reach, Vec2<Real> origin, const Admit& admit) {
+  const Real limit = reach + a.radius + b.radius;
+  Faces<Real> faces;
+  faces.a = farthest_face<kA, kB>(a, b, limit);
+  if (faces.a.separation > limit) return {};
+  faces.b = farthest_face<kB, kA>(b, a, limit);
+  if (faces.b.separation > limit) return {};
+
+  const bool prefer_b = faces.b.separation > faces.a.separation &&
+                        faces.b.separation > faces.a.separation + Real(kPreference) * size();
+  // One way for both: a branch here would be guessed wrong half the time.
+  const Hull<Real>&reference = prefer_b ? b : a, &other = prefer_b ? a : b;
+  FacingEdges<Real> edges =
+      facing_edges < kA == kB ? kA : 0 > (reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
+  const bool apart = faces.a.separation > 0 || faces.b.separation > 0;
+  if (apart && !over_edge(edges)) return touch_apart(a, b, faces, prefer_b, size(), reach, origin, admit);
+  return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
 }  // namespace plumb::narrow

@@ -2,14 +2,28 @@
 
 namespace plumb::narrow {
 
+namespace {
+
+/// `kA` and `kB` are the numbers of corners where they are known when compiling, or 0.
+template <int kA, int kB, class Real>
+ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                      Real reach) {
+  const Vec2<Real> origin = a.corners[0].point;
+  Hull<Real> hull_a, hull_b;
+  place<kA>(hull_a, a, origin);
+  place<kB>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
+  return collide_hulls<kA, kB>(
+      hull_a, hull_b, [&] { return smaller_size(a, b); }, reach, origin, AdmitAll<Real>{});
+}
+
+}  // namespace
+
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach) {
-  const Vec2<Real> origin = a.corners[0].point;
-  Hull<Real> hull_a, hull_b;
-  place(hull_a, a, origin);
-  place(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
-  return collide_hulls(hull_a, hull_b, smaller_size(a, b), reach, origin, AdmitAll<Real>{});
+  // Boxes are most of what there is.
+  if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach);
+  return collide_counted<0, 0>(a, b, b_in_a, reach);
 }
 
 template ContactManifold<float> collide_polygons(const Convex<float>&, const Convex<float>&,
