@@ -23,6 +23,7 @@ int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
     slots_.push_back(kNone);
+    free_proxies_.reserve(slots_.capacity());
   } else {
     proxy = free_proxies_.back();
     free_proxies_.pop_back();
@@ -94,12 +95,13 @@ void DynamicTree<Real>::clear() {
 
 template <class Real>
 void DynamicTree<Real>::reserve(int leaves) {
-  const std::size_t count = static_cast<std::size_t>(std::max(leaves, 0));
-  pairs_.reserve(count + 1);
+  const std::size_t count = static_cast<std::size_t>(std::max(leaves, 0)) + 1;  // pair 0 holds none
+  pairs_.reserve(count);
   slots_.reserve(count);
   free_pairs_.reserve(count);
   free_proxies_.reserve(count);
   loose_pairs_.reserve(count);
+  held_.reserve(count);
   items_.reserve(count);
 }
 
@@ -132,6 +134,7 @@ template <class Real>
 int DynamicTree<Real>::new_pair() {
   if (free_pairs_.empty()) {
     pairs_.emplace_back();
+    free_pairs_.reserve(pairs_.capacity());  // so that taking a leaf out allocates nothing
     return static_cast<int>(pairs_.size()) - 1;
   }
   const int pair = free_pairs_.back();

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "engine/collide/dynamic_tree_nodes.h"
@@ -37,6 +36,10 @@ class DynamicTree {
   void enlarge(int proxy, const Aabb<Real>& box);
   void set_category(int proxy, std::uint32_t category);
 
+  /// Whether the proxy names a leaf.
+  bool holds(int proxy) const {
+    return proxy >= 0 && proxy < static_cast<int>(slots_.size()) && slots_[proxy] != kNone;
+  }
   const Aabb<Real>& box(int proxy) const { return node(slots_[proxy]).box; }
   int user(int proxy) const { return node(slots_[proxy]).tag; }
   std::uint32_t category(int proxy) const { return node(slots_[proxy]).category; }

@@ -71,6 +71,10 @@ template <class Real>
 void DynamicTree<Real>::gather(bool everything) {
   loose_pairs_.clear();
   held_.clear();
+  // Room for all of the tree at once: how much of it is marked varies from step to step.
+  loose_pairs_.reserve(pairs_.capacity());
+  held_.reserve(pairs_.capacity());
+  items_.reserve(pairs_.capacity());
   const auto take = [&](const Node& each) {
     if (!each.is_leaf() && (everything || each.tag != 0))
       loose_pairs_.push_back(each.link);
