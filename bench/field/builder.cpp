@@ -8,10 +8,14 @@ namespace {
 /// Adds what happens during its life to a cost.
 class Meter {
  public:
-  explicit Meter(Cost& cost)
-      : cost_(cost), allocations_(heap::allocations()), bytes_(heap::live_bytes()), start_(Clock::now()) {}
+  Meter(Cost& cost, clockid_t clock)
+      : cost_(cost),
+        clock_(clock),
+        allocations_(heap::allocations()),
+        bytes_(heap::live_bytes()),
+        start_(seconds_of(clock)) {}
   ~Meter() {
-    cost_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+    cost_.seconds += seconds_of(clock_) - start_;
     cost_.allocations += heap::allocations() - allocations_;
     cost_.bytes += heap::live_bytes() - bytes_;
   }
@@ -19,13 +23,19 @@ class Meter {
   Meter& operator=(const Meter&) = delete;
 
  private:
-  using Clock = std::chrono::steady_clock;
   Cost& cost_;
+  clockid_t clock_;
   std::int64_t allocations_, bytes_;
-  Clock::time_point start_;
+  double start_;
 };
 
 }  // namespace
+
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 Counts Inventory::counts() const {
   Counts out;
@@ -40,7 +50,7 @@ Counts Inventory::counts() const {
 
 template <class Call>
 auto Builder::metered(const Call& call) {
-  const Meter meter(cost_);
+  const Meter meter(cost_, clock_);
   return call();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <span>
 #include <vector>
 
@@ -31,6 +31,9 @@ struct Inventory {
   Counts counts() const;  ///< `touching` stays 0
 };
 
+/// Seconds of `clock`, since whenever.
+double seconds_of(clockid_t clock);
+
 /// What an engine used so far.
 struct Cost {
   double seconds = 0;
@@ -42,7 +45,7 @@ struct Cost {
 /// Nothing else enters the cost.
 class Builder {
  public:
-  explicit Builder(FieldWorld& world) : world_(world) {}
+  explicit Builder(FieldWorld& world, clockid_t clock = CLOCK_MONOTONIC) : world_(world), clock_(clock) {}
 
   /// Returns the body's index in the inventory.
   int create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes);
@@ -63,6 +66,7 @@ class Builder {
   auto metered(const Call& call);
 
   FieldWorld& world_;
+  clockid_t clock_;
   Inventory inventory_;
   Cost cost_;
 };

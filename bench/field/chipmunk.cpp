@@ -3,13 +3,9 @@
 #include <chipmunk/chipmunk_structs.h>
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <vector>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include "bench/field/adapters.h"
 #include "engine/scene/text.h"
@@ -37,19 +33,6 @@ void update_velocity(cpBody* body, cpVect gravity, cpFloat damping, cpFloat dt) 
   cpBodySetAngularVelocity(body, cpBodyGetAngularVelocity(body) / (1 + own.angular_damping * dt));
 }
 
-/// Debian's library greets on stdout, which belongs to the results.
-cpSpace* quiet_space() {
-  std::fflush(stdout);
-  const int kept = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  dup2(nowhere, STDOUT_FILENO);
-  cpSpace* space = cpSpaceNew();
-  std::fflush(stdout);
-  dup2(kept, STDOUT_FILENO);
-  close(kept);
-  close(nowhere);
-  return space;
-}
-
 void collect_shape(cpBody*, cpShape* shape, void* out) {
   static_cast<std::vector<cpShape*>*>(out)->push_back(shape);
 }
@@ -60,7 +43,7 @@ void collect_body(cpBody* body, void* out) { static_cast<std::vector<cpBody*>*>(
 
 class ChipmunkWorld final : public FieldWorld {
  public:
-  explicit ChipmunkWorld(const WorldSettings& settings) : settings_(settings), space_(quiet_space()) {
+  explicit ChipmunkWorld(const WorldSettings& settings) : settings_(settings), space_(cpSpaceNew()) {
     cpSpaceSetGravity(space_, to_chipmunk(settings.gravity));
     cpSpaceSetIterations(space_, settings.iterations);
     cpSpaceSetCollisionSlop(space_, kSlop);

@@ -44,7 +44,7 @@ struct Stop : std::runtime_error {
 
 struct Options {
   std::vector<std::string> scenes, engines;
-  std::string format = "table", continuous = "scene";
+  std::string format = "table", continuous = "scene", clock = "wall";
   int steps = 0;
   bool list = false, sleeping = false;
 };
@@ -149,6 +149,9 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--repeat", plan.repeat, "repetitions, each in a new world (3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("R");
+  app.add_option("--clock", options.clock,
+                 "wall, or cpu: the processors' time, for machines that others use too (wall)")
+      ->check(CLI::IsMember({"wall", "cpu"}));
   app.add_option("--limit", plan.limit, "seconds of an engine's time after which a run is given up (300)")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
@@ -182,6 +185,7 @@ int parse_and_run(int argc, char** argv) {
   plan.engines = select_engines(options.engines);
   if (options.steps > 0) plan.steps = options.steps;
   if (options.continuous != "scene") plan.continuous = options.continuous == "on";
+  if (options.clock == "cpu") plan.clock = CLOCK_PROCESS_CPUTIME_ID;
   plan.settings.sleeping = options.sleeping;
   return run(plan, options.format);
 }

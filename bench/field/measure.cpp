@@ -1,12 +1,13 @@
 #include "bench/field/measure.h"
 
 #include <algorithm>
-#include <exception>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "bench/field/heap.h"
+#include "bench/field/parcel.h"
+#include "harness/isolate.h"
 
 namespace plumb::field {
 namespace {
@@ -19,6 +20,9 @@ struct TooSlow : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
+double cpu_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
+
 /// One world with one scene in it.
 class Run {
  public:
@@ -26,7 +30,7 @@ class Run {
       : limit_(plan.limit),
         settings_(settings_of(scene, plan)),
         world_(engine.create(settings_)),
-        builder_(*world_) {
+        builder_(*world_, plan.clock) {
     built_ = scene.build(builder_, plan.quick);
     for (const Top& top : built_.tops) heights_.push_back(height_of(top));
     advance(scene.warm_up);
@@ -34,8 +38,8 @@ class Run {
 
   /// Mean time of `steps` steps; between tenths of them `sample` looks on.
   template <class Sample>
-  double timed(int steps, const Sample& sample) {
-    const double start = builder_.cost().seconds;
+  void timed(int steps, const Sample& sample, Measurement& out) {
+    const double start = builder_.cost().seconds, wall_start = wall_seconds(), cpu_start = cpu_seconds();
     std::int64_t allocations = 0;
     int counted = 0, done = 0;
     for (int i = 1; i <= kSamples; ++i) {
@@ -50,7 +54,8 @@ class Run {
       sample();
     }
     allocations_a_step_ = counted == 0 ? 0 : static_cast<double>(allocations) / counted;
-    return (builder_.cost().seconds - start) / steps;
+    out.step_seconds.push_back((builder_.cost().seconds - start) / steps);
+    out.cpu_share.push_back((cpu_seconds() - cpu_start) / (wall_seconds() - wall_start));
   }
 
   void describe(Measurement& out) {
@@ -160,20 +165,44 @@ class Samples {
   Quality last_;
 };
 
-void run_once(const Plan& plan, bool first, Measurement& out) {
+/// One run in this process. Into `out` go its time and, of the first, the rest.
+void run_here(const Plan& plan, bool first, Measurement& out) {
   Run run(*out.scene, *out.engine, plan);
   if (!first) {
-    out.step_seconds.push_back(run.timed(out.steps, [] {}));
+    run.timed(
+        out.steps, [] {}, out);
     return;
   }
   Samples samples;
-  out.step_seconds.push_back(run.timed(out.steps, [&] { samples.add(run.quality()); }));
+  run.timed(
+      out.steps, [&] { samples.add(run.quality()); }, out);
   out.quality = samples.summary();
-  if (!out.quality.finite) {
+  if (out.quality.finite) {
+    run.describe(out);
+  } else {
     out.failure = "a pose or a velocity is not finite";
-    return;
   }
-  run.describe(out);
+}
+
+/// One run in a process of its own, so that every engine starts from the same heap and none takes the others
+/// with it. Returns false when the user interrupts.
+bool run_apart(const Plan& plan, bool first, Measurement& out) {
+  const auto work = [&] {
+    Measurement found = out;
+    found.step_seconds.clear();
+    found.cpu_share.clear();
+    run_here(plan, first, found);
+    return pack(found, first);
+  };
+  using Kind = harness::Outcome::Kind;
+  const harness::Outcome outcome = harness::isolate(work, 2 * plan.limit + 60);
+  if (outcome.kind == Kind::Interrupted) return false;
+  if (outcome.kind == Kind::Done) {
+    unpack(outcome.text, out);
+  } else {
+    out.failure = outcome.text;
+  }
+  return true;
 }
 
 }  // namespace
@@ -205,11 +234,7 @@ void measure(const Plan& plan, const std::function<void(const Progress&)>& progr
         progress(now);
         ++now.done;
         if (!out.failure.empty()) continue;
-        try {
-          run_once(plan, repetition == 0, out);
-        } catch (const std::exception& error) {
-          out.failure = error.what();
-        }
+        if (!run_apart(plan, repetition == 0, out)) return;
       }
     }
     done(row);

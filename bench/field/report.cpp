@@ -18,6 +18,8 @@ constexpr const char* kYardstick = "box2d";
 double least(const Measurement& m) { return *std::ranges::min_element(m.step_seconds); }
 double most(const Measurement& m) { return *std::ranges::max_element(m.step_seconds); }
 
+double least_share(const Measurement& m) { return *std::ranges::min_element(m.cpu_share); }
+
 /// How many times faster than the yardstick; nothing without one.
 std::optional<double> speed_ratio(const Measurement& m, const Measurement* yardstick) {
   if (yardstick == nullptr || !m.failure.empty()) return std::nullopt;
@@ -78,6 +80,8 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all{
       {"step", time_cell},
       {"spread", range_cell, [](M m) { return m.step_seconds.size() > 1; }},
+      {"cpu", [](M m, Y) { return fmt::format("{:.0f} %", 100 * least_share(m)); },
+       [](M m) { return least_share(m) < 0.95; }},
       {"speed", ratio_cell},
       {"ns/body", [](M m, Y) { return fmt::format("{:.0f}", nanoseconds_a_body(m)); }, has_bodies},
       {"touching", [](M m, Y) { return fmt::format("{}", m.counted.touching); }, has_pairs},
@@ -165,7 +169,8 @@ std::string settings_text(std::span<const Measurement> all, const harness::Style
 
 std::string csv_header() {
   return "scene,engine,version,failure,bodies,shapes,joints,steps,continuous,repetitions,step_ns,step_ns_min,"
-         "step_ns_max,speed,touching,near,overlapping,deepest_m,mean_overlap_m,height,worst_joint_m,mean_"
+         "step_ns_max,cpu_share,speed,touching,near,overlapping,deepest_m,mean_overlap_m,height,worst_joint_"
+         "m,mean_"
          "joint_m,"
          "worst_limit_rad,escaped,speed_rms_m_s,speed_max_m_s,kinetic_energy_j,bytes_a_body,allocations_a_"
          "step\n";
@@ -176,15 +181,15 @@ std::string csv_row(const Measurement& m, const Measurement* yardstick) {
   if (!worked(m)) {
     std::string failure = m.failure;
     std::ranges::replace(failure, '"', '\'');
-    return fmt::format("{},\"{}\"{}\n", start, failure, std::string(25, ','));
+    return fmt::format("{},\"{}\"{}\n", start, failure, std::string(26, ','));
   }
   const Quality& q = m.quality;
   const auto ratio = speed_ratio(m, yardstick);
   return fmt::format(
-      "{},,{},{},{},{},{},{},{:.1f},{:.1f},{:.1f},{},{},{},{},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},"
+      "{},,{},{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.3f},{},{},{},{},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},"
       "{},{:.6g},{:.6g},{:.6g},{:.1f},{:.4g}\n",
       start, m.asked.bodies, m.asked.shapes, m.asked.joints, m.steps, m.continuous ? "on" : "off",
-      m.step_seconds.size(), median(m.step_seconds) * 1e9, least(m) * 1e9, most(m) * 1e9,
+      m.step_seconds.size(), median(m.step_seconds) * 1e9, least(m) * 1e9, most(m) * 1e9, least_share(m),
       ratio ? fmt::format("{:.4g}", *ratio) : "", m.counted.touching, q.near, q.overlapping, q.deepest,
       q.mean_depth, m.height ? fmt::format("{:.6g}", *m.height) : "", q.worst_joint, q.mean_joint,
       q.worst_limit, m.escaped, m.speed.rms, m.speed.max, q.kinetic_energy, m.bytes_a_body,
@@ -219,6 +224,7 @@ nlohmann::ordered_json result_json(const Measurement& m, const Measurement* yard
   out["continuous"] = m.continuous;
   out["step_s"] = median(m.step_seconds);
   out["repetitions_s"] = m.step_seconds;
+  out["cpu_share"] = m.cpu_share;
   if (const auto ratio = speed_ratio(m, yardstick)) out["speed"] = *ratio;
   out["bytes_a_body"] = m.bytes_a_body;
   out["allocations_a_step"] = m.allocations_a_step;
@@ -242,6 +248,7 @@ std::string json(std::span<const Measurement> all, const Plan& plan) {
                              {"dt_s", plan.settings.dt},
                              {"substeps", plan.settings.substeps},
                              {"quick", plan.quick},
+                             {"clock", plan.clock == CLOCK_MONOTONIC ? "wall" : "cpu"},
                              {"yardstick", kYardstick}};
   out["results"] = nlohmann::ordered_json::array();
   for (const Measurement& m : all) out["results"].push_back(result_json(m, yardstick_of(all, *m.scene)));

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "bench/field/measure.h"
+#include "bench/field/test/still_world.h"
 
 namespace plumb::field {
 namespace {
@@ -221,6 +224,58 @@ TEST(Measure, TakesTurnsAndFillsEveryFigure) {
     EXPECT_NEAR(*m.height, 1, 0.02);
     EXPECT_GT(m.quality.near, 130);
   }
+}
+
+/// A world in which the second step goes wrong.
+class BrokenWorld : public StillWorld {
+ public:
+  enum class Way { Dies, Throws, IsNotFinite };
+  explicit BrokenWorld(Way way) : way_(way) {}
+
+  void step() override {
+    if (++steps_ < 2) return;
+    if (way_ == Way::Dies) std::abort();
+    if (way_ == Way::Throws) throw std::runtime_error("lost its way");
+  }
+  BodyState state(BodyHandle body) const override {
+    BodyState out = StillWorld::state(body);
+    if (way_ == Way::IsNotFinite && steps_ > 1) out.position.x = std::nan("");
+    return out;
+  }
+
+ private:
+  Way way_;
+  int steps_ = 0;
+};
+
+template <BrokenWorld::Way way>
+std::unique_ptr<FieldWorld> broken(const WorldSettings&) {
+  return std::make_unique<BrokenWorld>(way);
+}
+
+TEST(Measure, AnEngineThatFailsIsAResultAndTheOthersGoOn) {
+  const Engine sound{"sound", "1", "", [](const WorldSettings&) -> std::unique_ptr<FieldWorld> {
+                       return std::make_unique<StillWorld>();
+                     }};
+  const Engine dies{"dies", "1", "", broken<BrokenWorld::Way::Dies>};
+  const Engine throws{"throws", "1", "", broken<BrokenWorld::Way::Throws>};
+  const Engine nan{"nan", "1", "", broken<BrokenWorld::Way::IsNotFinite>};
+  Plan plan;
+  plan.scenes = {&scene_called("chain_10")};
+  plan.engines = {&dies, &throws, &nan, &sound};
+  plan.repeat = 2;
+  plan.quick = true;
+  std::vector<Measurement> row;
+  measure(
+      plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { row = done; },
+      [] { return false; });
+  ASSERT_EQ(row.size(), 4u);
+  EXPECT_NE(row[0].failure.find("SIGABRT"), std::string::npos) << row[0].failure;
+  EXPECT_EQ(row[1].failure, "lost its way");
+  EXPECT_EQ(row[2].failure, "a pose or a velocity is not finite");
+  EXPECT_EQ(row[3].failure, "");
+  EXPECT_EQ(row[3].step_seconds.size(), 2u);
+  EXPECT_EQ(row[3].asked.joints, 10);
 }
 
 TEST(Measure, GivesUpWhatTakesTooLong) {

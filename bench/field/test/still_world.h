@@ -8,7 +8,7 @@ namespace plumb::field {
 
 /// A world in which nothing happens: bodies stay where they are put. What is measured in it is known
 /// beforehand.
-class StillWorld final : public FieldWorld {
+class StillWorld : public FieldWorld {
  public:
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition>,
                          const MassProperties&) override {
