@@ -45,6 +45,24 @@ class ContactGraph {
 
   std::size_t size() const;
 
+  /// To be called after constraints were put into the colours' lists directly: finds again which bodies each
+  /// colour has. `gives_way(body)`: whether it is dynamic. False when two of a colour share a dynamic body.
+  template <class GivesWay>
+  bool find_bodies(GivesWay&& gives_way) {
+    bool sound = true;
+    for (int c = 0; c < kColours; ++c) {
+      bodies_[c].clear();
+      for (const ContactConstraint<Real>& constraint : colours_[c]) {
+        for (const int body : {constraint.body_a, constraint.body_b}) {
+          if (!gives_way(body)) continue;
+          sound = sound && !bodies_[c].test(body);
+          bodies_[c].set(body);
+        }
+      }
+    }
+    return sound;
+  }
+
  private:
   std::vector<ContactConstraint<Real>> colours_[kColours + 1];
   BitSet bodies_[kColours];

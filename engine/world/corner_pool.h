@@ -1,7 +1,7 @@
 #pragma once
 
-#include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/geometry/convex.h"
@@ -15,7 +15,7 @@ class CornerPool {
  public:
   int add(std::span<const Corner<Real>> corners) {
     const int count = static_cast<int>(corners.size());
-    std::vector<int>& free = free_[count];
+    std::vector<int>& free = free_of(count);
     int first = static_cast<int>(corners_.size());
     if (free.empty()) {
       corners_.resize(corners_.size() + corners.size());
@@ -26,14 +26,24 @@ class CornerPool {
     for (int i = 0; i < count; ++i) corners_[first + i] = corners[i];
     return first;
   }
-  void remove(int first, int count) { free_[count].push_back(first); }
+  void remove(int first, int count) { free_of(count).push_back(first); }
 
   const Corner<Real>* data() const { return corners_.data(); }
   Corner<Real>& operator[](int i) { return corners_[i]; }
 
+  /// Corners, and where free runs begin, by their length: all that there is, for snapshots.
+  auto parts() { return std::tie(corners_, free_); }
+  auto parts() const { return std::tie(corners_, free_); }
+
  private:
+  std::vector<int>& free_of(int count) {
+    const std::size_t length = static_cast<std::size_t>(count);
+    if (free_.size() <= length) free_.resize(length + 1);
+    return free_[length];
+  }
+
   std::vector<Corner<Real>> corners_;
-  std::map<int, std::vector<int>> free_;
+  std::vector<std::vector<int>> free_;
 };
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace plumb {
@@ -48,6 +49,10 @@ class Slots {
       if (used(i)) visit(i, items_[i]);
     }
   }
+
+  /// Items, generations and free slots: all that there is, for snapshots.
+  auto parts() { return std::tie(items_, generations_, free_); }
+  auto parts() const { return std::tie(items_, generations_, free_); }
 
  private:
   std::vector<T> items_;

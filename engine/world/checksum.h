@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace plumb {
+
+/// 64-bit FNV-1a (Fowler, Noll, Vo) in words of eight bytes instead of one, the rest byte by byte, with the
+/// upper half folded onto the lower one after each word: a product carries nothing downwards, so that two
+/// changed signs would cancel without it. Each round is a bijection: bytes of the same length that differ in
+/// one word have different sums.
+inline std::uint64_t checksum(std::span<const std::byte> bytes) {
+  constexpr std::uint64_t kPrime = 0x100000001B3u;
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  std::size_t at = 0;
+  for (; at + 8 <= bytes.size(); at += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes.data() + at, 8);
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 32;
+  }
+  for (; at < bytes.size(); ++at) hash = (hash ^ std::to_integer<std::uint64_t>(bytes[at])) * kPrime;
+  return hash;
+}
+
+}  // namespace plumb

@@ -1,0 +1,333 @@
+#include "engine/world/snapshot_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/bytes.h"
+#include "engine/world/validate.h"
+#include "engine/world/world_members.h"
+
+namespace plumb {
+namespace {
+
+template <Packed T>
+bool is_finite(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::isfinite(value);
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    return true;
+  } else if constexpr (std::is_bounded_array_v<T>) {
+    return std::all_of(std::begin(value), std::end(value), [](const auto& each) { return is_finite(each); });
+  } else {
+    return std::apply([](const auto&... each) { return (is_finite(each) && ...); }, Members<T>::of(value));
+  }
+}
+
+template <class T>
+bool all_finite(const std::vector<T>& all) {
+  return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
+}
+
+// Marks each number once; false for one out of range or marked before.
+class Marks {
+ public:
+  explicit Marks(int size) : marks_(static_cast<std::size_t>(size), 0) {}
+  bool mark(int i) {
+    if (i < 0 || i >= static_cast<int>(marks_.size()) || marks_[i]) return false;
+    marks_[i] = 1;
+    ++count_;
+    return true;
+  }
+  int count() const { return count_; }
+
+ private:
+  std::vector<char> marks_;
+  int count_ = 0;
+};
+
+template <class Real>
+class Check {
+ public:
+  explicit Check(const WorldData<Real>& w) : w_(w) {}
+
+  void run() const {
+    numbers();
+    slots(w_.bodies), slots(w_.shapes), slots(w_.chains), slots(w_.contacts), slots(w_.joints);
+    sizes();
+    shape_lists();
+    corners();
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape)) check_shape(shape);
+    }
+    trees();
+    lists();
+    awake();
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (w_.contacts.used(contact)) check_contact(contact);
+    }
+    homes();
+    joints();
+    edges(w_.contacts, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
+    edges(w_.joints, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+    constraints();
+  }
+
+ private:
+  static void require(bool holds, const char* field, const char* problem) {
+    ByteReader::require(holds, field, problem);
+  }
+
+  void numbers() const {
+    const auto [corners, free] = w_.corners.parts();
+    bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
+                  all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
+                  all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
+                  all_finite(corners) && all_finite(w_.parked) &&
+                  all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
+                  all_finite(std::get<0>(w_.joints.parts()));
+    for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
+    require(finite, "state", "holds numbers that are not finite");
+    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
+    validate(w_.settings);
+  }
+
+  // A slot is free, and listed once, or in use.
+  template <class T>
+  void slots(const Slots<T>& all) const {
+    const auto [items, generations, free] = all.parts();
+    require(items.size() == generations.size(), "slots", "have no generations");
+    Marks marks(all.size());
+    for (const int index : free) {
+      require(marks.mark(index) && !all.used(index), "free slots", "are not free");
+    }
+    for (int index = 0; index < all.size(); ++index) {
+      if (all.used(index)) marks.mark(index);
+    }
+    require(marks.count() == all.size(), "free slots", "are not all listed");
+  }
+
+  void sizes() const {
+    const auto is_by_body = [&](const auto& all) { return static_cast<int>(all.size()) == w_.bodies.size(); };
+    require(is_by_body(w_.names) && is_by_body(w_.motion) && is_by_body(w_.rotation) &&
+                is_by_body(w_.position) && is_by_body(w_.extents) && is_by_body(w_.enlarged),
+            "bodies", "are not as many everywhere");
+    const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
+    require(w_.forms.size() == shapes && w_.boxes.size() == shapes, "shapes", "are not as many everywhere");
+  }
+
+  // Each body's list ends, and every shape is in the list of its body.
+  void shape_lists() const {
+    Marks listed(w_.shapes.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      const BodyRecord<Real>& record = w_.bodies[body];
+      int count = 0;
+      for (int shape = record.first_shape; shape != kNone; shape = w_.shapes[shape].next, ++count) {
+        require(listed.mark(shape) && w_.shapes.used(shape) && w_.shapes[shape].body == body, "shapes",
+                "are in the lists of other bodies");
+      }
+      require(count == record.shape_count, "shapes", "of a body are not as many as it says");
+    }
+    require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
+  }
+
+  // Every corner belongs to one shape or to one free run.
+  void corners() const {
+    const auto [all, free] = w_.corners.parts();
+    Marks taken(static_cast<int>(all.size()));
+    const auto take = [&](int first, int count) {
+      for (int i = 0; i < count; ++i) require(taken.mark(first + i), "corners", "belong to two shapes");
+    };
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (!w_.shapes.used(shape)) continue;
+      const ShapeForm<Real>& form = w_.forms[shape];
+      const bool few = form.count >= 1 && form.count <= kMaxCorners && (!form.chain || form.count == 2);
+      require(few && form.corner >= 0 && form.corner <= static_cast<int>(all.size()), "corners",
+              "of a shape are not there");
+      take(form.corner, form.count + (form.chain ? 2 : 0));
+    }
+    for (std::size_t count = 0; count < free.size(); ++count) {
+      require(count <= kMaxCorners + 2 || free[count].empty(), "corners", "are free in too long runs");
+      for (const int first : free[count]) {
+        require(first >= 0 && first <= static_cast<int>(all.size()), "corners",
+                "are free that are not there");
+        take(first, static_cast<int>(count));
+      }
+    }
+  }
+
+  void check_shape(int shape) const {
+    const ShapeRecord<Real>& record = w_.shapes[shape];
+    const ShapeForm<Real>& form = w_.forms[shape];
+    require(form.radius >= 0 && form.extent >= 0, "shapes", "are of negative size");
+    const DynamicTree<Real>& tree =
+        w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
+    require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
+    require(form.chain == (record.chain != kNone), "chains", "have segments that are none");
+    require(!form.chain || (record.chain >= 0 && record.chain < w_.chains.size() &&
+                            w_.chains.used(record.chain) && w_.chains[record.chain].body == record.body),
+            "chains", "are not there");
+  }
+
+  void trees() const {
+    require(w_.still_tree.size() + w_.moving_tree.size() == w_.shapes.count(), "boxes",
+            "are not as many as shapes");
+  }
+
+  bool has_shape(int shape) const { return shape >= 0 && shape < w_.shapes.size() && w_.shapes.used(shape); }
+  bool has_body(int body) const { return body >= 0 && body < w_.bodies.size() && w_.bodies.used(body); }
+  bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
+
+  // What lists shapes and joints: chains, sensors, what moved, what may break.
+  void lists() const {
+    Marks in_chain(w_.shapes.size());
+    int segments = 0;
+    for (int chain = 0; chain < w_.chains.size(); ++chain) {
+      if (!w_.chains.used(chain)) continue;
+      for (const int shape : w_.chains[chain].shapes) {
+        require(has_shape(shape) && w_.shapes[shape].chain == chain && in_chain.mark(shape), "chains",
+                "list shapes that are not theirs");
+      }
+    }
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape) && w_.forms[shape].chain) ++segments;
+    }
+    require(in_chain.count() == segments, "chains", "do not list all their segments");
+    Marks sensed(w_.shapes.size()), breakable(w_.joints.size());
+    for (const SensorRecord& sensor : w_.sensors) {
+      require(has_shape(sensor.shape) && w_.forms[sensor.shape].sensor && sensed.mark(sensor.shape),
+              "sensors", "are not shapes that sense");
+    }
+    for (const int shape : w_.moved_shapes) {
+      require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
+    }
+    for (const int joint : w_.breakable) {
+      require(has_joint(joint) && breakable.mark(joint), "joints", "may break that are not there");
+    }
+  }
+
+  void awake() const {
+    Marks listed(w_.bodies.size());
+    for (std::size_t i = 0; i < w_.awake.size(); ++i) {
+      const int body = w_.awake[i];
+      require(has_body(body) && listed.mark(body), "awake bodies", "are not there");
+      const BodyRecord<Real>& record = w_.bodies[body];
+      require(record.awake && record.type != BodyType::Static && record.awake_index == static_cast<int>(i),
+              "awake bodies", "say otherwise");
+    }
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (w_.bodies.used(body) && w_.bodies[body].awake) ++count;
+    }
+    require(count == listed.count(), "awake bodies", "are not all listed");
+  }
+
+  template <class Record>
+  void check_ends(const Record& record, const char* field) const {
+    require(has_body(record.body_a) && has_body(record.body_b) && record.body_a != record.body_b, field,
+            "are between bodies that are not there");
+  }
+
+  static bool fits(const ContactRecord& record, const ContactConstraint<Real>& c, int contact) {
+    return c.contact == contact && c.body_a == record.body_a && c.body_b == record.body_b && c.count <= 2;
+  }
+
+  void check_contact(int contact) const {
+    const ContactRecord& record = w_.contacts[contact];
+    check_ends(record, "contacts");
+    require(has_shape(record.shape_a) && has_shape(record.shape_b) &&
+                w_.shapes[record.shape_a].body == record.body_a &&
+                w_.shapes[record.shape_b].body == record.body_b,
+            "contacts", "are between shapes that are not there");
+    const auto is_in = [&](const auto& list) {
+      return record.index >= 0 && record.index < static_cast<int>(list.size());
+    };
+    bool placed = true;
+    if (record.home == ContactHome::Near) {
+      placed = is_in(w_.near) && w_.near[record.index] == contact;
+    } else if (record.home == ContactHome::Parked) {
+      placed = is_in(w_.parked) && fits(record, w_.parked[record.index], contact);
+    } else if (record.home == ContactHome::Graph) {
+      placed = record.colour >= 0 && record.colour <= w_.graph.kColours &&
+               is_in(w_.graph.colour(record.colour)) &&
+               fits(record, w_.graph.at({record.colour, record.index}), contact);
+    }
+    require(placed, "contacts", "are not where they say");
+  }
+
+  // Every place belongs to a contact: there are as many, and no two contacts fit the same one.
+  void homes() const {
+    std::size_t count[4] = {};
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (w_.contacts.used(contact)) ++count[static_cast<int>(w_.contacts[contact].home)];
+    }
+    require(count[static_cast<int>(ContactHome::Near)] == w_.near.size() &&
+                count[static_cast<int>(ContactHome::Graph)] == w_.graph.size() &&
+                count[static_cast<int>(ContactHome::Parked)] == w_.parked.size(),
+            "contacts", "are not as many as their places");
+  }
+
+  void joints() const {
+    for (int joint = 0; joint < w_.joints.size(); ++joint) {
+      if (!w_.joints.used(joint)) continue;
+      const JointRecord& record = w_.joints[joint];
+      check_ends(record, "joints");
+      require(w_.joint_set.contains(record.slot) && w_.joint_set.active(record.slot) == record.active &&
+                  w_.joint_set.bodies(record.slot) == std::pair{record.body_a, record.body_b},
+              "joints", "are not those that are solved");
+    }
+    require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");
+  }
+
+  // Each body's list ends, and both ends of every contact or joint are in the list of their body.
+  template <class Items>
+  void edges(const Items& items, int BodyRecord<Real>::*first, int BodyRecord<Real>::*number) const {
+    Marks listed(2 * items.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      int count = 0, before = kNone;
+      for (int edge = w_.bodies[body].*first; edge != kNone; ++count) {
+        require(listed.mark(edge) && items.used(edge / 2), "lists of contacts or joints", "run in circles");
+        const auto& item = items[edge / 2];
+        const int side = edge & 1;
+        require((side == 0 ? item.body_a : item.body_b) == body && item.previous[side] == before,
+                "lists of contacts or joints", "are torn");
+        before = edge;
+        edge = item.next[side];
+      }
+      require(count == w_.bodies[body].*number, "lists of contacts or joints", "are not as long as they say");
+    }
+    require(listed.count() == 2 * items.count(), "lists of contacts or joints", "are not complete");
+  }
+
+  void constraints() const {
+    std::vector<int> count(static_cast<std::size_t>(w_.bodies.size()), 0);
+    const auto add = [&](const auto& record) { ++count[record.body_a], ++count[record.body_b]; };
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (!w_.contacts.used(contact)) continue;
+      const ContactRecord& record = w_.contacts[contact];
+      if (record.home == ContactHome::Graph || record.home == ContactHome::Parked) add(record);
+    }
+    for (int joint = 0; joint < w_.joints.size(); ++joint) {
+      if (w_.joints.used(joint)) add(w_.joints[joint]);
+    }
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      require(!w_.bodies.used(body) || w_.bodies[body].constraints == count[body], "bodies",
+              "are held by another number of constraints than they say");
+    }
+  }
+
+  const WorldData<Real>& w_;
+};
+
+}  // namespace
+
+template <class Real>
+void check_state(const WorldData<Real>& w) {
+  Check<Real>(w).run();
+}
+
+template void check_state(const WorldData<float>&);
+template void check_state(const WorldData<double>&);
+
+}  // namespace plumb

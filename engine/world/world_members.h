@@ -1,0 +1,66 @@
+#pragma once
+
+#include "engine/world/members.h"
+#include "engine/world/world_data.h"
+
+/// The members of what a world stores.
+namespace plumb {
+
+template <>
+inline constexpr int kEnumerators<BodyType> = 3;
+template <>
+inline constexpr int kEnumerators<Combine> = 5;
+template <>
+inline constexpr int kEnumerators<ContactHome> = 4;
+template <>
+inline constexpr int kEnumerators<ContactHardness> = 3;
+
+PLUMB_REAL_MEMBERS(Handle, index, generation)
+
+PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous)
+PLUMB_MEMBERS(Filter, category, mask, group)
+
+PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, awake_index,
+                   first_shape, first_contact, first_joint, shape_count, contact_count, joint_count,
+                   constraints, mass, inertia, centre, force, torque, gravity_scale, linear_damping,
+                   angular_damping, half_width, still_for, angle, user_data)
+PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
+
+PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
+PLUMB_REAL_MEMBERS(ShapeRecord, body, next, proxy, chain, moved, hit_events, pre_solve, filter, friction,
+                   restitution, rolling_resistance, surface_speed, density, user_data)
+PLUMB_MEMBERS(ChainRecord, body, shapes)
+PLUMB_MEMBERS(SensorRecord, shape, visitors)
+
+PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
+              pre_solve, hit_events, index)
+PLUMB_REAL_MEMBERS(ContactPoint, arm_normal_a, arm_normal_b, arm_tangent_a, arm_tangent_b, separation,
+                   normal_mass, tangent_mass, normal_impulse, tangent_impulse, peak_impulse, approach)
+PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, points, friction, restitution, rolling_arm,
+                   rolling_impulse, surface_speed, push_speed, travel_left, contact, features, count,
+                   hardness, touching)
+PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
+              user_data)
+
+PLUMB_MEMBERS(TouchEvent, shape_a, shape_b)
+PLUMB_MEMBERS(HitEvent, shape_a, shape_b, point, normal, speed)
+PLUMB_MEMBERS(SensorEvent, sensor, visitor)
+PLUMB_MEMBERS(JointEvent, joint)
+PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke)
+
+/// All of a world that its future depends on, and the events of its last step, as a tuple of references. Left
+/// out are the pre-solve hook, which is code, and what every step makes anew. A member that is new in
+/// WorldData has to be named here, and to be returned unless it is one of those.
+template <class World>
+constexpr auto state_of(World& w) {
+  auto& [settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged, awake,
+         shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near,
+         graph, parked, joints, joint_set, sensors, breakable, events, direct, direct_count, kicks, scratch,
+         island_of, island_size, island_place, restless, found_pairs, lost_contacts, ended_contacts,
+         touch_changes, fast_bodies, begun_contacts, fractions, visitors, mass_parts, pre_solve] = w;
+  return std::tie(settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged,
+                  awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree,
+                  contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events);
+}
+
+}  // namespace plumb

@@ -1,0 +1,259 @@
+#include "engine/world/snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/world/checksum.h"
+#include "engine/world/state_hash.h"
+#include "engine/world/world_members.h"
+#include "tests/world/busy_world.h"
+
+namespace plumb {
+namespace {
+
+using test::BusyWorld;
+using test::make_busy_world;
+using test::run;
+
+template <class Real>
+class Snapshot : public testing::Test {};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(Snapshot, Precisions);
+
+// The header: 8 bytes that say what it is, version, layout, then size and checksum of the rest.
+constexpr std::size_t kHeader = 32, kSizeAt = 16, kSumAt = 24;
+
+void sign_anew(std::vector<std::byte>& bytes) {
+  const std::span<const std::byte> content = std::span(bytes).subspan(kHeader);
+  const std::uint64_t size = content.size(), sum = checksum(content);
+  std::memcpy(bytes.data() + kSizeAt, &size, 8);
+  std::memcpy(bytes.data() + kSumAt, &sum, 8);
+}
+
+std::string refusal(BasicWorld<float>& world, std::span<const std::byte> bytes) {
+  try {
+    restore(world, bytes);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::Value);
+    return error.subject() == "snapshot" ? error.field() : "another subject: " + error.subject();
+  }
+  return "";
+}
+
+// Never stopped, against saved at step 0, 37, 150, 400 and continued in a fresh world: by every step's hash.
+TYPED_TEST(Snapshot, GoesOnWithTheSameBits) {
+  for (const int saved_at : {0, 37, 150, 400}) {
+    BusyWorld<TypeParam> straight = make_busy_world<TypeParam>();
+    run(straight, saved_at);
+    const std::vector<std::byte> bytes = save(straight.world);
+    BusyWorld<TypeParam> restored = make_busy_world<TypeParam>(16);
+    run(restored, 5);
+    restore(restored.world, bytes);
+    restored.handles() = straight.handles();
+    ASSERT_EQ(full_hash(straight.world), full_hash(restored.world));
+    for (int i = 0; i < 120; ++i) {
+      run(straight, 1), run(restored, 1);
+      ASSERT_EQ(straight.world.hash(), restored.world.hash()) << saved_at << " + " << i;
+      ASSERT_EQ(full_hash(straight.world), full_hash(restored.world)) << saved_at << " + " << i;
+      ASSERT_EQ(straight.world.events().begin.size(), restored.world.events().begin.size());
+    }
+  }
+}
+
+// An island that sleeps is kept asleep, and wakes alike.
+TYPED_TEST(Snapshot, KeepsSleepers) {
+  BasicWorld<TypeParam> world;
+  const BodyId ground = world.create_body({.type = BodyType::Static}, {.geometry = Box{20, 1}});
+  std::vector<BodyId> boxes;
+  for (int i = 0; i < 5; ++i)
+    boxes.push_back(world.create_body({.position = {0, 1.0 + i}}, {.geometry = Box{1, 1}}));
+  world.create_joint(ground, boxes[4], {.kind = DistanceDefinition{.length = 8, .range = Range{0, 8}}});
+  for (int i = 0; i < 200; ++i) world.step();
+  ASSERT_EQ(world.counts().awake, 0);
+  BasicWorld<TypeParam> other;
+  restore(other, save(world));
+  EXPECT_EQ(other.counts().awake, 0);
+  EXPECT_EQ(other.counts().touching, world.counts().touching);
+  world.apply_impulse(boxes[2], {1, 0}), other.apply_impulse(boxes[2], {1, 0});
+  EXPECT_EQ(other.counts().awake, 5);
+  for (int i = 0; i < 60; ++i) {
+    world.step(), other.step();
+    ASSERT_EQ(world.hash(), other.hash());
+  }
+}
+
+TYPED_TEST(Snapshot, HandlesStayValid) {
+  BusyWorld<TypeParam> busy = make_busy_world<TypeParam>();
+  run(busy, 50);
+  const BodyId gone = busy.pile[20], kept = busy.pile[21];
+  busy.world.destroy(gone);
+  const std::vector<std::byte> bytes = save(busy.world);
+  busy.world.destroy(kept);
+  const BodyId later = busy.world.create_body({}, test::shape_of(0));
+  EXPECT_EQ(later.index, kept.index);
+  restore(busy.world, bytes);
+  EXPECT_TRUE(busy.world.valid(kept));
+  EXPECT_FALSE(busy.world.valid(gone));
+  EXPECT_FALSE(busy.world.valid(later));
+  EXPECT_EQ(busy.world.name(kept), "body 21");
+  EXPECT_EQ(busy.world.user_data(kept), 21u);
+  EXPECT_TRUE(busy.world.valid(busy.joints[0]));
+  EXPECT_TRUE(busy.world.valid(busy.chain));
+  EXPECT_EQ(busy.world.segments(busy.chain).size(), 6u);
+  // The slot that was freed last is taken next, in both.
+  const BodyId next = busy.world.create_body({});
+  EXPECT_EQ(next.index, gone.index);
+}
+
+TYPED_TEST(Snapshot, SavingWhatWasRestoredGivesTheSameBytes) {
+  BusyWorld<TypeParam> busy = make_busy_world<TypeParam>();
+  run(busy, 200);
+  const std::vector<std::byte> bytes = save(busy.world);
+  BasicWorld<TypeParam> other;
+  restore(other, bytes);
+  EXPECT_EQ(save(other), bytes);
+  std::vector<std::byte> again{std::byte{1}};
+  save(busy.world, again);
+  EXPECT_EQ(again, bytes);
+}
+
+// Equal worlds in different memory: bytes that are not values (padding, pointers) would differ.
+TYPED_TEST(Snapshot, EqualWorldsHaveEqualBytes) {
+  const auto make = [](int dirt) {
+    std::vector<char> heap(100000, static_cast<char>(dirt));
+    heap.clear(), heap.shrink_to_fit();
+    auto busy = std::make_unique<BusyWorld<TypeParam>>(make_busy_world<TypeParam>());
+    run(*busy, 120);
+    return save(busy->world);
+  };
+  EXPECT_EQ(make(0x11), make(0xEE));
+}
+
+TYPED_TEST(Snapshot, LeavesTheHookWhereItIs) {
+  BusyWorld<TypeParam> busy = make_busy_world<TypeParam>();
+  int asked = 0;
+  ShapeDefinition box{.geometry = Box{1, 1}};
+  box.pre_solve = true;
+  busy.world.create_body({.position = {2, 1}}, box);
+  busy.world.on_pre_solve([&](const ContactReading& contact) {
+    asked += contact.count > 0 ? 1 : 0;
+    return true;
+  });
+  const std::vector<std::byte> bytes = save(busy.world);
+  const test::Handles handles = busy.handles();
+  run(busy, 60);
+  const int before = asked;
+  EXPECT_GT(before, 0);
+  restore(busy.world, bytes);
+  busy.handles() = handles;
+  run(busy, 60);
+  EXPECT_EQ(asked, 2 * before);
+}
+
+TEST(SnapshotBytes, RefusesTheOtherPrecision) {
+  const BasicWorld<double> other;
+  BasicWorld<float> world;
+  EXPECT_EQ(refusal(world, save(other)), "precision");
+}
+
+TEST(SnapshotBytes, RefusesWhatIsNoSnapshot) {
+  BusyWorld<float> busy = make_busy_world<float>(15);
+  const std::uint64_t before = full_hash(busy.world);
+  EXPECT_EQ(refusal(busy.world, {}), "header");
+  const std::vector<std::byte> zeros(1000);
+  EXPECT_EQ(refusal(busy.world, zeros), "header");
+  std::vector<std::byte> bytes = save(busy.world);
+  bytes[8] ^= std::byte{2};
+  EXPECT_EQ(refusal(busy.world, bytes), "version");
+  bytes = save(busy.world);
+  bytes.push_back(std::byte{0});
+  EXPECT_EQ(refusal(busy.world, bytes), "size");
+  sign_anew(bytes);
+  EXPECT_EQ(refusal(busy.world, bytes), "size");
+  EXPECT_EQ(full_hash(busy.world), before);
+}
+
+// No cut and no flipped bit goes unnoticed, and the world stays what it was.
+TEST(SnapshotBytes, RefusesEveryTruncationAndFlippedBit) {
+  BusyWorld<float> busy = make_busy_world<float>(16);
+  run(busy, 90);
+  const std::vector<std::byte> bytes = save(busy.world);
+  const std::uint64_t before = full_hash(busy.world);
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 97) {
+    EXPECT_NE(refusal(busy.world, std::span(bytes).first(size)), "") << size;
+  }
+  std::vector<std::byte> changed = bytes;
+  for (std::size_t at = 0; at < bytes.size(); at += 1 + at / 211) {
+    changed[at] ^= std::byte{1} << (at % 8);
+    EXPECT_NE(refusal(busy.world, changed), "") << at;
+    changed[at] = bytes[at];
+  }
+  EXPECT_EQ(full_hash(busy.world), before);
+}
+
+// Two sign bits: a sum whose upper bits carry nothing downwards would let them cancel.
+TEST(SnapshotBytes, ChecksumSeesTwoFlippedSigns) {
+  std::vector<std::byte> bytes(64);
+  const std::uint64_t before = checksum(bytes);
+  bytes[15] = bytes[39] = std::byte{0x80};
+  EXPECT_NE(checksum(bytes), before);
+}
+
+// A cut with a fitting checksum is refused as well: by what it holds.
+TEST(SnapshotBytes, RefusesSignedTruncations) {
+  BusyWorld<float> busy = make_busy_world<float>(16);
+  run(busy, 90);
+  const std::vector<std::byte> bytes = save(busy.world);
+  for (std::size_t size = kHeader; size < bytes.size(); size += 1 + size / 61) {
+    std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    sign_anew(cut);
+    EXPECT_NE(refusal(busy.world, cut), "") << size;
+  }
+}
+
+// Bytes that somebody changed on purpose, with the checksum made to fit: refused, or a world that can be
+// stepped, changed and saved without reading or writing where nothing is (sanitizers watch), even though its
+// physics may be nonsense.
+TEST(SnapshotBytes, SignedDamageIsRefusedOrHarmless) {
+  BusyWorld<float> busy = make_busy_world<float>(16);
+  run(busy, 140);
+  const std::vector<std::byte> bytes = save(busy.world);
+  test::Random random;
+  int refused = 0, taken = 0;
+  std::vector<std::byte> changed = bytes;
+  for (std::size_t at = kHeader; at < bytes.size(); at += 1 + static_cast<std::size_t>(random.below(60))) {
+    const int how = random.below(3);
+    changed[at] = how == 0   ? bytes[at] ^ (std::byte{1} << random.below(8))
+                  : how == 1 ? std::byte{0xFF}
+                             : std::byte{0x7F};
+    sign_anew(changed);
+    BasicWorld<float> world;
+    try {
+      restore(world, changed);
+      ++taken;
+      for (int i = 0; i < 4; ++i) world.step();
+      for (const BodyId body : world.bodies()) world.apply_impulse(body, {0.1, 0.1});
+      for (const BodyId body : world.bodies()) {
+        if (random.below(4) == 0) world.destroy(body);
+      }
+      world.step();
+      save(world);
+    } catch (const Error& error) {
+      const bool known = error.kind() == Error::Kind::Run || error.subject() == "snapshot";
+      EXPECT_TRUE(known || error.kind() == Error::Kind::Value) << error.what();
+      ++refused;
+    }
+    changed[at] = bytes[at];
+  }
+  // Most bytes are numbers that may be anything.
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(taken, 100);
+}
+
+}  // namespace
+}  // namespace plumb
