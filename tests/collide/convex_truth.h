@@ -130,16 +130,21 @@ class Dice {
         return disc_corner(point(0.5 * size));
       case Capsule: {
         const Vec2d first = point(size);
-        return capsule_corners(first, first + size * number(0.1, 1) * direction());
+        const double length = size * number(0.1, 1);
+        return capsule_corners(first, first + length * direction());
       }
       case Box: {
         const double half_width = size * number(0.1, 1), half_height = size * number(0.1, 1);
-        return box_corners(half_width, half_height, point(0.3 * size), rotation_of(number(-4, 4)));
+        const Vec2d center = point(0.3 * size);
+        return box_corners(half_width, half_height, center, rotation_of(number(-4, 4)));
       }
       default: {
         std::vector<Vec2d> points;
         const int count = integer(3, 12);
-        for (int i = 0; i < count; ++i) points.push_back(size * number(0.5, 1) * direction());
+        for (int i = 0; i < count; ++i) {
+          const double distance = size * number(0.5, 1);
+          points.push_back(distance * direction());
+        }
         try {
           return convex_hull(points);
         } catch (const std::exception&) {  // three points that happen to be in a line
