@@ -9,6 +9,7 @@
 #include "engine/solve/joint_block.h"
 #include "engine/solve/joint_coordinate.h"
 #include "engine/solve/joint_point.h"
+#include "engine/solve/joint_share.h"
 
 namespace plumb {
 
@@ -32,6 +33,7 @@ struct JointConstraint {
   using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
 
   int joint = 0, a = 0, b = 0;
+  Real share = 1;                   ///< of its impulses that it applies at a time
   Real known_h = 0;                 ///< s, that the rules have been set for
   Vec2<Real> offset{}, offset_a{};  ///< m, at the step's start
   Vec2<Real> arm_b{};
@@ -87,16 +89,32 @@ struct JointConstraint {
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
-    if constexpr (Rows::kTurn) turn.evaluate(at.angle, v, step);
+    if constexpr (Rows::kTurn) turn.evaluate(at.angle, v, step, share);
     for (int i = 0; i < kAxial; ++i) {
       axial[i].row = rows.axial[i];
-      axial[i].evaluate(rows.axial[i].residual, v, step);
+      axial[i].evaluate(rows.axial[i].residual, v, step, share);
     }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
-    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step);
+    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, share);
+  }
+
+  /// For the rows as they are.
+  JointMobility<Real> mobility(const SolverBodies<Real>& bodies) const {
+    const JointVelocities<Real> v = velocities(bodies);
+    JointMobility<Real> sum;
+    const auto add = [&](const JointRow<Real>& row) {
+      sum.a += v.m_a * length_squared(row.linear_a) + v.i_a * (row.angular_a * row.angular_a);
+      sum.b += v.m_b * length_squared(row.linear_b) + v.i_b * (row.angular_b * row.angular_b);
+    };
+    for (int i = 0; i < kAxial; ++i) add(axial[i].row);
+    if constexpr (kBlock > 0)
+      for (const JointRow<Real>& row : block.row) add(row);
+    if constexpr (Rows::kPoint) return point_mobility(v, point.point.arm_a, point.point.arm_b);
+    if constexpr (Rows::kTurn && kAxial == 0) return {v.i_a, v.i_b};
+    return sum;
   }
 
   void warm_start(const SolverBodies<Real>& bodies) const {
@@ -112,7 +130,7 @@ struct JointConstraint {
     JointVelocities<Real> v = velocities(bodies);
     if constexpr (Rows::kTurn) turn.solve(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
-    if constexpr (kBlock > 0) block.solve(v, step, which);
+    if constexpr (kBlock > 0) block.solve(v, step, which, share);
     if constexpr (Rows::kPoint) point.solve(v, which);
     store(v, bodies);
   }

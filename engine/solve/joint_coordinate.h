@@ -46,7 +46,7 @@ struct JointCoordinate {
   }
 
   /// `q`: the coordinate, at the pose of `row`.
-  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step) {
+  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, Real share) {
     if (count == 0) return;
     if constexpr (kAngular) {
       inverse_mass = v.i_a + v.i_b;
@@ -54,7 +54,7 @@ struct JointCoordinate {
       inverse_mass = v.inverse_mass(row, row);
     }
     const Real mass = inverse_mass > 0 ? 1 / inverse_mass : 0;
-    for (int i = 0; i < count; ++i) rule[i].terms(q, mass, step, solved[i].term);
+    for (int i = 0; i < count; ++i) rule[i].terms(q, mass, share, step, solved[i].term);
   }
   void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());

@@ -4,6 +4,7 @@
 
 #include "engine/joints/revolute_joint.h"
 #include "engine/solve/joint_point.h"
+#include "engine/solve/joint_share.h"
 
 namespace plumb {
 
@@ -11,6 +12,7 @@ namespace plumb {
 template <class Real>
 struct HingeConstraint {
   int joint = 0, a = 0, b = 0;
+  Real share = 1;    ///< of its impulses that it applies at a time
   Real known_h = 0;  ///< nothing here depends on it
   Vec2<Real> anchor_a{}, anchor_b{};
   Vec2<Real> offset{};  ///< m, at the step's start
@@ -34,8 +36,7 @@ struct HingeConstraint {
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
     offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
     impulse *= step.warm_start;
-    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
-    evaluate(bodies, step, motion_a, motion_b, JointVelocities<Real>(motion_a, motion_b));
+    evaluate(bodies, step);
   }
 
   void warm_start(const SolverBodies<Real>& bodies) const {
@@ -65,6 +66,15 @@ struct HingeConstraint {
     v.store(motion_a, motion_b);
   }
 
+  JointMobility<Real> mobility(const SolverBodies<Real>& bodies) const {
+    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    return point_mobility(JointVelocities<Real>(motion_a, motion_b), arm_a, arm_b);
+  }
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
+    evaluate(bodies, step, motion_a, motion_b, JointVelocities<Real>(motion_a, motion_b));
+  }
+
  private:
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
                 const BodyMotion<Real>& motion_a, const BodyMotion<Real>& motion_b,
@@ -75,8 +85,8 @@ struct HingeConstraint {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
     arm_a = point.arm_a;
     arm_b = point.arm_b;
-    bias = step.softness.bias_rate * point.gap;
-    mass = point_mass(v, arm_a, arm_b);
+    bias = (share * step.softness.bias_rate) * point.gap;
+    mass = share * point_mass(v, arm_a, arm_b);
   }
 };
 

@@ -22,6 +22,12 @@ struct JointSlot {
   bool moves_a() const { return dynamic_a && form != kMouse; }
 };
 
+/// The active joints of a body that gives way.
+struct BodyJoints {
+  std::uint32_t colours = 0;  ///< a bit each
+  std::int32_t count = 0;
+};
+
 /// A list that is not empty, with joints to solve.
 struct JointRun {
   JointForm form;
@@ -32,8 +38,8 @@ template <class Real>
 struct JointSet<Real>::Parts {
   std::vector<JointSlot> slots;
   std::vector<int> free;
-  std::vector<std::uint32_t> taken;  ///< by body: its joints' colours, a bit each
-  std::vector<JointRun> runs;        ///< in the order in which they are solved
+  std::vector<BodyJoints> taken;  ///< by body
+  std::vector<JointRun> runs;     ///< in the order in which they are solved
   JointStore<Real> store;
   int count = 0, active = 0;
 

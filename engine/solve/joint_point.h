@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/solve/joint_rule.h"
+#include "engine/solve/joint_share.h"
 #include "engine/solve/joint_velocities.h"
 
 namespace plumb {
@@ -15,6 +16,7 @@ struct Symmetric2 {
   friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
     return {m.xx * v.x + m.xy * v.y, m.xy * v.x + m.yy * v.y};
   }
+  friend Symmetric2 operator*(Real s, Symmetric2 m) { return {s * m.xx, s * m.xy, s * m.yy}; }
 };
 
 /// The effective mass of a point that two bodies share, the inverse of
@@ -39,6 +41,12 @@ Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Ve
   return {share, 0, share};
 }
 
+/// Traces of both bodies' parts of K.
+template <class Real>
+JointMobility<Real> point_mobility(const JointVelocities<Real>& v, Vec2<Real> arm_a, Vec2<Real> arm_b) {
+  return {2 * v.m_a + v.i_a * length_squared(arm_a), 2 * v.m_b + v.i_b * length_squared(arm_b)};
+}
+
 /// Both components of the gap between two anchors, solved at once, by a rule that bounds the vector's length.
 template <class Real>
 struct JointPoint {
@@ -55,12 +63,13 @@ struct JointPoint {
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
 
-  void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step) {
+  void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step,
+                Real share) {
     point = at;
     mass = point_mass(v, at.arm_a, at.arm_b);
     const Vec2<Real> before = bias[kSolve];
     RowTerm<Real> term[2]{};
-    rule.terms(1, 1, step, term);
+    rule.terms(1, 1, share, step, term);
     for (int pass = 0; pass < 2; ++pass) {
       bias[pass] = term[pass].bias * at.gap;
       mass_scale[pass] = term[pass].mass;

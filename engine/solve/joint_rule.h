@@ -40,12 +40,18 @@ struct SolverRule {
     if (role == RowRole::Spring) spring = softness<Real>(rule.spring.hertz, rule.spring.damping_ratio, h);
   }
 
-  /// Both terms for a coordinate at `q` whose effective mass is `mass`, at the poses after a substep: `relax`
-  /// of this substep, `solve` of the next one. A spring's force belongs to where the substep began.
-  void terms(Real q, Real mass, const JointStep<Real>& step, RowTerm<Real> (&term)[2]) const {
+  /// Both terms for a coordinate at `q` whose effective mass is `whole_mass`, at the poses after a substep:
+  /// `relax` of this substep, `solve` of the next one. A spring's force belongs to where the substep began.
+  void terms(Real q, Real whole_mass, Real share, const JointStep<Real>& step,
+             RowTerm<Real> (&term)[2]) const {
     const Real c = sign * (q - origin);
-    const Softness<Real> soft = role == RowRole::Spring ? spring : step.softness;
-    const RowTerm<Real> pull{soft.bias_rate * c, mass * soft.mass_scale, soft.impulse_scale};
+    const Real mass = share * whole_mass;
+    // A reduced share must not change what a spring comes to: all of it is reduced.
+    const Softness<Real>& rigid = step.softness;
+    const RowTerm<Real> pull =
+        role == RowRole::Spring
+            ? RowTerm<Real>{spring.bias_rate * c, mass * spring.mass_scale, share * spring.impulse_scale}
+            : RowTerm<Real>{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
     const RowTerm<Real> hold{0, mass, 0};
     switch (role) {
       case RowRole::Rigid:

@@ -8,6 +8,7 @@
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
 #include "engine/solve/joint_parts.h"
+#include "engine/solve/joint_share.h"
 
 namespace plumb {
 namespace {
@@ -58,24 +59,28 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
 template <class Real>
 int JointSet<Real>::Parts::free_colour(const JointSlot& s) const {
   std::uint32_t used = 0;
-  if (s.moves_a()) used |= taken[s.a];
-  if (s.dynamic_b) used |= taken[s.b];
+  if (s.moves_a()) used |= taken[s.a].colours;
+  if (s.dynamic_b) used |= taken[s.b].colours;
   return std::min(std::countr_one(used), kOverflowColour);
 }
 
 template <class Real>
 void JointSet<Real>::Parts::mark(const JointSlot& s, bool here) {
-  if (s.colour >= kJointColours) return;
-  const std::uint32_t bit = std::uint32_t{1} << s.colour;
-  for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}})
-    if (moves) taken[body] = here ? taken[body] | bit : taken[body] & ~bit;
+  if (s.colour == kParked) return;
+  const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
+  for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
+    if (!moves) continue;
+    BodyJoints& joints = taken[body];
+    joints.colours = here ? joints.colours | bit : joints.colours & ~bit;
+    joints.count += here ? 1 : -1;
+  }
 }
 
 template <class Real>
 void JointSet<Real>::Parts::create(int joint) {
   JointSlot& s = slot(joint);
   const std::size_t bodies = static_cast<std::size_t>(std::max(s.a, s.b)) + 1;
-  if (taken.size() < bodies) taken.resize(std::max(bodies, 2 * taken.size()), 0);
+  if (taken.size() < bodies) taken.resize(std::max(bodies, 2 * taken.size()));
   s.form = form_of(s.definition);
   with(s.form, [&](auto& lists) {
     typename std::decay_t<decltype(lists[0])>::value_type constraint;
@@ -253,7 +258,12 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
         using Definition = typename std::decay_t<decltype(constraint)>::Definition;
         if (constraint.known_h != step.h)
           constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
+        constraint.share = 1;
         constraint.prepare(bodies, step);
+        const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
+        if (std::max(count_a, count_b) < kManyJoints) continue;
+        constraint.share = joint_share(constraint.mobility(bodies), count_a, count_b);
+        if (constraint.share < 1) constraint.evaluate(bodies, step);
       }
     });
   }

@@ -42,6 +42,8 @@ class JointSet {
   JointSet(JointSet&& other) noexcept;
   JointSet& operator=(JointSet other) noexcept;
   ~JointSet();
+  /// Becomes a copy of `other` in the room that is there: nothing is allocated where it suffices.
+  void assign(const JointSet& other);
 
   /// A new joint between bodies `body_a` and `body_b`; returns its slot, which stays its own until `remove`.
   /// Slots that are free are taken again, the last one freed first. `centre_a` and `centre_b` are the centres
