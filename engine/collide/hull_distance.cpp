@@ -7,6 +7,12 @@
 namespace plumb {
 namespace {
 
+constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+
+// Below this part of their size, the way between two points may have too few digits: the square root of the
+// rounding, and some more.
+constexpr double kClose = 1e-7;
+
 /// A corner of the Minkowski difference b - a, whose distance from the origin is that of a and b.
 struct Vertex {
   Vec2d w;
@@ -90,24 +96,25 @@ Simplex first_simplex(const Hulls<Real>& hulls, const SimplexCache* cache) {
 /// The signed distance along one edge's normal.
 struct Axis {
   double separation = -std::numeric_limits<double>::infinity();
-  // In the frame of the edge's shape:
   Vec2d normal;   ///< outward
   Vec2d on_edge;  ///< below the deepest corner of the other shape
 };
 
 /// The edge of `shape` beyond which `other` lies farthest, or least deep.
 template <class Real>
-Axis best_axis(const Convex<Real>& shape, const Convex<Real>& other, const Pose<double>& other_in_shape) {
+Axis best_axis(const Convex<Real>& shape, const Pose<double>& at, const Convex<Real>& other,
+               const Pose<double>& other_at) {
   Axis best;
   for (int i = 0; i < shape.count && shape.count > 1; ++i) {
-    const Vec2d p = shape.corners[i].point.template as<double>();
-    const Vec2d e = shape.corners[i + 1 < shape.count ? i + 1 : 0].point.template as<double>() - p;
+    const Vec2d start = shape.corners[i].point.template as<double>();
+    const Vec2d end = shape.corners[i + 1 < shape.count ? i + 1 : 0].point.template as<double>();
+    const Vec2d p = at.position + at.rotation * start, e = at.rotation * (end - start);
     const double length = std::sqrt(length_squared(e));
     if (!(length > 0)) continue;
     const Vec2d normal{e.y / length, -e.x / length};
-    const int j = farthest_corner(other, -(other_in_shape.rotation.inverse() * normal));
+    const int j = farthest_corner(other, -(other_at.rotation.inverse() * normal));
     const Vec2d from_p =
-        other_in_shape.position + other_in_shape.rotation * other.corners[j].point.template as<double>() - p;
+        other_at.position + other_at.rotation * other.corners[j].point.template as<double>() - p;
     const double separation = dot(normal, from_p);
     if (!(separation > best.separation)) continue;
     // The corner is above the edge, unless it belongs to a parallel edge: then what they share will do.
@@ -117,31 +124,14 @@ Axis best_axis(const Convex<Real>& shape, const Convex<Real>& other, const Pose<
   return best;
 }
 
-/// Hulls that touch or overlap: the least translation that parts them is along an edge's normal, because the
-/// Minkowski difference has no other edges.
+/// The way from one corner to another that it nearly touches has few digits, and may not part the shapes: an
+/// edge's normal does then.
 template <class Real>
-HullDistance overlap(const Hulls<Real>& hulls) {
-  const Pose<double>& pose = hulls.b_in_a;
-  const Rotation<double> back = pose.rotation.inverse();
-  const Axis of_a = best_axis(hulls.a, hulls.b, pose);
-  const Axis of_b = best_axis(hulls.b, hulls.a, {-(back * pose.position), back});
-  HullDistance out;
-  if (std::max(of_a.separation, of_b.separation) == -std::numeric_limits<double>::infinity()) {
-    out.normal = {0, 1};  // two points in one place leave the direction open: up
-    out.point_a = hulls.corner_a(0);
-    out.point_b = hulls.corner_b(0);
-  } else if (of_a.separation >= of_b.separation) {
-    out.normal = of_a.normal;
-    out.separation = of_a.separation;
-    out.point_a = of_a.on_edge;
-    out.point_b = of_a.on_edge + of_a.separation * out.normal;
-  } else {
-    out.normal = -(pose.rotation * of_b.normal);
-    out.separation = of_b.separation;
-    out.point_b = pose.position + pose.rotation * of_b.on_edge;
-    out.point_a = out.point_b - of_b.separation * out.normal;
-  }
-  return out;
+Vec2d clear_normal(const Hulls<Real>& hulls, const HullDistance& corners) {
+  const double found = separation_along(hulls.a, hulls.b, hulls.b_in_a, corners.normal);
+  if (found >= 0.5 * corners.separation) return corners.normal;
+  const HullDistance edges = edge_separation(hulls.a, hulls.b, hulls.b_in_a);
+  return edges.separation > found ? edges.normal : corners.normal;
 }
 
 template <class Real>
@@ -153,6 +143,8 @@ HullDistance apart(const Hulls<Real>& hulls, const Simplex& simplex) {
     out.normal = {p.w.x / out.separation, p.w.y / out.separation};
     out.point_a = hulls.corner_a(p.a);
     out.point_b = hulls.corner_b(p.b);
+    if (out.separation < kClose * (size_of(out.point_a) + size_of(out.point_b)))
+      out.normal = clear_normal(hulls, out);
     return out;
   }
   const Vertex& q = simplex.vertices[1];
@@ -177,10 +169,41 @@ void store(const Simplex& simplex, SimplexCache* cache) {
 
 }  // namespace
 
+// The least translation that parts two hulls is along an edge's normal, because their Minkowski difference
+// has no other edges.
+template <class Real>
+HullDistance edge_separation(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a) {
+  const Axis of_a = best_axis(a, {}, b, b_in_a), of_b = best_axis(b, b_in_a, a, {});
+  HullDistance out;
+  if (std::max(of_a.separation, of_b.separation) == -std::numeric_limits<double>::infinity()) {
+    const Hulls<Real> hulls{a, b, b_in_a};
+    out.normal = {0, 1};  // two points in one place leave the direction open: up
+    out.point_a = hulls.corner_a(0);
+    out.point_b = hulls.corner_b(0);
+  } else if (of_a.separation >= of_b.separation) {
+    out.normal = of_a.normal;
+    out.separation = of_a.separation;
+    out.point_a = of_a.on_edge;
+    out.point_b = of_a.on_edge + of_a.separation * out.normal;
+  } else {
+    out.normal = -of_b.normal;
+    out.separation = of_b.separation;
+    out.point_b = of_b.on_edge;
+    out.point_a = out.point_b - of_b.separation * out.normal;
+  }
+  return out;
+}
+
+template <class Real>
+double separation_along(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
+                        Vec2d normal) {
+  return dot(normal, Hulls<Real>{a, b, b_in_a}.lowest(normal).w);
+}
+
 template <class Real>
 HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                            SimplexCache* cache) {
-  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  constexpr double kGrowth = 1 + 1e-12;  // more than roundings of a square
   constexpr double kSmallest = std::numeric_limits<double>::min();
   constexpr int kMaxIterations =
       2 * kMaxCorners;  // seen: below 15. Roundings may cycle; the answer is good then
@@ -192,23 +215,29 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
     ++iteration;
     const Vertex next = hulls.lowest(simplex.outward);
     // No vertex lies nearer to the origin along the normal, but for roundings. One of the simplex itself
-    // never gains more than them: |m . (p - q)| with m = fl(p - q) turned is below 2 epsilon |m| (|p| + |q|).
+    // never gains more than them: |m . (p - q)| with m = fl(p - q) turned stays below 2 epsilon |m| (|p| +
+    // |q|).
     const Vec2d reference = simplex.vertices[0].w;
     const double gain = dot(simplex.outward, reference - next.w);
     if (!(gain > kRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w)))) break;
-    simplex =
+    const Simplex nearer =
         simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
-    touching = simplex.count == 3 || !(simplex.square > kSmallest);
+    // With something to gain, what is nearest now is nearer than before, unless before was nothing but
+    // rounding: the origin is on the segment, and the difference lies on both sides of it.
+    touching = nearer.count == 3 || !(nearer.square > kSmallest) || nearer.square > kGrowth * simplex.square;
+    simplex = nearer;
   }
   store(simplex, cache);
-  HullDistance out = touching ? overlap(hulls) : apart(hulls, simplex);
+  HullDistance out = touching ? edge_separation(a, b, b_in_a) : apart(hulls, simplex);
   out.iterations = iteration;
   return out;
 }
 
-#define PLUMB_INSTANTIATE(Real)                                                                      \
-  template HullDistance hull_distance(const Convex<Real>&, const Convex<Real>&, const Pose<double>&, \
-                                      SimplexCache*);
+#define PLUMB_INSTANTIATE(Real)                                                                         \
+  template HullDistance hull_distance(const Convex<Real>&, const Convex<Real>&, const Pose<double>&,    \
+                                      SimplexCache*);                                                   \
+  template HullDistance edge_separation(const Convex<Real>&, const Convex<Real>&, const Pose<double>&); \
+  template double separation_along(const Convex<Real>&, const Convex<Real>&, const Pose<double>&, Vec2d);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)
 #undef PLUMB_INSTANTIATE

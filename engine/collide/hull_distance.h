@@ -45,7 +45,7 @@ double reach_of(const Convex<Real>& shape) {
 /// The distance of two hulls without their rounding, in a's frame and in double precision.
 struct HullDistance {
   Vec2d point_a{}, point_b{};  ///< m, on the hulls
-  Vec2d normal{};              ///< unit, from a to b
+  Vec2d normal{};              ///< unit, from a to b; parts them if they are apart
   double separation = 0;       ///< m, negative where they overlap: then the least way out
   int iterations = 0;
 };
@@ -56,5 +56,14 @@ struct HullDistance {
 template <class Real>
 HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                            SimplexCache* cache);
+
+/// The largest separation along the normal of an edge of either: the least way out of an overlap.
+template <class Real>
+HullDistance edge_separation(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a);
+
+/// How far b lies beyond a along `normal` (unit, in a's frame), m: the distance is no less for any normal.
+template <class Real>
+double separation_along(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
+                        Vec2d normal);
 
 }  // namespace plumb

@@ -17,8 +17,9 @@ CastResult<Real> hit_at(double fraction, bool overlapped, const HullDistance& hu
 
 }  // namespace
 
-// Along a line the distance of convex shapes is a convex function of the way. Newton's method from the near
-// side therefore never passes the root: the normal at hand shows that nothing touches before the next point.
+// Whatever lies beyond a along some normal stays clear of it at least until the motion along that normal has
+// used up the separation. Along the line of nearest points this is Newton's method on the distance, a convex
+// function of the way, from the near side.
 template <class Real>
 CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                             Vec2<Real> translation) {
@@ -28,24 +29,26 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
   const double radius_a = static_cast<double>(a.radius), radius = radius_a + static_cast<double>(b.radius);
   const Vec2d start = b_in_a.position.template as<double>(), way = translation.template as<double>();
   Pose<double> pose{start, {static_cast<double>(b_in_a.rotation.c), static_cast<double>(b_in_a.rotation.s)}};
-  const double size = reach_of(a) + reach_of(b) + radius;
-  const double rounding = kRounding * (size + std::abs(start.x) + std::abs(start.y));
+  const double rounding =
+      kRounding * (reach_of(a) + reach_of(b) + radius + std::abs(start.x) + std::abs(start.y));
 
   SimplexCache cache;
   HullDistance hulls = hull_distance(a, b, pose, &cache);
-  double gap = hulls.separation - radius;
-  if (gap < -rounding) return hit_at<Real>(0, true, hulls, radius_a);
+  if (hulls.separation - radius < -rounding) return hit_at<Real>(0, true, hulls, radius_a);
   double fraction = 0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0;; ++iteration) {
+    const bool touching = hulls.separation - radius <= rounding;
+    const double gap = touching ? 0 : separation_along(a, b, pose, hulls.normal) - radius;
     const double approach = -dot(hulls.normal, way);
-    if (!(approach > 0)) return {};  // this normal keeps them apart for good
-    const double next = fraction + std::max(gap, 0.0) / approach;
+    // Once it keeps them apart, it does so for good.
+    if (!(approach > 0) && (gap > 0 || !(fraction > 0))) return {};
+    if (!(gap > 0) || iteration == kMaxIterations) break;
+    const double next = fraction + gap / approach;
     if (next > 1) return {};
-    if (gap <= rounding || next <= fraction) break;
+    if (next <= fraction) break;
     fraction = next;
     pose.position = start + fraction * way;
     hulls = hull_distance(a, b, pose, &cache);
-    gap = hulls.separation - radius;
   }
   return hit_at<Real>(fraction, false, hulls, radius_a);
 }

@@ -73,6 +73,39 @@ TYPED_TEST(Distance, AgreesWithTheDifferenceHull) {
   EXPECT_LT(overlaps, kCases / 2);
 }
 
+// Moved to where they touch, but for a rounding or a little more: the direction of two corners is mostly
+// rounding then, but what is returned still parts the shapes.
+TYPED_TEST(Distance, NearlyTouching) {
+  using Real = TypeParam;
+  Random random(8);
+  int apart = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double size = random.decade(-6, 6);
+    const Shape<Real> a = truth::random_shape<Real>(random, size),
+                      b = truth::random_shape<Real>(random, size);
+    Pose<Real> pose{(size * random.uniform(0, 4) * random.direction()).template as<Real>(),
+                    random.rotation<Real>()};
+    const Convex<Real> hull_a{a.view().corners, a.view().count, 0},
+        hull_b{b.view().corners, b.view().count, 0};
+    const auto before = distance<Real>(hull_a, hull_b, pose);
+    pose.position -= (before.distance - static_cast<Real>(size * random.decade(-19, -5))) * before.normal;
+    const auto got = distance<Real>(hull_a, hull_b, pose);
+    const auto in_a = truth::points_of(hull_a), in_b = truth::placed(hull_b, truth::wide(pose));
+    const Wide gap = std::max(truth::signed_distance(truth::difference_hull(in_a, in_b), {}), Wide(0));
+    const Wide scale =
+        extent(hull_a) + extent(hull_b) + std::sqrt(length_squared(truth::wide(pose).position));
+    const Wide ulp = std::numeric_limits<Real>::epsilon(), rounding = 6 * kDouble * scale;
+    SCOPED_TRACE(testing::Message() << "case " << k);
+    ASSERT_TRUE(before.distance == 0 || truth::near(got.distance, gap, rounding + ulp * gap));
+    ASSERT_LE(got.iterations, 12);
+    const Point n = got.normal.template as<Wide>();
+    if (before.distance == 0 || (a.corners.size() < 3 && b.corners.size() < 3)) continue;
+    ++apart;
+    ASSERT_GE(truth::gap_along(in_a, in_b, n), gap / 2 - rounding - 2 * ulp * scale);
+  }
+  EXPECT_GT(apart, 10000);
+}
+
 TYPED_TEST(Distance, SixtyFourCorners) {
   using Real = TypeParam;
   Random random(2);
