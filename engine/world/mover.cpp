@@ -1,0 +1,325 @@
+#include "engine/world/mover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/math/trigonometry.h"
+#include "engine/world/mover_senses.h"
+#include "engine/world/plane_solver.h"
+#include "engine/world/validate.h"
+
+namespace plumb {
+namespace {
+
+// Surfaces that it may run into in one move, and rounds of pushing out of overlaps: more than corners have.
+constexpr int kMostRounds = 16;
+constexpr int kMostPushes = 8;
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+// Half planes of one move.
+struct Planes {
+  std::array<HalfPlane, 2 * kMostRounds> items{};
+  std::size_t count = 0;
+  void add(HalfPlane plane) {
+    if (count < items.size()) items[count++] = plane;
+  }
+  Vec2d nearest(Vec2d wanted) const { return solve_planes(std::span(items.data(), count), wanted).point; }
+};
+
+// One move in its parts; position and velocity are what has become of them so far.
+template <class Real>
+class Move {
+ public:
+  Move(const BasicWorld<Real>& world, const Capsule& capsule, const MoverOptions& options, double dt)
+      : world_(world), options_(options), senses_(world, capsule, options), dt_(dt) {}
+
+  MoverResult run(Vec2d position, Vec2d velocity) {
+    position_ = position, velocity_ = velocity;
+    push_out();
+    feel_ground();
+    const double press = std::max(0.0, -dot(velocity_, senses_.up()));
+    remaining_ = dt_;
+    for (int round = 0; round < kMostRounds && remaining_ > 0; ++round) {
+      const bool goes_on = ground_ ? walk() : fly();
+      if (!goes_on) break;
+    }
+    if (ground_) stay_on_ground(press);
+    if (ground_) ride();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  void push_out();
+  void feel_ground();
+  bool walk();
+  bool fly();
+  bool step_up(double speed);
+  void change_ground(const MoverGround& ground);
+  void land(const MoverGround& ground);
+  void stay_on_ground(double press);
+  void ride();
+  void finish();
+
+  Vec2d velocity_of(const MoverContact& contact) const;
+  double note_hit(const MoverContact& contact, Vec2d velocity);
+  void block(const MoverContact& contact, Vec2d velocity);
+
+  const BasicWorld<Real>& world_;
+  const MoverOptions& options_;
+  MoverSenses<Real> senses_;
+  double dt_, remaining_ = 0;
+  Vec2d position_{}, velocity_{};
+  std::optional<MoverGround> ground_{};
+  Planes held_{};     // of bodies that it could not be pushed out of
+  Planes touched_{};  // what it touches now, for the way
+  Planes met_{};      // all that it met, for the velocity
+  MoverResult result_{};
+};
+
+// Of the ground as who stands on it sees it. The surface moves to the right along (n.y, -n.x).
+template <class Real>
+Vec2d Move<Real>::velocity_of(const MoverContact& contact) const {
+  const double surface = world_.material(contact.shape).surface_speed;
+  return world_.velocity_at(contact.body, contact.point) - surface * perpendicular(contact.normal);
+}
+
+// The deepest overlap first, until none is left: each adds the half plane out of it, and the way out is the
+// shortest into all of them. What does not move has the right of way.
+template <class Real>
+void Move<Real>::push_out() {
+  const Vec2d start = position_;
+  Planes all, still;
+  for (int push = 0; push < kMostPushes; ++push) {
+    const std::optional<MoverContact> deepest = senses_.deepest(position_, velocity_);
+    if (!deepest) return;
+    const double least = dot(deepest->normal, position_ - start) + senses_.skin() - deepest->gap;
+    const HalfPlane plane{deepest->normal, least};
+    all.add(plane);
+    if (world_.type(deepest->body) == BodyType::Static) still.add(plane);
+    PlaneSolution out = solve_planes(std::span(all.items.data(), all.count), {});
+    if (!out.feasible) out = solve_planes(std::span(still.items.data(), still.count), {});
+    const MoverWay way = senses_.go(position_, start + out.point - position_);
+    const bool stuck = way.travelled < 1e-3 * senses_.skin();
+    position_ = way.position;
+    if (stuck) break;
+  }
+  const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
+  if (!left || left->gap >= 0) return;
+  result_.squeezed = true;
+  held_.add({left->normal, 0});
+}
+
+template <class Real>
+void Move<Real>::feel_ground() {
+  const bool leaves = dot(velocity_, senses_.up()) > 0;
+  Vec2d standing = position_;
+  const std::optional<MoverGround> ground = senses_.find_ground(standing, 2 * senses_.skin());
+  if (!ground) return;
+  if (leaves) {
+    velocity_ += velocity_of(ground->contact);
+  } else {
+    position_ = standing, ground_ = ground;
+  }
+}
+
+// Notes a contact that it runs into at `velocity` (relative to the world), with the impulse; returns the
+// surface's speed along the normal afterwards.
+template <class Real>
+double Move<Real>::note_hit(const MoverContact& contact, Vec2d velocity) {
+  const Vec2d normal = contact.normal;
+  const double surface = dot(normal, world_.velocity_at(contact.body, contact.point));
+  const double closing = surface - dot(normal, velocity);
+  for (const MoverHit& hit : result_.hits) {
+    if (hit.shape == contact.shape && dot(hit.normal, normal) > 0.999) return surface;
+  }
+  double impulse = 0, gained = 0;
+  if (options_.mass > 0 && closing > 0 && world_.type(contact.body) == BodyType::Dynamic) {
+    // Inelastic: both go on at one speed, as far as the force reaches.
+    const double lever = cross(contact.point - world_.centre(contact.body), normal);
+    const double inertia = world_.inertia(contact.body);
+    const double gives = 1 / world_.mass(contact.body) + (inertia > 0 ? lever * lever / inertia : 0);
+    impulse = std::min(options_.push_force * dt_, closing / (1 / options_.mass + gives));
+    gained = impulse * gives;
+  }
+  result_.hits.push_back({contact.shape, contact.body, contact.point, normal, impulse});
+  return surface - gained;
+}
+
+template <class Real>
+void Move<Real>::block(const MoverContact& contact, Vec2d velocity) {
+  const double speed = std::min(0.0, note_hit(contact, velocity));
+  touched_.add({contact.normal, 0});
+  met_.add({contact.normal, speed});
+  // What is too steep to walk on is not climbed in the air either: it is a wall besides.
+  const double rise = dot(contact.normal, senses_.up());
+  const Vec2d across = contact.normal - rise * senses_.up();
+  if (rise > 0 && !senses_.is_walkable(contact.normal) && length(across) > 0) {
+    const double flat = length(across);
+    touched_.add({(1 / flat) * across, 0});
+    met_.add({(1 / flat) * across, speed / flat});
+  }
+}
+
+template <class Real>
+void Move<Real>::land(const MoverGround& ground) {
+  const Vec2d ground_velocity = velocity_of(ground.contact);
+  note_hit(ground.contact, velocity_);
+  velocity_ = met_.nearest(velocity_) - ground_velocity;
+  velocity_ = dot(velocity_, senses_.right()) * senses_.right();
+  ground_ = ground;
+  touched_.count = met_.count = 0;
+}
+
+// In the air: straight on, or along what it touches. False: it has come to the end of its way.
+template <class Real>
+bool Move<Real>::fly() {
+  Vec2d going = touched_.nearest(velocity_);
+  if (held_.count > 0) going = held_.nearest(going);
+  const double whole = remaining_ * length(going);
+  if (!(whole > 1e-9 * senses_.skin())) return false;
+  const MoverWay way = senses_.go(position_, remaining_ * going);
+  position_ = way.position;
+  if (!way.stop) return false;
+  remaining_ *= 1 - way.travelled / whole;
+  if (way.travelled > senses_.skin()) touched_.count = 0;
+  const bool rises = dot(going, senses_.up()) > 0;
+  const std::optional<MoverGround> ground = rises ? std::nullopt : senses_.ground_at(position_, *way.stop);
+  if (ground) {
+    land(*ground);
+  } else {
+    block(*way.stop, going);
+  }
+  return true;
+}
+
+// On the ground: along it, up steps, until something stops it. False: it has come to the end of its way.
+template <class Real>
+bool Move<Real>::walk() {
+  const double speed = dot(velocity_, senses_.right());
+  const Vec2d direction = (speed < 0 ? 1.0 : -1.0) * perpendicular(ground_->floor);
+  const double whole = remaining_ * std::abs(speed);
+  if (!(whole > 1e-9 * senses_.skin())) return false;
+  if (held_.count > 0 && dot(held_.items[0].normal, direction) < 0) {
+    velocity_ = {};
+    return false;
+  }
+  const MoverWay way = senses_.go(position_, whole * direction);
+  position_ = way.position;
+  remaining_ *= 1 - way.travelled / whole;
+  if (!way.stop) return false;
+  if (senses_.is_walkable(way.stop->normal)) {
+    change_ground({*way.stop, way.stop->normal});
+    return true;
+  }
+  if (step_up(speed)) return true;
+  // A surface that gives way lets it follow as fast as that.
+  const Vec2d ground_velocity = velocity_of(ground_->contact);
+  const double surface = note_hit(*way.stop, std::abs(speed) * direction + ground_velocity);
+  const double receding = std::max(0.0, dot(way.stop->normal, ground_velocity) - surface);
+  const double allowed = receding / std::max(-dot(way.stop->normal, direction), 1e-3);
+  if (allowed < std::abs(speed)) velocity_ = (speed < 0 ? -allowed : allowed) * senses_.right();
+  return false;
+}
+
+// Up, ahead and down again: where that leads to ground which is not higher than a step, it goes there.
+template <class Real>
+bool Move<Real>::step_up(double speed) {
+  const double whole = remaining_ * std::abs(speed), height = senses_.step_height();
+  if (!(height > 0) || !(whole > 0)) return false;
+  const MoverWay rise = senses_.go(position_, height * senses_.up());
+  const MoverWay ahead = senses_.go(rise.position, remaining_ * speed * senses_.right());
+  if (!(ahead.travelled > 1e-3 * senses_.skin())) return false;
+  Vec2d standing = ahead.position;
+  const std::optional<MoverGround> ground =
+      senses_.find_ground(standing, rise.travelled + 2 * senses_.skin());
+  if (!ground || senses_.height_of(ground->contact.point, position_) > height + senses_.skin()) return false;
+  position_ = standing;
+  remaining_ *= 1 - ahead.travelled / whole;
+  change_ground(*ground);
+  return true;
+}
+
+// Its velocity is relative to what it stands on.
+template <class Real>
+void Move<Real>::change_ground(const MoverGround& ground) {
+  if (ground.contact.shape != ground_->contact.shape) {
+    velocity_ += velocity_of(ground_->contact) - velocity_of(ground.contact);
+  }
+  ground_ = ground;
+}
+
+// Down to the ground as far as a step reaches, or off it.
+template <class Real>
+void Move<Real>::stay_on_ground(double press) {
+  const std::optional<MoverGround> ground =
+      senses_.find_ground(position_, senses_.step_height() + 2 * senses_.skin());
+  if (!ground) {
+    velocity_ = dot(velocity_, senses_.right()) * senses_.right() + velocity_of(ground_->contact);
+    ground_.reset();
+    return;
+  }
+  change_ground(*ground);
+  velocity_ = dot(velocity_, senses_.right()) * senses_.right();
+  note_hit(ground->contact, velocity_of(ground->contact) - press * senses_.up());
+}
+
+// The ground moves during dt, and takes it along: the point it stands on moves on a circle about the body's
+// centre, which moves on a line. It meets everything but the ground's own body on the way.
+template <class Real>
+void Move<Real>::ride() {
+  const MoverContact& contact = ground_->contact;
+  const Vec2d centre = world_.centre(contact.body), arm = contact.point - centre;
+  const Vec2d centre_velocity = world_.velocity(contact.body);
+  const Vec2d at_point = world_.velocity_at(contact.body, contact.point);
+  const Vec2d on_surface = velocity_of(contact) - at_point;
+  const Vec2d turned = rotation_of(dt_ * world_.angular_velocity(contact.body)) * arm - arm;
+  position_ = senses_.go(position_, dt_ * (centre_velocity + on_surface) + turned, contact.body).position;
+}
+
+template <class Real>
+void Move<Real>::finish() {
+  result_.position = position_;
+  result_.velocity = velocity_;
+  if (ground_) {
+    result_.on_ground = true;
+    result_.ground_normal = ground_->floor;
+    result_.ground = ground_->contact.body;
+    result_.ground_velocity = velocity_of(ground_->contact);
+    return;
+  }
+  if (held_.count > 0) met_.add(held_.items[0]);
+  result_.velocity = met_.nearest(velocity_);
+}
+
+}  // namespace
+
+template <class Real>
+MoverResult move(const BasicWorld<Real>& world, const Capsule& capsule, Vec2d position, Vec2d velocity,
+                 double dt, const MoverOptions& options) {
+  require_finite("mover", "position", position);
+  require_finite("mover", "velocity", velocity);
+  require_positive("mover", "dt", dt);
+  require_not_negative("mover", "mass", options.mass);
+  require_not_negative("mover", "push_force", options.push_force);
+  return Move<Real>(world, capsule, options, dt).run(position, velocity);
+}
+
+template <class Real>
+void apply_pushes(BasicWorld<Real>& world, const MoverResult& result) {
+  for (const MoverHit& hit : result.hits) {
+    if (hit.impulse > 0) world.apply_impulse(hit.body, -hit.impulse * hit.normal, hit.point);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                                    \
+  template MoverResult move(const BasicWorld<Real>&, const Capsule&, Vec2d, Vec2d, double, \
+                            const MoverOptions&);                                          \
+  template void apply_pushes(BasicWorld<Real>&, const MoverResult&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,139 @@
+#include "engine/world/mover_senses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/collide/hull_distance.h"
+#include "engine/math/trigonometry.h"
+#include "engine/world/placed_shape.h"
+#include "engine/world/validate.h"
+
+namespace plumb {
+namespace {
+
+constexpr double kSkinShare = 0.02;
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+Vec2d unit_up(Vec2d up) {
+  require_finite("mover", "up", up);
+  require_positive("mover", "up", length(up));
+  return (1 / length(up)) * up;
+}
+
+double cosine_of(double slope) {
+  require_not_negative("mover", "max_slope", slope);
+  return std::max(rotation_of(slope).c, 1e-3);
+}
+
+double skin_of(const MoverOptions& options, double radius) {
+  require_not_negative("mover", "skin", options.skin);
+  return options.skin > 0 ? options.skin : kSkinShare * radius;
+}
+
+}  // namespace
+
+template <class Real>
+MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& capsule,
+                               const MoverOptions& options)
+    : world_(world),
+      capsule_(capsule),
+      with_skin_(Capsule{capsule.start, capsule.end, capsule.radius + skin_of(options, capsule.radius)}),
+      filter_(options.filter),
+      up_(unit_up(options.up)),
+      radius_(capsule.radius),
+      skin_(skin_of(options, capsule.radius)),
+      step_height_(options.step_height),
+      walkable_(cosine_of(options.max_slope)),
+      lowest_(std::min(dot(capsule.start, up_), dot(capsule.end, up_)) - capsule.radius) {
+  require_not_negative("mover", "step_height", options.step_height);
+  filter_.sensors = false;
+}
+
+template <class Real>
+MoverWay MoverSenses<Real>::go(Vec2d from, Vec2d way, BodyId except) const {
+  const double whole = length(way);
+  if (!(whole > 0)) return {from, 0, {}};
+  // It looks a little farther than it goes, to stop before what lies just behind the end.
+  const double looked = whole + 2 * skin_;
+  const Vec2d direction = (1 / whole) * way;
+  std::optional<CastShapeResult> first;
+  cast_shape(world_, capsule_, from, 0, looked * direction, filter_, [&](const CastShapeResult& hit) {
+    if (hit.overlapped || hit.body == except) return 1.0;
+    const bool sooner = !first || hit.fraction < first->fraction ||
+                        (hit.fraction == first->fraction && hit.shape.index < first->shape.index);
+    if (sooner) first = hit;
+    return std::max(first->fraction, 1e-300);
+  });
+  if (!first) return {from + way, whole, {}};
+  // The gap along the normal falls by the cosine of the way: it is the skin at this distance before the hit.
+  const double cosine = std::max(-dot(first->normal, direction), 1e-12);
+  const double free = std::max(0.0, first->fraction * looked - skin_ / cosine);
+  if (free >= whole) return {from + way, whole, {}};
+  return {from + free * direction, free,
+          MoverContact{first->shape, first->body, first->point, first->normal, skin_}};
+}
+
+template <class Real>
+std::optional<MoverGround> MoverSenses<Real>::find_ground(Vec2d& position, double most) const {
+  const MoverWay way = go(position, -most * up_);
+  if (!way.stop) return {};
+  const std::optional<MoverGround> ground = ground_at(way.position, *way.stop);
+  if (ground) position = way.position;
+  return ground;
+}
+
+template <class Real>
+std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const MoverContact& contact) const {
+  constexpr double kUpright = 1e-3;
+  const double rise = dot(contact.normal, up_);
+  if (rise >= walkable_) return MoverGround{contact, contact.normal};
+  if (!(rise > kUpright) || height_of(contact.point, position) > step_height_ + skin_) return {};
+  // The capsule's round end touches the edge of a step, or a slope. What lies behind the edge tells.
+  const Vec2d across = contact.normal - rise * up_;
+  const Vec2d inward = (-1 / length(across)) * across;
+  const Vec2d above = contact.point + 0.25 * skin_ * inward + skin_ * up_;
+  const std::optional<RayResult> tread = ray_cast_closest(world_, above, -2 * skin_ * up_, filter_);
+  if (!tread || !is_walkable(tread->normal)) return {};
+  return MoverGround{contact, tread->normal};
+}
+
+template <class Real>
+std::optional<MoverContact> MoverSenses<Real>::contact_with(ShapeId shape, Vec2d position,
+                                                            Vec2d velocity) const {
+  const WorldData<Real>& w = world_.data();
+  const int index = static_cast<int>(shape.index);
+  const PlacedShape placed(w, index, position);
+  const Convex<double> other = placed.convex(), own = capsule_.convex();
+  const HullDistance hulls = hull_distance(other, own, Pose<double>{}, nullptr);
+  const double gap = hulls.separation - (other.radius + own.radius);
+  const BodyId body = world_.body(shape);
+  if (w.forms[index].chain) {
+    const Vec2d front = other.corners[0].normal;
+    const bool in_front = hulls.separation > 0 && dot(front, hulls.normal) > 1e-9 &&
+                          dot(front, capsule_.middle() - other.corners[0].point) > 0;
+    if (!in_front || gap < -0.5 * radius_) return {};
+    const Vec2d relative = velocity - world_.velocity_at(body, position + hulls.point_a);
+    if (gap < 0 && dot(relative, front) > 0) return {};
+  }
+  return MoverContact{shape, body, position + hulls.point_a + other.radius * hulls.normal, hulls.normal, gap};
+}
+
+template <class Real>
+std::optional<MoverContact> MoverSenses<Real>::deepest(Vec2d position, Vec2d velocity) const {
+  std::optional<MoverContact> worst;
+  overlap_shape(world_, with_skin_, position, 0, filter_, [&](ShapeId shape) {
+    const std::optional<MoverContact> contact = contact_with(shape, position, velocity);
+    if (!contact || contact->gap >= 0.5 * skin_) return true;
+    const bool deeper = !worst || contact->gap < worst->gap ||
+                        (contact->gap == worst->gap && shape.index < worst->shape.index);
+    if (deeper) worst = contact;
+    return true;
+  });
+  return worst;
+}
+
+template class MoverSenses<float>;
+template class MoverSenses<double>;
+
+}  // namespace plumb
