@@ -152,6 +152,16 @@ ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, con
                       reach, corner_pair(end, corner));
 }
 
+template <bool kOpen, class Real>
+inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real>& b,
+                                            const Faces<Real>& faces, const FacingEdges<Real>& edges,
+                                            Real reach, Vec2<Real> origin) {
+  ContactManifold<Real> out = clip(edges, reach, origin);
+  if (kOpen && out.count == 0)
+    out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges.reference_is_b, reach, origin);
+  return out;
+}
+
 /// Two hulls that meet at a face of one.
 template <class Real, class Admit>
 inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
@@ -163,9 +173,7 @@ inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b
     if (answer == Normal::Snap) edges = facing_edges<0>(a, faces.a.edge, b, false);
   }
   if (!edges.reference_is_b) admit.widen(edges);
-  const ContactManifold<Real> out = clip(edges, reach, origin);
-  if (out.count > 0 || !Admit::kOpen) return out;
-  return touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges.reference_is_b, reach, origin);
+  return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
 }
 
 /// Two hulls that are apart, whose nearest features are no two faces. The separation along a normal is the
