@@ -1,0 +1,42 @@
+#include "engine/math/four.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb {
+namespace {
+
+template <class Real>
+class FourLanes : public testing::Test {};
+using Reals = testing::Types<float, double>;
+TYPED_TEST_SUITE(FourLanes, Reals);
+
+template <class Real>
+void expect_lanes(const Four<Real>& found, const Real (&expected)[4]) {
+  Real lanes[4];
+  found.store(lanes);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(lanes[i], expected[i]) << i;
+}
+
+TYPED_TEST(FourLanes, EachLaneIsTheSumOfSingleNumbers) {
+  using Real = TypeParam;
+  const Real x[4] = {Real(0.1), -3, Real(1e10), Real(1e-20)}, y[4] = {7, Real(-0.3), Real(1.7), 2};
+  const Four<Real> a = Four<Real>::load(x), b = Four<Real>::load(y);
+  expect_lanes(a + b, {x[0] + y[0], x[1] + y[1], x[2] + y[2], x[3] + y[3]});
+  expect_lanes(a - b, {x[0] - y[0], x[1] - y[1], x[2] - y[2], x[3] - y[3]});
+  expect_lanes(a * b, {x[0] * y[0], x[1] * y[1], x[2] * y[2], x[3] * y[3]});
+  expect_lanes(least(a, b), {x[0], x[1], y[2], x[3]});
+  expect_lanes(Four<Real>::spread(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
+}
+
+TYPED_TEST(FourLanes, RowsBecomeColumns) {
+  using Real = TypeParam;
+  const Real rows[4][4] = {{0, 1, 2, 3}, {10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}};
+  const Four<Real> in[4] = {Four<Real>::load(rows[0]), Four<Real>::load(rows[1]), Four<Real>::load(rows[2]),
+                            Four<Real>::load(rows[3])};
+  Four<Real> out[4];
+  transpose(in, out);
+  for (int k = 0; k < 4; ++k) expect_lanes(out[k], {rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
+}
+
+}  // namespace
+}  // namespace plumb
