@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
 
-// Below this part of their size, the way between two points may have too few digits: the square root of the
-// rounding, and some more.
-constexpr double kClose = 1e-7;
-
 /// A corner of the Minkowski difference b - a, whose distance from the origin is that of a and b.
 struct Vertex {
   Vec2d w;
@@ -124,16 +120,6 @@ Axis best_axis(const Convex<Real>& shape, const Pose<double>& at, const Convex<R
   return best;
 }
 
-/// The way from one corner to another that it nearly touches has few digits, and may not part the shapes: an
-/// edge's normal does then.
-template <class Real>
-Vec2d clear_normal(const Hulls<Real>& hulls, const HullDistance& corners) {
-  const double found = separation_along(hulls.a, hulls.b, hulls.b_in_a, corners.normal);
-  if (found >= 0.5 * corners.separation) return corners.normal;
-  const HullDistance edges = edge_separation(hulls.a, hulls.b, hulls.b_in_a);
-  return edges.separation > found ? edges.normal : corners.normal;
-}
-
 template <class Real>
 HullDistance apart(const Hulls<Real>& hulls, const Simplex& simplex) {
   const Vertex& p = simplex.vertices[0];
@@ -143,8 +129,6 @@ HullDistance apart(const Hulls<Real>& hulls, const Simplex& simplex) {
     out.normal = {p.w.x / out.separation, p.w.y / out.separation};
     out.point_a = hulls.corner_a(p.a);
     out.point_b = hulls.corner_b(p.b);
-    if (out.separation < kClose * (size_of(out.point_a) + size_of(out.point_b)))
-      out.normal = clear_normal(hulls, out);
     return out;
   }
   const Vertex& q = simplex.vertices[1];

@@ -45,7 +45,7 @@ double reach_of(const Convex<Real>& shape) {
 /// The distance of two hulls without their rounding, in a's frame and in double precision.
 struct HullDistance {
   Vec2d point_a{}, point_b{};  ///< m, on the hulls
-  Vec2d normal{};              ///< unit, from a to b; parts them if they are apart
+  Vec2d normal{};              ///< unit, from a to b; parts them by the separation, to rounding
   double separation = 0;       ///< m, negative where they overlap: then the least way out
   int iterations = 0;
 };
