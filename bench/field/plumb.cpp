@@ -78,6 +78,10 @@ class PlumbWorld final : public FieldWorld {
   void destroy_body(BodyHandle body) override { world_.destroy(body_of(body)); }
 
   void create_revolute(BodyHandle a, BodyHandle b, const RevoluteDefinition& joint) override {
+    // plumb refuses a joint that has nothing to move.
+    if (world_.type(body_of(a)) != plumb::BodyType::Dynamic &&
+        world_.type(body_of(b)) != plumb::BodyType::Dynamic)
+      return;
     plumb::RevoluteDefinition out;
     out.anchor_a = joint.anchor_a;
     out.anchor_b = joint.anchor_b;
@@ -113,7 +117,8 @@ class PlumbWorld final : public FieldWorld {
             {"sleeping", settings_.sleeping ? "on" : "off"},
             {"threads", "1"},
             {"friction", "geometric mean"},
-            {"restitution", "the larger"}};
+            {"restitution", "the larger"},
+            {"joints_between_static_bodies", "left out"}};
   }
 
  private:
