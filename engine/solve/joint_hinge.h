@@ -76,9 +76,9 @@ struct HingeConstraint {
   }
 
  private:
-  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
-                const BodyMotion<Real>& motion_a, const BodyMotion<Real>& motion_b,
-                const JointVelocities<Real>& v) {
+  [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                                       const BodyMotion<Real>& motion_a, const BodyMotion<Real>& motion_b,
+                                       const JointVelocities<Real>& v) {
     const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
                                .rotation_a = bodies.rotation[a],
                                .rotation_b = bodies.rotation[b]};
@@ -86,7 +86,7 @@ struct HingeConstraint {
     arm_a = point.arm_a;
     arm_b = point.arm_b;
     bias = (share * step.softness.bias_rate) * point.gap;
-    mass = share * point_mass(v, arm_a, arm_b);
+    mass = point_mass(v, arm_a, arm_b, share);
   }
 };
 

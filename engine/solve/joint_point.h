@@ -16,16 +16,16 @@ struct Symmetric2 {
   friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
     return {m.xx * v.x + m.xy * v.y, m.xy * v.x + m.yy * v.y};
   }
-  friend Symmetric2 operator*(Real s, Symmetric2 m) { return {s * m.xx, s * m.xy, s * m.yy}; }
 };
 
-/// The effective mass of a point that two bodies share, the inverse of
+/// `share` of the effective mass of a point that two bodies share, the inverse of
 ///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
 /// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
 /// cancels. Where it is as good as 0 (nothing but turning is free, about one arm) the trace stands in: a
 /// short step.
 template <class Real>
-Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Vec2<Real> arm_b) {
+[[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
+                                                          Vec2<Real> arm_b, Real share) {
   const Real m = v.m_a + v.m_b;
   const Vec2<Real> a = v.i_a * arm_a, b = v.i_b * arm_b;
   const Real xx = m + (a.y * arm_a.y + b.y * arm_b.y);
@@ -34,11 +34,11 @@ Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a, Ve
   const Real determinant = m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b);
   const Real trace = xx + yy;
   if (determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
-    const Real inverse = 1 / determinant;
+    const Real inverse = share / determinant;
     return {inverse * yy, -inverse * xy, inverse * xx};
   }
-  const Real share = trace > 0 ? 1 / trace : 0;
-  return {share, 0, share};
+  const Real inverse = trace > 0 ? share / trace : 0;
+  return {inverse, 0, inverse};
 }
 
 /// Traces of both bodies' parts of K.
@@ -66,7 +66,7 @@ struct JointPoint {
   void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step,
                 Real share) {
     point = at;
-    mass = point_mass(v, at.arm_a, at.arm_b);
+    mass = point_mass(v, at.arm_a, at.arm_b, Real(1));
     const Vec2<Real> before = bias[kSolve];
     RowTerm<Real> term[2]{};
     rule.terms(1, 1, share, step, term);
