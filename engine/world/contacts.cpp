@@ -178,7 +178,7 @@ void set_touching(WorldData<Real>& w, int contact, bool touching) {
   const auto id = [&](int shape) {
     return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
   };
-  (touching ? w.events.begin : w.events.end).push_back({id(record.shape_a), id(record.shape_b)});
+  (touching ? w.log().begin : w.log().end).push_back({id(record.shape_a), id(record.shape_b)});
 }
 
 template <class Real>

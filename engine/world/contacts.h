@@ -10,6 +10,9 @@ namespace plumb {
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
+/// The categories that a shape's boxes are to be looked for in: a group may overrule its mask.
+inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 0xFFFFFFFFu : filter.mask; }
+
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
 

@@ -82,16 +82,19 @@ bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
   return solved;
 }
 
+// A box around all that the body covers on its way.
+template <class Real>
+Aabb<Real> way_of(const WorldData<Real>& w, int body) {
+  const Real extent = w.extents[body];
+  const Vec2<Real> end = w.position[body].template as<Real>(), start = end - w.motion[body].moved;
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(extent);
+}
+
 // Smallest fraction over all that the body meets.
 template <class Real>
 double first_impact(WorldData<Real>& w, int body) {
   double first = 1;
-  const BodyMotion<Real>& motion = w.motion[body];
-  const Real extent = w.extents[body];
-  const Vec2<Real> end = w.position[body].template as<Real>(), start = end - motion.moved;
-  const Vec2<Real> around{extent, extent};
-  Aabb<Real> swept{start - around, start + around};
-  swept = merged(swept, Aabb<Real>{end - around, end + around});
+  const Aabb<Real> swept = way_of(w, body);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.forms[shape].sensor || w.forms[shape].chain) continue;
     const auto visit = [&](int other, int) {
@@ -99,10 +102,30 @@ double first_impact(WorldData<Real>& w, int body) {
       first = std::min(first, fraction_of_impact(w, shape, other));
       return true;
     };
-    w.still_tree.query(swept, w.shapes[shape].filter.mask, visit);
-    w.moving_tree.query(swept, w.shapes[shape].filter.mask, visit);
+    w.still_tree.query(swept, seen_by(w.shapes[shape].filter), visit);
+    w.moving_tree.query(swept, seen_by(w.shapes[shape].filter), visit);
   }
   return first;
+}
+
+// Stores the whole way of a fast body, so that others find it.
+template <class Real>
+void show_way(WorldData<Real>& w, int body) {
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
+    tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, body), tree.box(w.shapes[shape].proxy)));
+  }
+}
+
+// Stores what is needed from here on again.
+template <class Real>
+void hide_way(WorldData<Real>& w, int body, Real dt) {
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, stored_box(w, shape, dt));
+    w.enlarged[body] = 1;
+    if (!w.shapes[shape].moved) w.moved_shapes.push_back(shape);
+    w.shapes[shape].moved = true;
+  }
 }
 
 template <class Real>
@@ -126,10 +149,13 @@ template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
   std::vector<double>& fractions = w.fractions;
   fractions.clear();
+  if (w.fast_bodies.empty()) return;
+  for (const int body : w.fast_bodies) show_way(w, body);
   // All are found before any is moved, so that two fast bodies see each other's whole way.
   for (const int body : w.fast_bodies) fractions.push_back(w.gives_way(body) ? first_impact(w, body) : 1);
   for (std::size_t i = 0; i < fractions.size(); ++i) {
     if (fractions[i] < 1) turn_back(w, w.fast_bodies[i], fractions[i], dt);
+    hide_way(w, w.fast_bodies[i], dt);
   }
 }
 

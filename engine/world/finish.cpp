@@ -28,7 +28,8 @@ template <class Real>
 void time_stillness(const WorldData<Real>& w, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
                     Real extent, Real dt) {
   const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
-  const bool is_still = record.may_sleep && speed <= Real(tuning::kSleepSpeed) * extent;
+  const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
+  const bool is_still = record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
   record.still_for = is_still && w.settings.sleeping ? record.still_for + dt : Real(0);
 }
 

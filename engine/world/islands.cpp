@@ -61,7 +61,7 @@ void fall_asleep(WorldData<Real>& w, int body) {
   BodyMotion<Real>& motion = w.motion[body];
   motion.velocity = {}, motion.angular_velocity = 0;
   motion.moved = {}, motion.turned = 0;
-  w.events.fell_asleep.push_back(id_of(w, body));
+  w.log().fell_asleep.push_back(id_of(w, body));
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void wake_body(WorldData<Real>& w, int body) {
   const auto wake = [&](int i) {
     if (!sleeps(i)) return;
     enter_awake(w, i);
-    w.events.woke.push_back(id_of(w, i));
+    w.log().woke.push_back(id_of(w, i));
     queue.push_back(i);
   };
   wake(body);

@@ -61,7 +61,7 @@ void break_joints(WorldData<Real>& w, double h) {
       ++i;
       continue;
     }
-    w.events.broken.push_back({{static_cast<std::uint32_t>(joint), w.joints.generation(joint)}});
+    w.log().broken.push_back({{static_cast<std::uint32_t>(joint), w.joints.generation(joint)}});
     remove_joint(w, joint);
   }
 }

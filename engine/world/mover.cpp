@@ -45,6 +45,7 @@ class Move {
       const bool goes_on = ground_ ? walk() : fly();
       if (!goes_on) break;
     }
+    if (!ground_) touch_down();
     if (ground_) stay_on_ground(press);
     if (ground_) ride();
     finish();
@@ -59,6 +60,7 @@ class Move {
   bool step_up(double speed);
   void change_ground(const MoverGround& ground);
   void land(const MoverGround& ground);
+  void touch_down();
   void stay_on_ground(double press);
   void ride();
   void finish();
@@ -101,10 +103,13 @@ void Move<Real>::push_out() {
     if (world_.type(deepest->body) == BodyType::Static) still.add(plane);
     PlaneSolution out = solve_planes(std::span(all.items.data(), all.count), {});
     if (!out.feasible) out = solve_planes(std::span(still.items.data(), still.count), {});
-    const MoverWay way = senses_.go(position_, start + out.point - position_);
-    const bool stuck = way.travelled < 1e-3 * senses_.skin();
+    const MoverWay way = senses_.squeeze(position_, start + out.point - position_);
     position_ = way.position;
-    if (stuck) break;
+    if (!way.stop) continue;
+    // Something else is in the way: not farther into that.
+    const HalfPlane barred{way.stop->normal, dot(way.stop->normal, position_ - start)};
+    all.add(barred);
+    if (world_.type(way.stop->body) == BodyType::Static) still.add(barred);
   }
   const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
   if (!left || left->gap >= 0) return;
@@ -173,6 +178,14 @@ void Move<Real>::land(const MoverGround& ground) {
   touched_.count = met_.count = 0;
 }
 
+// Ground that is as near as feel_ground() looks for it counts as reached.
+template <class Real>
+void Move<Real>::touch_down() {
+  if (dot(velocity_, senses_.up()) > 0) return;
+  const std::optional<MoverGround> ground = senses_.find_ground(position_, 2 * senses_.skin());
+  if (ground) land(*ground);
+}
+
 // In the air: straight on, or along what it touches. False: it has come to the end of its way.
 template <class Real>
 bool Move<Real>::fly() {
@@ -235,7 +248,7 @@ bool Move<Real>::step_up(double speed) {
   Vec2d standing = ahead.position;
   const std::optional<MoverGround> ground =
       senses_.find_ground(standing, rise.travelled + 2 * senses_.skin());
-  if (!ground || senses_.height_of(ground->contact.point, position_) > height + senses_.skin()) return false;
+  if (!ground || !senses_.is_within_step(ground->contact.point, position_)) return false;
   position_ = standing;
   remaining_ *= 1 - ahead.travelled / whole;
   change_ground(*ground);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/collide/hull_distance.h"
 #include "engine/math/trigonometry.h"
@@ -31,6 +32,8 @@ double skin_of(const MoverOptions& options, double radius) {
   return options.skin > 0 ? options.skin : kSkinShare * radius;
 }
 
+Capsule grown(const Capsule& capsule, double by) { return {capsule.start, capsule.end, capsule.radius + by}; }
+
 }  // namespace
 
 template <class Real>
@@ -38,7 +41,8 @@ MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& cap
                                const MoverOptions& options)
     : world_(world),
       capsule_(capsule),
-      with_skin_(Capsule{capsule.start, capsule.end, capsule.radius + skin_of(options, capsule.radius)}),
+      with_skin_(grown(capsule, skin_of(options, capsule.radius))),
+      with_quarter_(grown(capsule, 0.25 * skin_of(options, capsule.radius))),
       filter_(options.filter),
       up_(unit_up(options.up)),
       radius_(capsule.radius),
@@ -51,27 +55,28 @@ MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& cap
 }
 
 template <class Real>
-MoverWay MoverSenses<Real>::go(Vec2d from, Vec2d way, BodyId except) const {
+MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, BodyId except) const {
+  constexpr double kSliding = 1e-9;  // sine of the angle below which it goes along a surface, not into it
   const double whole = length(way);
   if (!(whole > 0)) return {from, 0, {}};
-  // It looks a little farther than it goes, to stop before what lies just behind the end.
-  const double looked = whole + 2 * skin_;
   const Vec2d direction = (1 / whole) * way;
-  std::optional<CastShapeResult> first;
-  cast_shape(world_, capsule_, from, 0, looked * direction, filter_, [&](const CastShapeResult& hit) {
-    if (hit.overlapped || hit.body == except) return 1.0;
-    const bool sooner = !first || hit.fraction < first->fraction ||
-                        (hit.fraction == first->fraction && hit.shape.index < first->shape.index);
-    if (sooner) first = hit;
-    return std::max(first->fraction, 1e-300);
+  double fraction = 1;
+  std::optional<MoverContact> first;
+  cast_shape(world_, shape, from, 0, way, filter_, [&](const CastShapeResult& hit) {
+    if (hit.body == except) return 1.0;
+    MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
+    if (hit.overlapped) {
+      // Nearer than the grown shape keeps away: it may part from it or go along it.
+      const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
+      if (!near || near->gap < 0 || dot(near->normal, direction) > -kSliding) return 1.0;
+      contact = *near;
+    }
+    const bool sooner = !first || hit.fraction < fraction ||
+                        (hit.fraction == fraction && hit.shape.index < first->shape.index);
+    if (sooner) first = contact, fraction = hit.fraction;
+    return std::max(fraction, std::numeric_limits<double>::min());
   });
-  if (!first) return {from + way, whole, {}};
-  // The gap along the normal falls by the cosine of the way: it is the skin at this distance before the hit.
-  const double cosine = std::max(-dot(first->normal, direction), 1e-12);
-  const double free = std::max(0.0, first->fraction * looked - skin_ / cosine);
-  if (free >= whole) return {from + way, whole, {}};
-  return {from + free * direction, free,
-          MoverContact{first->shape, first->body, first->point, first->normal, skin_}};
+  return {from + fraction * way, fraction * whole, first};
 }
 
 template <class Real>
@@ -88,7 +93,7 @@ std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const Mo
   constexpr double kUpright = 1e-3;
   const double rise = dot(contact.normal, up_);
   if (rise >= walkable_) return MoverGround{contact, contact.normal};
-  if (!(rise > kUpright) || height_of(contact.point, position) > step_height_ + skin_) return {};
+  if (!(rise > kUpright) || !is_within_step(contact.point, position)) return {};
   // The capsule's round end touches the edge of a step, or a slope. What lies behind the edge tells.
   const Vec2d across = contact.normal - rise * up_;
   const Vec2d inward = (-1 / length(across)) * across;
@@ -124,7 +129,7 @@ std::optional<MoverContact> MoverSenses<Real>::deepest(Vec2d position, Vec2d vel
   std::optional<MoverContact> worst;
   overlap_shape(world_, with_skin_, position, 0, filter_, [&](ShapeId shape) {
     const std::optional<MoverContact> contact = contact_with(shape, position, velocity);
-    if (!contact || contact->gap >= 0.5 * skin_) return true;
+    if (!contact || contact->gap >= 0.75 * skin_) return true;
     const bool deeper = !worst || contact->gap < worst->gap ||
                         (contact->gap == worst->gap && shape.index < worst->shape.index);
     if (deeper) worst = contact;

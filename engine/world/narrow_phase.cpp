@@ -3,6 +3,7 @@
 
 #include "engine/collide/contact_manifold.h"
 #include "engine/world/constants.h"
+#include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
 #include "engine/world/step.h"
 
@@ -219,6 +220,26 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   }
 }
 
+template <class Real>
+void report_hits(WorldData<Real>& w) {
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const ContactRecord& contact = w.contacts[c.contact];
+    if (!contact.hit_events) return;
+    int hardest = 0;
+    for (int i = 1; i < c.count; ++i) {
+      if (c.points[i].approach < c.points[hardest].approach) hardest = i;
+    }
+    const ContactPoint<Real>& p = c.points[hardest];
+    const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
+    if (p.peak_impulse == 0 || p.approach > -least) return;
+    const ContactReading reading = reading_of(w, contact, c);
+    w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
+                            -static_cast<double>(p.approach)});
+  });
+}
+
+template void report_hits(WorldData<float>&);
+template void report_hits(WorldData<double>&);
 template void update_contacts(WorldData<float>&, float);
 template void update_contacts(WorldData<double>&, double);
 

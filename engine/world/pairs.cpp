@@ -18,8 +18,9 @@ void find_pairs(WorldData<Real>& w) {
       if (!w.pairs.contains(shape, other) && may_collide(w, shape, other)) found.emplace_back(shape, other);
       return true;
     };
-    w.moving_tree.query(box, record.filter.mask, visit);
-    if (type == BodyType::Dynamic) w.still_tree.query(box, record.filter.mask, visit);
+    const std::uint32_t mask = seen_by(record.filter);
+    w.moving_tree.query(box, mask, visit);
+    if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
   }
   for (const int shape : w.moved_shapes) w.shapes[shape].moved = false;
   w.moved_shapes.clear();

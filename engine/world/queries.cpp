@@ -87,8 +87,8 @@ void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const Quer
   if (going) w.moving_tree.query(rounded, filter.mask, visit_leaf);
 }
 
-// Sweeps a box about `start` by `translation`. Calls visit(shape) -> fraction up to which to go on, for
-// shapes whose stored boxes may be met before what was returned so far; stops at 0.
+// Sweeps a box about `start` by `translation`. Calls visit(shape, limit) -> fraction up to which to go on,
+// for shapes whose stored boxes may be met before the least that was returned so far, `limit`; stops at 0.
 template <class Real, class Visit>
 void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, Vec2d half,
                      const QueryFilter& filter, const Visit& visit) {
@@ -96,7 +96,7 @@ void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, V
   const Vec2<Real> half_extent = (half + Vec2d{slack, slack}).as<Real>();
   double limit = 1;
   const auto visit_leaf = [&](int shape, Real) -> Real {
-    if (sees(w, shape, filter)) limit = std::min(limit, visit(shape));
+    if (sees(w, shape, filter)) limit = std::min(limit, visit(shape, limit));
     return limit > 0 ? rounded_up<Real>(limit) : Real(0);
   };
   w.still_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
@@ -197,12 +197,12 @@ void ray_cast(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, co
   check("ray", "origin", origin);
   check("ray", "translation", translation);
   const WorldData<Real>& w = world.data();
-  for_each_on_way(w, origin, translation, {}, filter, [&](int shape) {
+  for_each_on_way(w, origin, translation, {}, filter, [&](int shape, double limit) {
     const PlacedShape placed(w, shape, origin);
     const RayHit<double> hit = w.forms[shape].chain
                                    ? ray_cast_one_sided(placed.convex(), Vec2d{}, translation)
                                    : ray_cast(placed.convex(), Vec2d{}, translation);
-    if (!hit.hit) return 1.0;
+    if (!hit.hit || hit.fraction > limit) return limit;
     return visit({shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal});
   });
 }
@@ -239,10 +239,10 @@ void cast_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d po
   const TurnedShape turned(shape, angle);
   const Aabb<double> box = turned.bounds();
   const Vec2d centre = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
-  for_each_on_way(w, position + centre, translation, half, filter, [&](int other) {
+  for_each_on_way(w, position + centre, translation, half, filter, [&](int other, double limit) {
     const PlacedShape placed(w, other, position);
     const CastResult<double> hit = cast_against(placed.convex(), w.forms[other].chain, turned, translation);
-    if (!hit.hit) return 1.0;
+    if (!hit.hit || hit.fraction > limit) return limit;
     return visit({shape_id(w, other), body_id(w, other), hit.fraction, position + hit.point, hit.normal,
                   hit.overlapped});
   });

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/collide/distance.h"
+#include "engine/world/contacts.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -38,20 +39,20 @@ void update_sensors(WorldData<Real>& w) {
       if (seen) now.push_back(id_of(w, other));
       return true;
     };
-    w.moving_tree.query(w.boxes[shape], w.shapes[shape].filter.mask, visit);
+    w.moving_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     if (w.bodies[body].type != BodyType::Static) {
-      w.still_tree.query(w.boxes[shape], w.shapes[shape].filter.mask, visit);
+      w.still_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);
     const ShapeId id = id_of(w, shape);
     for (const ShapeId& visitor : now) {
       if (!std::binary_search(sensor.visitors.begin(), sensor.visitors.end(), visitor, before)) {
-        w.events.sensor_begin.push_back({id, visitor});
+        w.log().sensor_begin.push_back({id, visitor});
       }
     }
     for (const ShapeId& visitor : sensor.visitors) {
       if (!std::binary_search(now.begin(), now.end(), visitor, before)) {
-        w.events.sensor_end.push_back({id, visitor});
+        w.log().sensor_end.push_back({id, visitor});
       }
     }
     sensor.visitors.assign(now.begin(), now.end());

@@ -98,6 +98,7 @@ int insert_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition
   record.density = definition.density;
   record.hit_events = definition.hit_events, record.pre_solve = definition.pre_solve;
   record.user_data = definition.user_data;
+  w.reports_hits = w.reports_hits || definition.hit_events;
   const int shape = insert(w, body, corners, static_cast<int>(corners.size()), form, record);
   if (definition.sensor) w.sensors.push_back({shape, {}});
   return shape;
@@ -162,12 +163,10 @@ int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition) {
   const std::vector<Vec2d>& points = definition.points;
   const int count = static_cast<int>(points.size());
   const int chain = w.chains.add({body, {}});
-  // The vertex at `i`; beyond an open end the line goes straight on.
+  // The vertex at `i`; an open end is its own neighbour: a corner.
   const auto vertex = [&](int i) {
     if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
-    if (i < 0) return 2 * points[0] - points[1];
-    if (i >= count)
-      return 2 * points[static_cast<std::size_t>(count) - 1] - points[static_cast<std::size_t>(count) - 2];
+    i = std::clamp(i, 0, count - 1);
     return points[static_cast<std::size_t>(i)];
   };
   for (int i = 0; i < (definition.closed ? count : count - 1); ++i) {

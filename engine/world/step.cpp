@@ -1,16 +1,35 @@
 #include "engine/world/step.h"
 
+#include <utility>
+
 #include "engine/world/islands.h"
 
 namespace plumb {
+namespace {
+
+// While it lives, events are told to the step; what happened between two steps belongs to the later one.
+template <class Real>
+struct Stepping {
+  explicit Stepping(WorldData<Real>& world) : w(world) {
+    std::swap(w.events, w.pending);
+    w.pending.clear();
+    w.stepping = true;
+  }
+  ~Stepping() { w.stepping = false; }
+  WorldData<Real>& w;
+};
+
+}  // namespace
 
 template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps) {
   const double h = dt / substeps;
-  w.events.clear();
+  // Let go of even when a stage throws.
+  const Stepping<Real> stepping(w);
   find_pairs(w);
   update_contacts(w, static_cast<Real>(dt));
   solve_soft_steps(w, h, substeps);
+  if (w.reports_hits) report_hits(w);
   finish_motion(w, static_cast<Real>(dt));
   if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
   break_joints(w, h);

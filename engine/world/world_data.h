@@ -169,7 +169,10 @@ struct WorldData {
 
   std::vector<SensorRecord> sensors;
   std::vector<int> breakable;  ///< joints
-  Events events;
+  Events events;               ///< of the last step
+  Events pending;              ///< since then: the next step's
+  bool stepping = false;
+  bool reports_hits = false;               ///< some shape wants it
   std::vector<DirectIsland<Real>> direct;  ///< of this step; `direct_count` are in use
   int direct_count = 0;
   std::vector<Kick<Real>> kicks;  ///< by place in `awake`
@@ -188,6 +191,8 @@ struct WorldData {
   /// step.
   std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
 
+  /// Where what happens now is told.
+  Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
   bool gives_way(int body) const { return bodies[body].type == BodyType::Dynamic; }
   Convex<Real> convex(int shape) const {

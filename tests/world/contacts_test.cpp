@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/world/support.h"
+
+namespace plumb {
+namespace {
+
+TEST(Materials, FrictionSlowsAtMuG) {
+  World world(without_sleep());
+  add_ground(world, {.friction = 0.4});
+  const BodyId box =
+      add_body(world, {0, 0.25}, {.geometry = Box{4, 0.5}, .material = {.friction = 0.4}}, {8, 0});
+  run(world, 60);
+  // A wide, flat box: it does not tip. One substep passes before the contact presses.
+  EXPECT_NEAR(world.velocity(box).x, 8 - 0.4 * kGravity, 0.4 * kGravity / 60);
+  run(world, 90);
+  EXPECT_EQ(world.velocity(box).x, 0);
+}
+
+TEST(Materials, CombineRulesAreTheWorlds) {
+  for (const auto& [rule, friction] : {std::pair{Combine::GeometricMean, 0.4},
+                                       {Combine::Product, 0.16},
+                                       {Combine::Maximum, 0.8},
+                                       {Combine::Minimum, 0.2},
+                                       {Combine::Average, 0.5}}) {
+    World world({.combine_friction = rule, .sleeping = false});
+    add_ground(world, {.friction = 0.2});
+    const BodyId box =
+        add_body(world, {0, 0.25}, {.geometry = Box{4, 0.5}, .material = {.friction = 0.8}}, {10, 0});
+    run(world, 30);
+    EXPECT_NEAR(world.velocity(box).x, 10 - friction * kGravity / 2, friction * kGravity / 60);
+  }
+}
+
+TEST(Materials, RestitutionIsNewtons) {
+  for (const double restitution : {0.0, 0.3, 0.8, 1.0}) {
+    World world(weightless());
+    BodyDefinition wall;
+    wall.type = BodyType::Static;
+    world.create_body(wall, ShapeDefinition{.geometry = Box{1, 10}});
+    const BodyId ball = add_body(
+        world, {3.017, 0}, {.geometry = Circle{0.5}, .material = {.restitution = restitution}}, {-4, 0});
+    run(world, 90);
+    EXPECT_NEAR(world.velocity(ball).x, 4 * restitution, 1e-5);
+  }
+}
+
+TEST(Materials, EqualBallsSwapVelocities) {
+  World world(weightless());
+  const ShapeDefinition disc{.geometry = Circle{0.5}, .material = {.friction = 0, .restitution = 1}};
+  const BodyId a = add_body(world, {0, 0}, disc, {3, 0}), b = add_body(world, {2.013, 0}, disc, {-1, 0});
+  run(world, 60);
+  EXPECT_NEAR(world.velocity(a).x, -1, 1e-5);
+  EXPECT_NEAR(world.velocity(b).x, 3, 1e-5);
+}
+
+TEST(Materials, RollingResistanceSlowsAWheel) {
+  World world(without_sleep());
+  add_ground(world);
+  const double v = 5, r = 0.5, c = 0.1;
+  BodyDefinition body;
+  body.position = {0, r};
+  body.velocity = {v, 0};
+  body.angular_velocity = -v / r;
+  const BodyId wheel =
+      world.create_body(body, ShapeDefinition{.geometry = Circle{r}, .material = {.rolling_resistance = c}});
+  run(world, 60);
+  // Torque c r m g against rolling: a = -(2/3) c g for a disc that does not slip.
+  EXPECT_NEAR(world.velocity(wheel).x, v - 2.0 / 3 * c * kGravity, 1e-3);
+}
+
+TEST(Materials, ConveyorsCarry) {
+  World world(without_sleep());
+  add_ground(world, {.surface_speed = 2});
+  const BodyId box = add_box(world, {0, 0.5});
+  run(world, 120);
+  EXPECT_NEAR(world.velocity(box).x, 2, 1e-4);
+}
+
+TEST(Materials, CanChangeWhileTheWorldRuns) {
+  World world(without_sleep());
+  add_ground(world, {.friction = 1});
+  const BodyId box =
+      add_body(world, {0, 0.25}, {.geometry = Box{4, 0.5}, .material = {.friction = 1}}, {20, 0});
+  run(world, 30);
+  const double before = world.velocity(box).x;
+  world.set_material(world.shapes(box)[0], {.friction = 0});
+  run(world, 60);
+  EXPECT_NEAR(world.velocity(box).x, before, kGravity / 60);
+  EXPECT_NEAR(world.position(box).y, 0.25, 1e-3);
+}
+
+TEST(Filters, DecideWhatTouches) {
+  struct Case {
+    Filter ground, ball;
+    bool rests;
+  };
+  for (const Case& c : {Case{{}, {}, true}, Case{{.category = 2}, {.mask = 1}, false},
+                        Case{{.mask = 4}, {.category = 2}, false}, Case{{.category = 2}, {.mask = 3}, true},
+                        Case{{.group = -5}, {.group = -5}, false},
+                        Case{{.mask = 0, .group = 7}, {.mask = 0, .group = 7}, true}}) {
+    World world;
+    BodyDefinition still;
+    still.type = BodyType::Static;
+    world.create_body(still,
+                      ShapeDefinition{.geometry = Box{20, 2}, .position = {0, -1}, .filter = c.ground});
+    const BodyId ball = add_body(world, {0, 1}, {.geometry = Circle{0.5}, .filter = c.ball});
+    run(world, 120);
+    EXPECT_EQ(world.position(ball).y > 0, c.rests) << c.ball.category << " " << c.ball.mask;
+  }
+}
+
+TEST(Filters, CanChangeWhileTheWorldRuns) {
+  World world;
+  add_ground(world);
+  const BodyId ball = add_body(world, {0, 0.5}, {.geometry = Circle{0.5}});
+  run(world, 200);
+  EXPECT_FALSE(world.awake(ball));
+  world.set_filter(world.shapes(ball)[0], {.mask = 0});
+  run(world, 60);
+  EXPECT_LT(world.position(ball).y, -2);
+}
+
+TEST(Events, TouchingBeginsAndEnds) {
+  World world;
+  const BodyId ground = add_ground(world);
+  const BodyId ball = add_body(world, {0, 2}, {.geometry = Circle{0.5}});
+  int began = 0, ended = 0;
+  const auto count = [&] {
+    began += static_cast<int>(world.events().begin.size());
+    ended += static_cast<int>(world.events().end.size());
+    for (const TouchEvent& event : world.events().begin) {
+      const BodyId first = world.body(event.shape_a), second = world.body(event.shape_b);
+      EXPECT_TRUE((first == ground && second == ball) || (first == ball && second == ground));
+    }
+  };
+  for (int i = 0; i < 120; ++i) world.step(), count();
+  EXPECT_EQ(began, 1);
+  EXPECT_EQ(ended, 0);
+  world.apply_impulse(ball, {0, 5});
+  for (int i = 0; i < 20; ++i) world.step(), count();
+  EXPECT_EQ(ended, 1);
+  for (int i = 0; i < 200; ++i) world.step(), count();
+  EXPECT_EQ(began, 2);
+  world.destroy(ball);
+  world.step(), count();
+  EXPECT_EQ(ended, 2);
+}
+
+TEST(Events, HitsTellTheSpeed) {
+  World world(weightless());
+  add_ground(world);
+  const BodyId ball = add_body(world, {0, 2}, {.geometry = Circle{0.5}, .hit_events = true}, {0, -7});
+  int hits = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    for (const HitEvent& hit : world.events().hits) {
+      ++hits;
+      EXPECT_NEAR(hit.speed, 7, 1e-5);
+      EXPECT_NEAR(std::abs(hit.normal.y), 1, 1e-6);
+      EXPECT_NEAR(hit.point.y, 0, 0.1);
+    }
+  }
+  EXPECT_EQ(hits, 1);
+  EXPECT_TRUE(world.valid(ball));
+}
+
+TEST(Events, SensorsSeeAndDoNotTouch) {
+  World world;
+  BodyDefinition still;
+  still.type = BodyType::Static;
+  const ShapeId gate = world.create_shape(world.create_body(still), {.geometry = Box{4, 1}, .sensor = true});
+  const BodyId ball = add_body(world, {0, 3}, {.geometry = Circle{0.5}});
+  int began = 0, ended = 0;
+  for (int i = 0; i < 120; ++i) {
+    world.step();
+    began += static_cast<int>(world.events().sensor_begin.size());
+    ended += static_cast<int>(world.events().sensor_end.size());
+    const bool inside = std::abs(world.position(ball).y) < 1;
+    EXPECT_EQ(world.overlapping(gate).size(), inside ? 1u : 0u);
+  }
+  EXPECT_EQ(began, 1);
+  EXPECT_EQ(ended, 1);
+  EXPECT_NEAR(world.position(ball).y, 3 - kGravity * 4 / 2, 1e-3);
+}
+
+TEST(Events, PreSolveMakesOneWayPlatforms) {
+  World world(without_sleep());
+  BodyDefinition still;
+  still.type = BodyType::Static;
+  const ShapeId platform =
+      world.create_shape(world.create_body(still), {.geometry = Box{4, 0.2}, .pre_solve = true});
+  const BodyId ball = add_body(world, {0, -2}, {.geometry = Circle{0.25}}, {0, 9});
+  world.on_pre_solve([&](const ContactReading& contact) {
+    const bool platform_first = contact.shape_a == platform;
+    const double up = platform_first ? contact.normal.y : -contact.normal.y;
+    return up > 0.5 && world.velocity(ball).y <= 0.01;
+  });
+  double highest = -9;
+  for (int i = 0; i < 240; ++i) {
+    world.step();
+    highest = std::max(highest, world.position(ball).y);
+  }
+  EXPECT_NEAR(highest, -2 + 81 / (2 * kGravity), 1e-2);
+  EXPECT_NEAR(world.position(ball).y, 0.35, 1e-3);
+}
+
+TEST(Contacts, AreReadWithTheirForces) {
+  World world(without_sleep());
+  const BodyId ground = add_ground(world);
+  const BodyId box = add_box(world, {0, 0.5}, 6);
+  run(world, 120);
+  const auto contacts = world.contacts(box);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(world.contacts(ground).size(), 1u);
+  ASSERT_EQ(contacts[0].count, 2);
+  const double h = 1.0 / 240;
+  EXPECT_NEAR((contacts[0].impulses[0] + contacts[0].impulses[1]) / h, 6 * kGravity, 1e-3 * 6 * kGravity);
+  EXPECT_NEAR(std::abs(contacts[0].points[0].x - contacts[0].points[1].x), 1, 1e-3);
+  EXPECT_NEAR(contacts[0].points[0].y, 0, 1e-3);
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/world/support.h"
+
+namespace plumb {
+namespace {
+
+std::vector<BodyId> add_tower(World& world, int height, Material material = {}) {
+  std::vector<BodyId> boxes;
+  for (int i = 0; i < height; ++i) {
+    boxes.push_back(add_body(world, {0, 0.5 + i}, {.geometry = Box{1, 1}, .material = material}));
+  }
+  return boxes;
+}
+
+TEST(Resting, ATowerOfTenNeitherSinksNorCreeps) {
+  for (const double restitution : {0.0, 1.0}) {
+    World world(without_sleep());
+    add_ground(world, {.restitution = restitution});
+    const std::vector<BodyId> boxes = add_tower(world, 10, {.restitution = restitution});
+    run(world, 20000);
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_NEAR(world.position(boxes[i]).y, 0.5 + i, 1e-4) << restitution;
+      EXPECT_NEAR(world.position(boxes[i]).x, 0, 1e-4) << restitution;
+    }
+  }
+}
+
+TEST(Resting, AHeavyBoxRestsOnALightOne) {
+  for (const double ratio : {10.0, 100.0, 1000.0}) {
+    World world(without_sleep());
+    add_ground(world);
+    const BodyId light = add_box(world, {0, 0.5}), heavy = add_box(world, {0, 1.5}, ratio);
+    for (int i = 0; i < 600; ++i) {
+      world.step();
+      ASSERT_NEAR(world.position(heavy).y, 1.5, 1e-4) << ratio << " step " << i;
+    }
+    EXPECT_NEAR(world.position(light).y, 0.5, 1e-4);
+  }
+}
+
+TEST(Resting, AHeavyBoxThatFallsOnALightOneIsHeld) {
+  World world(without_sleep());
+  add_ground(world);
+  add_box(world, {0, 0.5});
+  const BodyId heavy = add_box(world, {0, 2}, 1000);
+  double lowest = 9;
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    lowest = std::min(lowest, world.position(heavy).y);
+  }
+  EXPECT_GT(lowest, 1.45);
+  EXPECT_NEAR(world.position(heavy).y, 1.5, 1e-3);
+}
+
+TEST(Resting, APyramidStands) {
+  World world(without_sleep());
+  add_ground(world);
+  const int base = 10;
+  BodyId top;
+  for (int row = 0; row < base; ++row) {
+    for (int i = 0; i < base - row; ++i) top = add_box(world, {i + 0.5 * row, 0.5 + row});
+  }
+  run(world, 600);
+  // Soft contacts give way by 1e-3 of a box, a row.
+  EXPECT_NEAR(world.position(top).y, base - 0.5, 1e-3 * base);
+  EXPECT_NEAR(world.velocity(top).y, 0, 1e-5);
+}
+
+TEST(Sleeping, ATowerFallsAsleepAndWakesWhenItsSupportGoes) {
+  World world;
+  add_ground(world);
+  const std::vector<BodyId> boxes = add_tower(world, 5);
+  run(world, 90);
+  EXPECT_EQ(world.counts().awake, 0);
+  const std::uint64_t asleep = world.hash();
+  run(world, 10);
+  EXPECT_EQ(world.hash(), asleep);
+  world.destroy(boxes[0]);
+  EXPECT_EQ(world.counts().awake, 4);
+  run(world, 120);
+  EXPECT_NEAR(world.position(boxes[1]).y, 0.5, 1e-3);
+  EXPECT_NEAR(world.position(boxes[4]).y, 3.5, 1e-3);
+  EXPECT_EQ(world.counts().awake, 0);
+}
+
+TEST(Sleeping, AHitWakesTheWholeIslandAndNoOther) {
+  World world;
+  add_ground(world);
+  const std::vector<BodyId> hit = add_tower(world, 3);
+  const BodyId other = add_box(world, {20, 0.5});
+  run(world, 90);
+  ASSERT_EQ(world.counts().awake, 0);
+  add_body(world, {-3, 1.5}, {.geometry = Circle{0.3}}, {10, 0});
+  bool woke = false;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    woke = woke || world.awake(hit[0]);
+  }
+  EXPECT_TRUE(woke);
+  EXPECT_FALSE(world.awake(other));
+  EXPECT_GT(std::abs(world.position(hit[1]).x), 1e-3);
+}
+
+TEST(Sleeping, MovingPlatformsKeepTheirLoadAwake) {
+  World world;
+  BodyDefinition definition;
+  definition.type = BodyType::Kinematic;
+  definition.velocity = {0.2, 0};
+  world.create_body(definition, ShapeDefinition{.geometry = Box{10, 1}});
+  const BodyId box = add_box(world, {0, 1});
+  run(world, 300);
+  EXPECT_TRUE(world.awake(box));
+  EXPECT_NEAR(world.velocity(box).x, 0.2, 1e-3);
+}
+
+TEST(Sleeping, CanBeForbidden) {
+  World world;
+  add_ground(world);
+  const BodyId box = add_box(world, {0, 0.5});
+  world.set_may_sleep(box, false);
+  run(world, 200);
+  EXPECT_TRUE(world.awake(box));
+  world.set_may_sleep(box, true);
+  run(world, 200);
+  EXPECT_FALSE(world.awake(box));
+  world.set_awake(box, true);
+  EXPECT_TRUE(world.awake(box));
+  world.set_awake(box, false);
+  EXPECT_FALSE(world.awake(box));
+}
+
+TEST(Continuous, NothingGetsThroughAThinWallAtAnySpeed) {
+  for (const double speed : {10.0, 1e3, 1e5, 1e8}) {
+    World world(weightless());
+    BodyDefinition wall;
+    wall.type = BodyType::Static;
+    world.create_body(wall, ShapeDefinition{.geometry = Box{0.001, 100}});
+    const BodyId ball = add_body(world, {-10.003, 0.1}, {.geometry = Circle{0.05}}, {speed, 0});
+    for (int i = 0; i < 120; ++i) {
+      const double before = world.velocity(ball).x;
+      world.step();
+      ASSERT_LT(world.position(ball).x, -0.04) << speed;
+      // Its speed changes by its contact alone: on the way, and where it was stopped, it is what it was.
+      ASSERT_TRUE(world.velocity(ball).x == before || world.position(ball).x > -0.2) << speed;
+    }
+  }
+}
+
+TEST(Continuous, BulletsMeetEachOtherInFlight) {
+  for (const double speed : {1e2, 1e4, 1e6}) {
+    World world(weightless());
+    const BodyId a = add_body(world, {-30.1, 0}, {.geometry = Circle{0.05}}, {speed, 0});
+    const BodyId b = add_body(world, {30, 0}, {.geometry = Circle{0.05}}, {-speed, 0});
+    run(world, 120);
+    EXPECT_LT(world.position(a).x, world.position(b).x) << speed;
+    EXPECT_NEAR(world.velocity(a).x + world.velocity(b).x, 0, 1e-6 * speed);
+  }
+}
+
+TEST(Continuous, ASpinningRodDoesNotReachThroughAWall) {
+  World world(weightless());
+  BodyDefinition wall;
+  wall.type = BodyType::Static;
+  world.create_body(wall, ShapeDefinition{.geometry = Box{0.02, 20}});
+  BodyDefinition rod;
+  rod.position = {-1.3, 0};
+  rod.velocity = {300, 0};
+  rod.angular_velocity = 200;
+  const BodyId body = world.create_body(rod, ShapeDefinition{.geometry = Box{2, 0.02}});
+  for (int i = 0; i < 240; ++i) {
+    world.step();
+    ASSERT_LT(world.position(body).x, 0.02);
+  }
+}
+
+TEST(Continuous, CanBeSwitchedOff) {
+  World world({.gravity = {0, 0}, .continuous = false});
+  BodyDefinition wall;
+  wall.type = BodyType::Static;
+  world.create_body(wall, ShapeDefinition{.geometry = Box{0.001, 100}});
+  const BodyId ball = add_body(world, {-10.003, 0.1}, {.geometry = Circle{0.05}}, {1e3, 0});
+  run(world, 10);
+  EXPECT_GT(world.position(ball).x, 100);
+}
+
+}  // namespace
+}  // namespace plumb
