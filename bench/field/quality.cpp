@@ -71,7 +71,7 @@ void measure_overlaps(const Inventory& inventory, std::span<const BodyState> sta
     if (!joined.empty() && joined.contains(std::minmax(a.body, b.body))) return;
     const double distance = gap(a.placed, b.placed);
     if (distance < kNear) ++out.near;
-    if (distance >= 0) return;
+    if (distance >= -kTouch) return;
     ++out.overlapping;
     out.deepest = std::max(out.deepest, -distance);
     out.mean_depth -= distance;

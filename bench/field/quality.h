@@ -10,6 +10,9 @@ namespace plumb::field {
 /// Two shapes nearer than this are neighbours: more than Box2D's skins keep resting boxes apart (15 mm).
 inline constexpr double kNear = 0.02;  // m
 
+/// Shapes overlap when they do by more than this: less is rounding, of float far from the origin too.
+inline constexpr double kTouch = 1e-6;  // m
+
 /// How shapes and joints stand, by one ruler for all engines: poses, and the shapes that the scene asked for.
 struct Quality {
   bool finite = true;         ///< no pose and no velocity is NaN or infinite

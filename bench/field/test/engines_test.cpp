@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include "bench/field/measure.h"
-#include "bench/field/test/still_world.h"
+#include "bench/field/quality.h"
+#include "bench/field/scene.h"
 
 namespace plumb::field {
 namespace {
@@ -197,109 +195,65 @@ TEST_P(OnEngine, BodiesThatAreRemovedAreGone) {
   EXPECT_EQ(stage.builder.states()[ground].position.y, -1);
 }
 
+// A box of friction 0.2 slides on ground of 0.8: it loses 0.4 g.
+TEST_P(OnEngine, FrictionIsTheGeometricMean) {
+  Stage stage({});
+  stage.builder.create_body({.type = BodyType::Static, .position = {0, -1}},
+                            ShapeDefinition{.geometry = box(50, 1), .friction = 0.8});
+  stage.builder.create_body({.position = {0, 0.25}, .velocity = {5, 0}},
+                            ShapeDefinition{.geometry = box(1, 0.25), .friction = 0.2});
+  stage.builder.step(30);
+  EXPECT_NEAR(stage.builder.states()[1].velocity.x, 5 - 0.4 * 10 * 0.5, 0.1);
+}
+
+// A disc falls 1.25 m onto the ground, which takes 0.5 s, and comes back with half of 5 m/s.
+TEST_P(OnEngine, EqualRestitutionsAreThatOfThePair) {
+  Stage stage({});
+  stage.builder.create_body({.type = BodyType::Static, .position = {0, -1}},
+                            ShapeDefinition{.geometry = box(50, 1), .restitution = 0.5});
+  stage.builder.create_body({.position = {0, 1.75}},
+                            ShapeDefinition{.geometry = Circle{{}, 0.5}, .restitution = 0.5});
+  double fastest = 0;
+  for (int step = 0; step < 45; ++step) {
+    stage.builder.step();
+    fastest = std::max(fastest, stage.builder.states()[1].velocity.y);
+  }
+  EXPECT_NEAR(fastest, 2.5, 0.25);  // a step of gravity either way at the impact
+}
+
+// A disc of inertia pi/2 kg m^2 runs down against a torque of pi/4 N m: 0.5 rad/s in a second.
+TEST_P(OnEngine, AMotorPullsWithNoMoreThanItsTorque) {
+  WorldSettings settings;
+  settings.gravity = {0, 0};
+  Stage stage(settings);
+  const int wall = stage.builder.create_body({.type = BodyType::Static}, std::vector<ShapeDefinition>{});
+  const int disc = stage.builder.create_body({.spin = 2}, ShapeDefinition{.geometry = Circle{{}, 1}});
+  stage.builder.create_revolute(wall, disc, {.motor = Motor{.speed = 0, .max_torque = std::numbers::pi / 4}});
+  stage.builder.step(60);
+  EXPECT_NEAR(stage.builder.states()[disc].spin, 1.5, 0.02);
+}
+
+TEST_P(OnEngine, SpringsPullTowardsTheReferenceAngle) {
+  if (GetParam()->name == "box2d") GTEST_SKIP() << "Box2D 2.4 has none";
+  WorldSettings settings;
+  settings.gravity = {0, 0};
+  Stage stage(settings);
+  const int wall = stage.builder.create_body({.type = BodyType::Static}, std::vector<ShapeDefinition>{});
+  const int disc = stage.builder.create_body({}, ShapeDefinition{.geometry = Circle{{}, 1}});
+  stage.builder.create_revolute(
+      wall, disc, {.reference_angle = 0.4, .spring = AngularSpring{.hertz = 1, .damping_ratio = 0.2}});
+  double highest = 0;
+  for (int step = 0; step < 600; ++step) {
+    stage.builder.step();
+    highest = std::max(highest, stage.builder.states()[disc].angle);
+  }
+  // It overshoots by exp(-pi z / sqrt(1 - z^2)) of the way at a damping ratio z, and comes to rest.
+  EXPECT_NEAR(highest, 0.4 * (1 + std::exp(-std::numbers::pi * 0.2 / std::sqrt(0.96))), 0.03);
+  EXPECT_NEAR(stage.builder.states()[disc].angle, 0.4, 1e-3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Engine, OnEngine, testing::ValuesIn(present()), name_of);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(OnEngine);
-
-TEST(Measure, TakesTurnsAndFillsEveryFigure) {
-  Plan plan;
-  plan.scenes = {&scene_called("pyramid_10")};
-  plan.engines = present();
-  plan.repeat = 3;
-  plan.steps = 20;
-  std::vector<std::string> order;
-  std::vector<Measurement> row;
-  measure(
-      plan, [&](const Progress& progress) { order.push_back(progress.what); },
-      [&](std::vector<Measurement>& done) { row = done; }, [] { return false; });
-  const std::size_t n = plan.engines.size();
-  ASSERT_EQ(row.size(), n);
-  ASSERT_EQ(order.size(), 3 * n);
-  for (std::size_t i = 0; i < 3 * n; ++i)
-    EXPECT_EQ(order[i], "pyramid_10 on " + plan.engines[(i / n + i % n) % n]->name);
-  for (const Measurement& m : row) {
-    EXPECT_EQ(m.failure, "");
-    EXPECT_EQ(m.step_seconds.size(), 3u);
-    EXPECT_EQ(m.asked.bodies, 56);
-    ASSERT_TRUE(m.height.has_value());
-    EXPECT_NEAR(*m.height, 1, 0.02);
-    EXPECT_GT(m.quality.near, 130);
-  }
-}
-
-/// A world in which the second step goes wrong.
-class BrokenWorld : public StillWorld {
- public:
-  enum class Way { Dies, Throws, IsNotFinite };
-  explicit BrokenWorld(Way way) : way_(way) {}
-
-  void step() override {
-    if (++steps_ < 2) return;
-    if (way_ == Way::Dies) std::abort();
-    if (way_ == Way::Throws) throw std::runtime_error("lost its way");
-  }
-  BodyState state(BodyHandle body) const override {
-    BodyState out = StillWorld::state(body);
-    if (way_ == Way::IsNotFinite && steps_ > 1) out.position.x = std::nan("");
-    return out;
-  }
-
- private:
-  Way way_;
-  int steps_ = 0;
-};
-
-template <BrokenWorld::Way way>
-std::unique_ptr<FieldWorld> broken(const WorldSettings&) {
-  return std::make_unique<BrokenWorld>(way);
-}
-
-TEST(Measure, AnEngineThatFailsIsAResultAndTheOthersGoOn) {
-  const Engine sound{"sound", "1", "", [](const WorldSettings&) -> std::unique_ptr<FieldWorld> {
-                       return std::make_unique<StillWorld>();
-                     }};
-  const Engine dies{"dies", "1", "", broken<BrokenWorld::Way::Dies>};
-  const Engine throws{"throws", "1", "", broken<BrokenWorld::Way::Throws>};
-  const Engine nan{"nan", "1", "", broken<BrokenWorld::Way::IsNotFinite>};
-  Plan plan;
-  plan.scenes = {&scene_called("chain_10")};
-  plan.engines = {&dies, &throws, &nan, &sound};
-  plan.repeat = 2;
-  plan.quick = true;
-  std::vector<Measurement> row;
-  measure(
-      plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { row = done; },
-      [] { return false; });
-  ASSERT_EQ(row.size(), 4u);
-  EXPECT_NE(row[0].failure.find("SIGABRT"), std::string::npos) << row[0].failure;
-  EXPECT_EQ(row[1].failure, "lost its way");
-  EXPECT_EQ(row[2].failure, "a pose or a velocity is not finite");
-  EXPECT_EQ(row[3].failure, "");
-  EXPECT_EQ(row[3].step_seconds.size(), 2u);
-  EXPECT_EQ(row[3].asked.joints, 10);
-}
-
-TEST(Measure, GivesUpWhatTakesTooLong) {
-  Plan plan;
-  plan.scenes = {&scene_called("junkyard")};
-  plan.engines = present();
-  plan.repeat = 2;
-  plan.quick = true;
-  plan.limit = 1e-6;
-  std::vector<Measurement> row;
-  measure(
-      plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { row = done; },
-      [] { return false; });
-  for (const Measurement& m : row) {
-    EXPECT_EQ(m.failure.rfind("given up after 1 steps", 0), 0u) << m.failure;
-    EXPECT_TRUE(m.step_seconds.empty());
-  }
-}
-
-TEST(Median, OfOddAndEvenCounts) {
-  EXPECT_EQ(median({3, 1, 2}), 2);
-  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
-  EXPECT_EQ(median({}), 0);
-}
 
 }  // namespace
 }  // namespace plumb::field
