@@ -223,11 +223,17 @@ bool Move<Real>::walk() {
   position_ = way.position;
   remaining_ *= 1 - way.travelled / whole;
   if (!way.stop) return false;
-  if (senses_.is_walkable(way.stop->normal)) {
-    change_ground({*way.stop, way.stop->normal});
+  const std::optional<MoverGround> ground = senses_.ground_at(position_, *way.stop);
+  const bool slope = senses_.is_walkable(way.stop->normal);
+  if (ground && !ground->edge) {
+    change_ground(*ground);
     return true;
   }
   if (step_up(speed)) return true;
+  if (slope) {
+    change_ground({*way.stop, way.stop->normal, false});
+    return true;
+  }
   // A surface that gives way lets it follow as fast as that.
   const Vec2d ground_velocity = velocity_of(ground_->contact);
   const double surface = note_hit(*way.stop, std::abs(speed) * direction + ground_velocity);

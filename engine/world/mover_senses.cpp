@@ -68,9 +68,10 @@ MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, B
     if (hit.overlapped) {
       // Nearer than the grown shape keeps away: it may part from it or go along it.
       const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
-      if (!near || near->gap < 0 || dot(near->normal, direction) > -kSliding) return 1.0;
+      if (!near || near->gap < 0) return 1.0;
       contact = *near;
     }
+    if (dot(contact.normal, direction) > -kSliding) return 1.0;
     const bool sooner = !first || hit.fraction < fraction ||
                         (hit.fraction == fraction && hit.shape.index < first->shape.index);
     if (sooner) first = contact, fraction = hit.fraction;
@@ -91,16 +92,20 @@ std::optional<MoverGround> MoverSenses<Real>::find_ground(Vec2d& position, doubl
 template <class Real>
 std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const MoverContact& contact) const {
   constexpr double kUpright = 1e-3;
+  constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, are slopes
   const double rise = dot(contact.normal, up_);
-  if (rise >= walkable_) return MoverGround{contact, contact.normal};
-  if (!(rise > kUpright) || !is_within_step(contact.point, position)) return {};
-  // The capsule's round end touches the edge of a step, or a slope. What lies behind the edge tells.
+  if (!(rise > kUpright)) return {};
+  // The capsule's round end touches a slope, or the edge of a step. What lies behind the edge tells.
   const Vec2d across = contact.normal - rise * up_;
-  const Vec2d inward = (-1 / length(across)) * across;
-  const Vec2d above = contact.point + 0.25 * skin_ * inward + skin_ * up_;
-  const std::optional<RayResult> tread = ray_cast_closest(world_, above, -2 * skin_ * up_, filter_);
-  if (!tread || !is_walkable(tread->normal)) return {};
-  return MoverGround{contact, tread->normal};
+  if (length(across) > kUpright && is_within_step(contact.point, position)) {
+    const Vec2d inward = (-1 / length(across)) * across;
+    const Vec2d above = contact.point + 0.25 * skin_ * inward + skin_ * up_;
+    const std::optional<RayResult> tread = ray_cast_closest(world_, above, -2 * skin_ * up_, filter_);
+    const bool is_edge = tread && is_walkable(tread->normal) && dot(tread->normal, contact.normal) < kEdge;
+    if (is_edge) return MoverGround{contact, tread->normal, true};
+  }
+  if (!is_walkable(contact.normal)) return {};
+  return MoverGround{contact, contact.normal, false};
 }
 
 template <class Real>

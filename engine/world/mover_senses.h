@@ -26,7 +26,8 @@ struct MoverWay {
 /// What it stands on.
 struct MoverGround {
   MoverContact contact{};
-  Vec2d floor{};  ///< unit; the normal to walk along: of the tread at the edge of a step
+  Vec2d floor{};      ///< unit; the normal to walk along: of the tread at the edge of a step
+  bool edge = false;  ///< of a step
 };
 
 /// A mover's knowledge of the world around it: everything that it does is built from these.
