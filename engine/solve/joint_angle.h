@@ -8,11 +8,11 @@
 /// Angles of joints from the rotations of their bodies.
 namespace plumb {
 
-inline constexpr double kTurn = 6.28318530717958647692;
+inline constexpr double kWholeTurn = 6.28318530717958647692;
 
 /// The angle nearest to `near` that is `angle` but for whole turns.
 inline double nearest_turn(double angle, double near) {
-  return angle + kTurn * std::floor((near - angle) / kTurn + 0.5);
+  return angle + kWholeTurn * std::floor((near - angle) / kWholeTurn + 0.5);
 }
 
 /// rad, in [-pi, pi].
