@@ -408,6 +408,34 @@ TYPED_TEST(Mover, PushesCratesWithABoundedImpulse) {
   EXPECT_EQ(move(this->world, kPerson, start, {2, 0}, kDt, this->options).hits[0].impulse, 0);
 }
 
+TYPED_TEST(Mover, PushesACrateAhead) {
+  this->add_floor();
+  const BodyId crate = this->world.create_body(
+      {.position = {2, 0.5}, .lock_rotation = true},
+      ShapeDefinition{.geometry = Box{1, 1}, .density = 10, .material = {.friction = 0}});
+  this->options.mass = 80;
+  this->place({0, kSkin});
+  this->now.on_ground = true;
+  EXPECT_TRUE(this->walk(180, 2));
+  // Both go on at its walking speed, and it does not fall behind by more than a step's way.
+  EXPECT_NEAR(this->world.velocity(crate).x, 2, 1e-3);
+  EXPECT_NEAR(this->now.position.x + kRadius, this->world.position(crate).x - 0.5, 2 * 2 * kDt);
+  EXPECT_NEAR(this->world.position(crate).x - 2, 2 * (3 - (1.5 - kRadius) / 2), 0.1);
+}
+
+TYPED_TEST(Mover, StandsOnACrate) {
+  this->add_floor();
+  this->world.create_body({.position = {0, 0.5}}, ShapeDefinition{.geometry = Box{2, 1}, .density = 100});
+  this->options.mass = 80;
+  this->place({0.3, 1.2});
+  this->walk(60, 0);
+  const Vec2d here = this->now.position;
+  EXPECT_NEAR(here.y, 1 + kSkin, 2e-3);  // the crate's contact with the floor is soft
+  EXPECT_TRUE(this->walk(120, 0));
+  EXPECT_NEAR(this->now.position.x, here.x, 1e-4);
+  EXPECT_NEAR(this->now.position.y, here.y, 1e-3);
+}
+
 TYPED_TEST(Mover, JumpsThroughAChainFromBelowAndLandsOnIt) {
   this->add_floor();
   this->world.create_chain(this->world.create_body({.type = BodyType::Static, .position = {0, 1}}),
