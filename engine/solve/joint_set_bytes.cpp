@@ -192,6 +192,12 @@ void fields(const A& ar, JointConstraint<Real, Kind>& c) {
 /// Whether slots and lists are as a set of joints leaves them: nothing else may be solved.
 template <class Parts>
 bool is_whole(const Parts& p) {
+  std::size_t constraints = 0;
+  for (int form = 0; form < kForms; ++form) {
+    p.with(static_cast<JointForm>(form), [&](const auto& lists) {
+      for (const auto& list : lists) constraints += list.size();
+    });
+  }
   const int bodies = static_cast<int>(p.taken.size()), slots = static_cast<int>(p.slots.size());
   int used = 0, active = 0;
   for (int joint = 0; joint < slots; ++joint) {
@@ -211,7 +217,8 @@ bool is_whole(const Parts& p) {
   const bool free = std::all_of(p.free.begin(), p.free.end(), [&](int joint) {
     return joint >= 0 && joint < slots && !p.slot(joint).used;
   });
-  return free && used == p.count && active == p.active && used + static_cast<int>(p.free.size()) == slots;
+  return free && constraints == static_cast<std::size_t>(used) && used == p.count && active == p.active &&
+         used + static_cast<int>(p.free.size()) == slots;
 }
 
 }  // namespace
