@@ -339,6 +339,33 @@ TYPED_TEST(Queries, DistancesOfShapesAreThoseOfBruteForce) {
   });
 }
 
+// Boxes in float are a metre coarse at 1e7 m, shapes and queries are not: a body that creeps through its
+// stored box is found wherever it is.
+TYPED_TEST(Queries, MissNothingWhereBoxesAreCoarse) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}});
+  for (const Vec2d way : {Vec2d{1, 0.1}, Vec2d{-0.9, 0.3}, Vec2d{0.2, -1}}) {
+    const BodyId body =
+        world.create_body({.type = BodyType::Kinematic, .position = {1.2e7, -0.7e7}, .velocity = 3.0 * way},
+                          ShapeDefinition{.geometry = Circle{0.3}});
+    for (int i = 0; i < 1000; ++i) {
+      world.step();
+      const Vec2d centre = world.position(body);
+      for (const Vec2d to : {Vec2d{0.29, 0}, Vec2d{-0.29, 0}, Vec2d{0, 0.29}, Vec2d{0, -0.29}}) {
+        int found = 0;
+        const auto count = [&](ShapeId) { return ++found, true; };
+        shapes_at(world, centre + to, {}, count);
+        overlap_box(world, {centre + to, centre + to + Vec2d{0.001, 0.001}}, {}, count);
+        overlap_shape(world, Circle{0.001}, centre + to, 0, {}, count);
+        found += ray_cast_closest(world, centre + 2.0 * to, -1.1 * to).has_value();
+        found += cast_shape_closest(world, Circle{0.01}, centre + 2.0 * to, 0, -1.1 * to).has_value();
+        found += nearest(world, centre + 2.0 * to, 0.29).has_value();
+        ASSERT_EQ(found, 6) << "after step " << i;
+      }
+    }
+    world.destroy(body);
+  }
+}
+
 TEST(QueriesVisitors, ClipStopAndIgnore) {
   World world;
   for (int i = 0; i < 5; ++i) {
