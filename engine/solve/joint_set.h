@@ -33,7 +33,10 @@ struct JointError {
 /// and lie in one array per colour and kind. A substep is
 ///     v += h a;  warm_start;  solve;  x += h v;  relax
 /// and `prepare` comes once before the substeps, when positions and rotations are those of the step's start
-/// and nothing has moved or turned. None of the four allocates.
+/// and nothing has moved or turned. Rows are evaluated after bodies have moved, by `relax`, and serve the
+/// next substep too: impulses always act where bodies are, so that joints conserve angular momentum to
+/// rounding and a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`.
+/// None of the four allocates.
 template <class Real>
 class JointSet {
  public:
@@ -58,7 +61,9 @@ class JointSet {
 
   const JointKind& definition(int joint) const;
   /// Replaces the definition: new speeds, limits, targets, or another kind. Impulses and counted turns are
-  /// kept where the kind is the same. Error (Value) as `add`; nothing has changed then.
+  /// kept where the kind is the same (of a weld that becomes soft or rigid they start anew; a revolute joint
+  /// without limits, motor and spring counts no turns). A pulley whose length is not given any more keeps the
+  /// one it has. Error (Value) as `add`; nothing has changed then.
   void change(int joint, const JointKind& definition);
   /// The centre of mass of a body of the joint has moved in the body's frame.
   void recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b);
