@@ -1,0 +1,48 @@
+#include "tests/world/allocations.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<long> count{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++count;
+  const std::size_t room = (size + alignment - 1) / alignment * alignment;
+  if (void* memory = std::aligned_alloc(alignment, room > 0 ? room : alignment)) return memory;
+  throw std::bad_alloc();
+}
+
+constexpr std::size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+}  // namespace
+
+namespace plumb::test {
+
+long allocations() { return count; }
+
+}  // namespace plumb::test
+
+// All forms stand here and are not inlined, such that the compiler sees pairs that match.
+[[gnu::noinline]] void* operator new(std::size_t size) { return counted(size, kUsual); }
+[[gnu::noinline]] void* operator new[](std::size_t size) { return counted(size, kUsual); }
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+[[gnu::noinline]] void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
