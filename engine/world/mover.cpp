@@ -89,27 +89,20 @@ Vec2d Move<Real>::velocity_of(const MoverContact& contact) const {
 }
 
 // The deepest overlap first, until none is left: each adds the half plane out of it, and the way out is the
-// shortest into all of them. What does not move has the right of way.
+// shortest into all of them. Where there is none, it goes as far as what stands in the way lets it.
 template <class Real>
 void Move<Real>::push_out() {
   const Vec2d start = position_;
-  Planes all, still;
+  Planes all;
   for (int push = 0; push < kMostPushes; ++push) {
     const std::optional<MoverContact> deepest = senses_.deepest(position_, velocity_);
     if (!deepest) return;
     const double least = dot(deepest->normal, position_ - start) + senses_.skin() - deepest->gap;
-    const HalfPlane plane{deepest->normal, least};
-    all.add(plane);
-    if (world_.type(deepest->body) == BodyType::Static) still.add(plane);
-    PlaneSolution out = solve_planes(std::span(all.items.data(), all.count), {});
-    if (!out.feasible) out = solve_planes(std::span(still.items.data(), still.count), {});
-    const MoverWay way = senses_.squeeze(position_, start + out.point - position_);
+    all.add({deepest->normal, least});
+    const MoverWay way = senses_.squeeze(position_, start + all.nearest({}) - position_);
     position_ = way.position;
-    if (!way.stop) continue;
-    // Something else is in the way: not farther into that.
-    const HalfPlane barred{way.stop->normal, dot(way.stop->normal, position_ - start)};
-    all.add(barred);
-    if (world_.type(way.stop->body) == BodyType::Static) still.add(barred);
+    // Not farther into that.
+    if (way.stop) all.add({way.stop->normal, dot(way.stop->normal, position_ - start)});
   }
   const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
   if (!left || left->gap >= 0) return;
