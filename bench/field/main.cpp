@@ -152,7 +152,7 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--clock", options.clock,
                  "wall, or cpu: the processors' time, for machines that others use too (wall)")
       ->check(CLI::IsMember({"wall", "cpu"}));
-  app.add_option("--limit", plan.limit, "seconds of an engine's time after which a run is given up (300)")
+  app.add_option("--limit", plan.limit, "seconds of an engine's time after which a run is given up (600)")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
   app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")

@@ -18,7 +18,7 @@ struct Plan {
   std::optional<int> steps;           ///< measured steps, in place of the scene's
   bool quick = false;                 ///< small scenes, few steps
   std::optional<bool> continuous;     ///< in place of the scene's
-  double limit = 300;                 ///< s of an engine's own time, after which a run is given up
+  double limit = 600;                 ///< s of an engine's own time, after which a run is given up
   clockid_t clock = CLOCK_MONOTONIC;  ///< that times are taken by
   WorldSettings settings;
 };
