@@ -8,7 +8,7 @@
 
 #include "engine/scene/error.h"
 #include "engine/world/queries.h"
-#include "query_truth.h"
+#include "tests/world/query_truth.h"
 
 namespace plumb {
 namespace {
@@ -324,6 +324,42 @@ TYPED_TEST(Mover, IsNotSqueezedThroughAWall) {
     ASSERT_GT(this->now.position.y, 0);
   }
   EXPECT_TRUE(squeezed);
+}
+
+TYPED_TEST(Mover, StaysInARoomWhateverHappensThere) {
+  query_truth::Random random(5);
+  const double half = 6, thin = 0.05;
+  for (const double side : {-1.0, 1.0}) {
+    this->add_static(Box{2 * half + 1, thin}, {0, side * half});
+    this->add_static(Box{thin, 2 * half + 1}, {side * half, 0});
+  }
+  for (int i = 0; i < 6; ++i) {
+    this->add_platform(random.within(4), random.within(2), random.uniform(-4, 4), {4, 0.5});
+  }
+  for (int i = 0; i < 30; ++i) {
+    this->world.create_body({.position = random.within(5), .velocity = random.within(10)},
+                            ShapeDefinition{.geometry = query_truth::random_geometry(random)});
+  }
+  this->place({0, 0});
+  this->options.mass = 80;
+  this->options.push_force = 2000;
+  int squeezed = 0, stood = 0;
+  for (int i = 0; i < 3000; ++i) {
+    for (const BodyId body : this->world.bodies()) {  // what moves by itself stays inside
+      if (this->world.type(body) != BodyType::Kinematic) continue;
+      const Vec2d at = this->world.position(body), v = this->world.velocity(body);
+      if (length_squared(at) > 20 && dot(at, v) > 0) this->world.set_velocity(body, -v);
+    }
+    if (i % 20 == 0) this->now.velocity = random.within(i % 100 == 0 ? 1e3 : 10);
+    this->frame(random.uniform(-6, 6));
+    squeezed += this->now.squeezed, stood += this->now.on_ground;
+    const Vec2d at = this->now.position;
+    ASSERT_LT(std::abs(at.x) + kRadius, half - thin / 2 + this->kTolerance) << "frame " << i;
+    ASSERT_LT(at.y + 1.5 + kRadius, half - thin / 2 + this->kTolerance) << "frame " << i;
+    ASSERT_GT(at.y, -half + thin / 2 - this->kTolerance) << "frame " << i;
+  }
+  EXPECT_GT(squeezed, 10);
+  EXPECT_GT(stood, 100);
 }
 
 TYPED_TEST(Mover, LeavesWhatItOverlapsTheShortWay) {

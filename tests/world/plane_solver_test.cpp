@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "query_truth.h"
+#include "tests/world/query_truth.h"
 
 namespace plumb {
 namespace {

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "engine/scene/error.h"
-#include "query_truth.h"
+#include "tests/world/query_truth.h"
 
 namespace {
 long allocations = 0;
