@@ -48,6 +48,8 @@ PLUMB_REAL_MEMBERS(Corner, point, normal)
 /// How many values an enumeration has: they are 0, 1, ... To be said of each that is written.
 template <class Enum>
 inline constexpr int kEnumerators = 0;
+template <>
+inline constexpr int kEnumerators<std::byte> = 256;
 
 /// Bytes of a T that is written member by member, without padding; 0 when they depend on the value.
 template <class T>

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+#include "engine/world/world.h"
+
+namespace plumb {
+
+/// Every call that changes a world, once: X(what it is called in recordings, member, result, arguments...).
+/// Recordings number them in this order: a new one goes to the end.
+#define PLUMB_WORLD_CALLS(X)                                                                  \
+  X(Step, step, void, double, int)                                                            \
+  X(SetGravity, set_gravity, void, Vec2d)                                                     \
+  X(SetSleeping, set_sleeping, void, bool)                                                    \
+  X(SetContinuous, set_continuous, void, bool)                                                \
+  X(CreateBody, create_body, BodyId, const BodyDefinition&, std::span<const ShapeDefinition>) \
+  X(CreateBodyWithShape, create_body, BodyId, const BodyDefinition&, const ShapeDefinition&)  \
+  X(DestroyBody, destroy, void, BodyId)                                                       \
+  X(SetPosition, set_position, void, BodyId, Vec2d, double)                                   \
+  X(SetVelocity, set_velocity, void, BodyId, Vec2d)                                           \
+  X(SetAngularVelocity, set_angular_velocity, void, BodyId, double)                           \
+  X(MoveTowards, move_towards, void, BodyId, Vec2d, double, double)                           \
+  X(ApplyForce, apply_force, void, BodyId, Vec2d)                                             \
+  X(ApplyForceAt, apply_force, void, BodyId, Vec2d, Vec2d)                                    \
+  X(ApplyTorque, apply_torque, void, BodyId, double)                                          \
+  X(ApplyImpulse, apply_impulse, void, BodyId, Vec2d)                                         \
+  X(ApplyImpulseAt, apply_impulse, void, BodyId, Vec2d, Vec2d)                                \
+  X(ApplyAngularImpulse, apply_angular_impulse, void, BodyId, double)                         \
+  X(SetType, set_type, void, BodyId, BodyType)                                                \
+  X(SetMass, set_mass, void, BodyId, const MassProperties&)                                   \
+  X(UseDensities, use_densities, void, BodyId)                                                \
+  X(SetGravityScale, set_gravity_scale, void, BodyId, double)                                 \
+  X(SetDamping, set_damping, void, BodyId, double, double)                                    \
+  X(SetLocks, set_locks, void, BodyId, bool, bool, bool)                                      \
+  X(SetAwake, set_awake, void, BodyId, bool)                                                  \
+  X(SetMaySleep, set_may_sleep, void, BodyId, bool)                                           \
+  X(CreateShape, create_shape, ShapeId, BodyId, const ShapeDefinition&)                       \
+  X(DestroyShape, destroy, void, ShapeId)                                                     \
+  X(SetMaterial, set_material, void, ShapeId, const Material&)                                \
+  X(SetFilter, set_filter, void, ShapeId, const Filter&)                                      \
+  X(CreateChain, create_chain, ChainId, BodyId, const ChainDefinition&)                       \
+  X(DestroyChain, destroy, void, ChainId)                                                     \
+  X(CreateJoint, create_joint, JointId, BodyId, BodyId, const JointDefinition&)               \
+  X(DestroyJoint, destroy, void, JointId)                                                     \
+  X(Change, change, void, JointId, const JointKind&)
+
+enum class WorldCall : std::uint8_t {
+#define PLUMB_NAME(id, name, result, ...) id,
+  PLUMB_WORLD_CALLS(PLUMB_NAME)
+#undef PLUMB_NAME
+};
+
+/// The names of the members, by WorldCall.
+inline constexpr const char* kWorldCallNames[] = {
+#define PLUMB_NAME(id, name, result, ...) #name,
+    PLUMB_WORLD_CALLS(PLUMB_NAME)
+#undef PLUMB_NAME
+};
+
+inline constexpr int kWorldCalls = static_cast<int>(std::size(kWorldCallNames));
+
+/// The members themselves, by WorldCall.
+template <class Real>
+constexpr auto world_calls() {
+  using Type = BasicWorld<Real>;
+  return std::tuple_cat(
+#define PLUMB_MEMBER(id, name, result, ...) \
+  std::tuple{static_cast<result (Type::*)(__VA_ARGS__)>(&Type::name)},
+      PLUMB_WORLD_CALLS(PLUMB_MEMBER)
+#undef PLUMB_MEMBER
+          std::tuple<>{});
+}
+
+}  // namespace plumb
