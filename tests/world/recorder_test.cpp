@@ -212,6 +212,17 @@ TEST(RecordingFile, ACutEndIsTolerated) {
   EXPECT_EQ(messages, static_cast<int>(bytes.size()) - 16 + 1 - 43);
 }
 
+// As the guide says: 22 bytes of the call and 18 of the hash.
+TEST(RecordingFile, AStepTakesFortyBytes) {
+  const RecordedFile file;
+  RecordedWorld<float> world(file, WorldDefinition{}, {.bodies = false});
+  world.create_body({}, {.geometry = Circle{1}});
+  world.step();
+  const std::size_t before = file.read().size();
+  for (int i = 0; i < 10; ++i) world.step();
+  EXPECT_EQ(file.read().size() - before, 400u);
+}
+
 // A flipped bit in the middle is refused; the sum of the first record's header is at 16 + 4.
 TEST(RecordingFile, DamageIsRefused) {
   const RecordedFile file;
