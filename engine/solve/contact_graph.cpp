@@ -28,6 +28,7 @@ auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool giv
     if (gives_way_b) bodies_[chosen].set(b);
   }
   colours_[chosen].push_back(constraint);
+  if (colours_[chosen].size() == 1) find_used();
   return {chosen, static_cast<int>(colours_[chosen].size()) - 1};
 }
 
@@ -42,7 +43,16 @@ int ContactGraph<Real>::remove(Place place, bool gives_way_a, bool gives_way_b) 
   const bool last = place.index + 1 == static_cast<int>(colour.size());
   if (!last) colour[place.index] = colour.back();
   colour.pop_back();
+  if (colour.empty()) find_used();
   return last ? -1 : colour[place.index].contact;
+}
+
+template <class Real>
+void ContactGraph<Real>::find_used() {
+  used_count_ = 0;
+  for (int i = 0; i <= kColours; ++i) {
+    if (!colours_[order(i)].empty()) used_[used_count_++] = order(i);
+  }
 }
 
 template <class Real>

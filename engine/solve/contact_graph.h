@@ -34,8 +34,8 @@ class ContactGraph {
   /// `visit(constraint)` for all, overflow first, in the order that they are solved in.
   template <class Visit>
   void for_each(Visit&& visit) {
-    for (int c = 0; c <= kColours; ++c) {
-      for (ContactConstraint<Real>& constraint : colours_[order(c)]) visit(constraint);
+    for (int i = 0; i < used_count_; ++i) {
+      for (ContactConstraint<Real>& constraint : colours_[used_[i]]) visit(constraint);
     }
   }
 
@@ -46,7 +46,8 @@ class ContactGraph {
   std::size_t size() const;
 
   /// To be called after constraints were put into the colours' lists directly: finds again which bodies each
-  /// colour has. `gives_way(body)`: whether it is dynamic. False when two of a colour share a dynamic body.
+  /// colour has, and which colours are in use. `gives_way(body)`: whether it is dynamic. False when two of a
+  /// colour share a dynamic body.
   template <class GivesWay>
   bool find_bodies(GivesWay&& gives_way) {
     bool sound = true;
@@ -60,10 +61,15 @@ class ContactGraph {
         }
       }
     }
+    find_used();
     return sound;
   }
 
  private:
+  void find_used();
+
+  int used_[kColours + 1] = {};  // colours that are not empty, in their order
+  int used_count_ = 0;
   std::vector<ContactConstraint<Real>> colours_[kColours + 1];
   BitSet bodies_[kColours];
 };

@@ -21,24 +21,26 @@ struct Pair {
         ia(a.inverse_inertia),
         ib(b.inverse_inertia) {}
 
-  Real along_normal(const ContactPoint<Real>& p) const {
-    return dot(n, vb - va) + p.arm_normal_b * wb - p.arm_normal_a * wa;
+  Real along_normal() const { return dot(n, vb - va); }
+  Real along_tangent(const ContactConstraint<Real>& c) const {
+    return dot(Vec2<Real>{n.y, -n.x}, vb - va) + c.arm_tangent_b * wb - c.arm_tangent_a * wa;
   }
-  Real along_tangent(const ContactPoint<Real>& p) const {
-    return dot(Vec2<Real>{n.y, -n.x}, vb - va) + p.arm_tangent_b * wb - p.arm_tangent_a * wa;
-  }
-  void push(const ContactPoint<Real>& p, Real impulse) {
+  void push(Real impulse, Real angular_a, Real angular_b) {
     va -= (ma * impulse) * n;
     vb += (mb * impulse) * n;
-    wa -= ia * impulse * p.arm_normal_a;
-    wb += ib * impulse * p.arm_normal_b;
+    wa -= ia * angular_a;
+    wb += ib * angular_b;
   }
-  void rub(const ContactPoint<Real>& p, Real impulse) {
+  void rub(const ContactConstraint<Real>& c, Real impulse) {
     const Vec2<Real> t{n.y, -n.x};
     va -= (ma * impulse) * t;
     vb += (mb * impulse) * t;
-    wa -= ia * impulse * p.arm_tangent_a;
-    wb += ib * impulse * p.arm_tangent_b;
+    wa -= ia * impulse * c.arm_tangent_a;
+    wb += ib * impulse * c.arm_tangent_b;
+  }
+  void roll(Real impulse) {
+    wa -= ia * impulse;
+    wb += ib * impulse;
   }
   void store() {
     a.velocity = va, a.angular_velocity = wa;
@@ -50,133 +52,127 @@ struct Pair {
   Real wa, wb, ma, mb, ia, ib;
 };
 
-// lambda >= 0 with v_n + bias = 0, softened: lambda' = lambda - m k (v_n + bias) - s lambda.
-template <class Real>
-Real press(ContactPoint<Real>& p, Real speed, Real mass_scale, Real impulse_scale) {
-  const Real before = p.normal_impulse;
-  const Real wanted = before - p.normal_mass * mass_scale * speed - impulse_scale * before;
-  p.normal_impulse = std::max(wanted, Real(0));
-  p.peak_impulse = std::max(p.peak_impulse, p.normal_impulse);
-  return p.normal_impulse - before;
-}
-
-// How far the bodies have come along the normal at a point since the step's start, to first order.
-template <class Real>
-Real separation_now(const Pair<Real>& pair, const ContactPoint<Real>& p, Real closed) {
-  return p.separation + closed + p.arm_normal_b * pair.b.turned - p.arm_normal_a * pair.a.turned;
-}
-
-// What is asked of one point: v_n + bias = 0, yielding by `give` (of the effective mass) to the impulse.
+// What is asked of a point: v_n + bias = 0, softened.
 template <class Real>
 struct Demand {
-  Real bias = 0, give = 0;
+  Real bias = 0, mass_scale = 1, impulse_scale = 0;
 };
 
+// How far a point is open now: carried on from the step's start to first order. `closed`: the bodies' way
+// along n.
 template <class Real>
-void set_impulse(ContactPoint<Real>& p, Real impulse) {
-  p.normal_impulse = impulse;
-  p.peak_impulse = std::max(p.peak_impulse, impulse);
+Real separation_now(const Pair<Real>& pair, const ContactConstraint<Real>& c, int i, Real closed) {
+  return c.separation[i] + closed + c.arm_b[i] * pair.b.turned - c.arm_a[i] * pair.a.turned;
 }
 
-// Two points at once: (K + G) d = -(v + bias) - G lambda, lambda + d >= 0, for the four cases of which points
-// press. The points of one contact pull at each other through the body's turning; one after the other they
-// would need several sweeps.
 template <class Real>
-void press_both(Pair<Real>& pair, ContactConstraint<Real>& c, const Demand<Real>* demand) {
-  ContactPoint<Real>&p = c.points[0], &q = c.points[1];
-  const Real kp = 1 / p.normal_mass, kq = 1 / q.normal_mass;
-  const Real between = pair.ma + pair.mb + pair.ia * p.arm_normal_a * q.arm_normal_a +
-                       pair.ib * p.arm_normal_b * q.arm_normal_b;
-  const Real gp = demand[0].give * kp, gq = demand[1].give * kq;
-  const Real before_p = p.normal_impulse, before_q = q.normal_impulse;
-  // Residuals with both impulses taken away, so that the unknowns are the impulses themselves.
-  const Real rp = pair.along_normal(p) + demand[0].bias - kp * before_p - between * before_q;
-  const Real rq = pair.along_normal(q) + demand[1].bias - between * before_p - kq * before_q;
-  const Real dp = kp + gp, dq = kq + gq;
-  const Real determinant = dp * dq - between * between;
-  Real lp = (between * rq - dq * rp), lq = (between * rp - dp * rq);  // times the determinant
-  if (lp >= 0 && lq >= 0 && determinant > Real(1e-3) * dp * dq) {
-    const Real inverse = 1 / determinant;
-    lp *= inverse, lq *= inverse;
-  } else if (rp < 0 && rq * dp - between * rp >= 0) {
-    lp = -rp / dp, lq = 0;
-  } else if (rq < 0 && rp * dq - between * rq >= 0) {
-    lp = 0, lq = -rq / dq;
-  } else if (rp >= 0 && rq >= 0) {
-    lp = lq = 0;
-  } else {
-    lp = std::max(-rp / dp, Real(0));
-    lq = std::max(-(rq + between * lp) / dq, Real(0));
+Real way_along_normal(const Pair<Real>& pair) {
+  return dot(pair.n, pair.b.moved - pair.a.moved);
+}
+
+// lambda >= 0 with v_n + bias = 0 at both points at once: d = -mass_scale K^-1 (v + bias) - impulse_scale
+// lambda. The points pull at each other through the bodies' turning; one after the other they would need
+// several sweeps. A point that would have to pull gets nothing, and the other one is solved alone.
+template <class Real>
+void press(Pair<Real>& pair, ContactConstraint<Real>& c, const Demand<Real> (&demand)[2]) {
+  const Real v = pair.along_normal();
+  const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+  const Real rate_p = v + c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + demand[0].bias;
+  const Real rate_q = v + c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + demand[1].bias;
+  Real dp =
+      -demand[0].mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q) - demand[0].impulse_scale * p;
+  Real dq =
+      -demand[1].mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q) - demand[1].impulse_scale * q;
+  if (p + dp < 0 || q + dq < 0) {
+    const auto alone = [&](int i, Real rate, Real impulse) {
+      const Real d = -demand[i].mass_scale * c.mass[i] * rate - demand[i].impulse_scale * impulse;
+      return std::max(d, -impulse);
+    };
+    if (p + dp < q + dq) {
+      dp = -p;
+      dq = alone(1, rate_q + c.between * dp, q);
+    } else {
+      dq = -q;
+      dp = alone(0, rate_p + c.between * dq, p);
+    }
   }
-  pair.push(p, lp - before_p);
-  pair.push(q, lq - before_q);
-  set_impulse(p, lp), set_impulse(q, lq);
+  c.normal_impulse[0] = p + dp, c.normal_impulse[1] = q + dq;
+  pair.push(dp + dq, c.arm_a[0] * dp + c.arm_a[1] * dq, c.arm_b[0] * dp + c.arm_b[1] * dq);
+}
+
+template <class Real>
+void press_one(Pair<Real>& pair, ContactConstraint<Real>& c, const Demand<Real>& demand) {
+  const Real p = c.normal_impulse[0];
+  const Real rate = pair.along_normal() + c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + demand.bias;
+  const Real d = std::max(-demand.mass_scale * c.mass[0] * rate - demand.impulse_scale * p, -p);
+  c.normal_impulse[0] = p + d;
+  pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);
+}
+
+template <class Real>
+void note_peaks(ContactConstraint<Real>& c) {
+  for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
 }
 
 template <class Real>
 void solve_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const ContactStep<Real>& step) {
   const Softness<Real>& soft = step.softness[static_cast<int>(c.hardness)];
   Pair<Real> pair(motion, c);
-  const Real closed = dot(pair.n, pair.b.moved - pair.a.moved);
+  const Real closed = way_along_normal(pair);
+  const auto demand = [&](int i) {
+    const Real s = separation_now(pair, c, i, closed);
+    return s > 0 ? Demand<Real>{s * step.inverse_h, 1, 0}
+                 : Demand<Real>{std::max(soft.bias_rate * s, -c.push_speed), soft.mass_scale,
+                                soft.impulse_scale};
+  };
   if (c.count == 2) {
-    Demand<Real> demand[2];
-    for (int i = 0; i < 2; ++i) {
-      const Real s = separation_now(pair, c.points[i], closed);
-      demand[i] = s > 0 ? Demand<Real>{s * step.inverse_h, 0}
-                        : Demand<Real>{std::max(soft.bias_rate * s, -c.push_speed),
-                                       soft.impulse_scale / soft.mass_scale};
-    }
-    press_both(pair, c, demand);
-    pair.store();
-    return;
+    press(pair, c, {demand(0), demand(1)});
+  } else {
+    press_one(pair, c, demand(0));
   }
-  for (int i = 0; i < c.count; ++i) {
-    ContactPoint<Real>& p = c.points[i];
-    const Real s = separation_now(pair, p, closed);
-    const Real v = pair.along_normal(p);
-    const Real impulse = s > 0 ? press(p, v + s * step.inverse_h, Real(1), Real(0))
-                               : press(p, v + std::max(soft.bias_rate * s, -c.push_speed), soft.mass_scale,
-                                       soft.impulse_scale);
-    pair.push(p, impulse);
-  }
+  note_peaks(c);
   pair.store();
 }
 
 template <class Real>
 void relax_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const ContactStep<Real>& step) {
   Pair<Real> pair(motion, c);
-  const Real closed = dot(pair.n, pair.b.moved - pair.a.moved);
-  Real pressure = 0;
+  const Real closed = way_along_normal(pair);
+  const auto demand = [&](int i) {
+    return Demand<Real>{std::max(separation_now(pair, c, i, closed), Real(0)) * step.inverse_h, 1, 0};
+  };
   if (c.count == 2) {
-    Demand<Real> demand[2];
-    for (int i = 0; i < 2; ++i) {
-      demand[i].bias = std::max(separation_now(pair, c.points[i], closed), Real(0)) * step.inverse_h;
-    }
-    press_both(pair, c, demand);
-    pressure = c.points[0].normal_impulse + c.points[1].normal_impulse;
-  } else
-    for (int i = 0; i < c.count; ++i) {
-      ContactPoint<Real>& p = c.points[i];
-      const Real s = separation_now(pair, p, closed);
-      const Real gap_speed = std::max(s, Real(0)) * step.inverse_h;
-      pair.push(p, press(p, pair.along_normal(p) + gap_speed, Real(1), Real(0)));
-      pressure += p.normal_impulse;
-    }
-  // Coulomb: |lambda_t| <= mu lambda_n.
-  for (int i = 0; i < c.count; ++i) {
-    ContactPoint<Real>& p = c.points[i];
-    const Real before = p.tangent_impulse, most = c.friction * p.normal_impulse;
-    const Real wanted = before - p.tangent_mass * (pair.along_tangent(p) - c.surface_speed);
-    p.tangent_impulse = std::clamp(wanted, -most, most);
-    pair.rub(p, p.tangent_impulse - before);
+    press(pair, c, {demand(0), demand(1)});
+  } else {
+    press_one(pair, c, demand(0));
   }
+  note_peaks(c);
+  // Coulomb: |lambda_t| <= mu lambda_n.
+  const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
+  const Real before = c.tangent_impulse, most = c.friction * pressure;
+  const Real wanted = before - c.tangent_mass * (pair.along_tangent(c) - c.surface_speed);
+  c.tangent_impulse = std::clamp(wanted, -most, most);
+  pair.rub(c, c.tangent_impulse - before);
   if (c.rolling_arm > 0) {
     const Real spin_mass = pair.ia + pair.ib > 0 ? 1 / (pair.ia + pair.ib) : 0;
-    const Real before = c.rolling_impulse, most = c.rolling_arm * pressure;
-    c.rolling_impulse = std::clamp(before - spin_mass * (pair.wb - pair.wa), -most, most);
-    pair.wa -= pair.ia * (c.rolling_impulse - before);
-    pair.wb += pair.ib * (c.rolling_impulse - before);
+    const Real rolled = c.rolling_impulse, most_torque = c.rolling_arm * pressure;
+    c.rolling_impulse = std::clamp(rolled - spin_mass * (pair.wb - pair.wa), -most_torque, most_torque);
+    pair.roll(c.rolling_impulse - rolled);
   }
+  pair.store();
+}
+
+template <class Real>
+void warm_start_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c) {
+  Pair<Real> pair(motion, c);
+  const Real p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;
+  const Vec2<Real> n = c.normal;
+  const Vec2<Real> impulse{(p + q) * n.x + f * n.y, (p + q) * n.y - f * n.x};
+  pair.va -= pair.ma * impulse;
+  pair.vb += pair.mb * impulse;
+  pair.wa -= pair.ia * (c.arm_a[0] * p + c.arm_a[1] * q + c.arm_tangent_a * f);
+  pair.wb += pair.ib * (c.arm_b[0] * p + c.arm_b[1] * q + c.arm_tangent_b * f);
+  if (c.rolling_arm > 0) pair.roll(c.rolling_impulse);
   pair.store();
 }
 
@@ -185,22 +181,13 @@ void relax_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const Conta
 template <class Real>
 void warm_start_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step) {
   const Real ratio = step.warm_start;
-  graph.for_each([&](ContactConstraint<Real>& c) {
-    Pair<Real> pair(motion, c);
-    for (int i = 0; i < c.count; ++i) {
-      ContactPoint<Real>& p = c.points[i];
-      p.normal_impulse *= ratio;
-      p.tangent_impulse *= ratio;
-      pair.push(p, p.normal_impulse);
-      pair.rub(p, p.tangent_impulse);
-    }
-    if (c.rolling_arm > 0) {
-      c.rolling_impulse *= ratio;
-      pair.wa -= pair.ia * c.rolling_impulse;
-      pair.wb += pair.ib * c.rolling_impulse;
-    }
-    pair.store();
-  });
+  if (ratio != 1) {
+    graph.for_each([&](ContactConstraint<Real>& c) {
+      c.normal_impulse[0] *= ratio, c.normal_impulse[1] *= ratio;
+      c.tangent_impulse *= ratio, c.rolling_impulse *= ratio;
+    });
+  }
+  graph.for_each([&](ContactConstraint<Real>& c) { warm_start_one(motion, c); });
 }
 
 template <class Real>
@@ -219,10 +206,14 @@ void apply_restitution(BodyMotion<Real>* motion, ContactGraph<Real>& graph, cons
     if (c.restitution == 0) return;
     Pair<Real> pair(motion, c);
     for (int i = 0; i < c.count; ++i) {
-      ContactPoint<Real>& p = c.points[i];
-      if (p.approach > -step.bounce_threshold || p.peak_impulse == 0) continue;
-      pair.push(p, press(p, pair.along_normal(p) + c.restitution * p.approach, Real(1), Real(0)));
+      if (c.approach[i] > -step.bounce_threshold || c.peak_impulse[i] == 0) continue;
+      const Real p = c.normal_impulse[i];
+      const Real rate = pair.along_normal() + c.arm_b[i] * pair.wb - c.arm_a[i] * pair.wa;
+      const Real d = std::max(-c.mass[i] * (rate + c.restitution * c.approach[i]), -p);
+      c.normal_impulse[i] = p + d;
+      pair.push(d, c.arm_a[i] * d, c.arm_b[i] * d);
     }
+    note_peaks(c);
     pair.store();
   });
 }

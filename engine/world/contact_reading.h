@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "engine/world/world.h"
 #include "engine/world/world_data.h"
 
@@ -18,13 +20,12 @@ ContactReading reading_of(const WorldData<Real>& w, const ContactRecord& contact
   reading.count = c.count;
   const Vec2<Real> n = c.normal, t{n.y, -n.x};
   for (int i = 0; i < c.count; ++i) {
-    const ContactPoint<Real>& p = c.points[i];
     // r x n = r.x n.y - r.y n.x = r . t, and r x t = -(r . n).
-    const Vec2<Real> arm = p.arm_normal_a * t - p.arm_tangent_a * n;
+    const Vec2<Real> arm = c.arm_a[i] * t - c.arm_tangent_a * n;
     reading.points[i] = w.position[c.body_a] + arm.template as<double>();
-    reading.separations[i] = static_cast<double>(p.separation);
-    reading.impulses[i] = static_cast<double>(p.normal_impulse);
-    reading.approach = std::min(reading.approach, static_cast<double>(p.approach));
+    reading.separations[i] = static_cast<double>(c.separation[i]);
+    reading.impulses[i] = static_cast<double>(c.normal_impulse[i]);
+    reading.approach = std::min(reading.approach, static_cast<double>(c.approach[i]));
   }
   return reading;
 }

@@ -53,15 +53,14 @@ void add_rows(DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
-      ContactPoint<Real>& p = c->points[i];
       // What neither presses nor overlaps is left to the sweeps.
-      if (p.normal_impulse == 0 && p.separation > 0) continue;
+      if (c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
       row.linear_a = -c->normal, row.linear_b = c->normal;
-      row.angular_a = -p.arm_normal_a, row.angular_b = p.arm_normal_b;
-      row.impulse = &p.normal_impulse;
-      row.bias = p.separation;
+      row.angular_a = -c->arm_a[i], row.angular_b = c->arm_b[i];
+      row.impulse = &c->normal_impulse[i];
+      row.bias = c->separation[i];
       row.one_sided = true;
       row.block = block;
       rows.push_back(row);
@@ -108,11 +107,10 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
     std::size_t next = 0;
     for (ContactConstraint<Real>* c : island.contacts) {
       for (int k = 0; k < c->count; ++k) {
-        if (next >= island.system.rows.size() ||
-            island.system.rows[next].impulse != &c->points[k].normal_impulse)
+        if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
           continue;
         DirectRow<Real>& row = island.system.rows[next++];
-        const Real s = separation_now(w.motion.data(), row, c->points[k].separation);
+        const Real s = separation_now(w.motion.data(), row, c->separation[k]);
         const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)].bias_rate;
         row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
       }

@@ -51,19 +51,40 @@ ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord&
   return collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach);
 }
 
-// The effective masses and arms of one point. r x t = -(r . n) for t = (n.y, -n.x).
+// Arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).
 template <class Real>
-void prepare_point(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Vec2<Real> n, Vec2<Real> arm_a,
-                   Vec2<Real> arm_b, ContactPoint<Real>& p) {
-  p.arm_normal_a = cross(arm_a, n), p.arm_normal_b = cross(arm_b, n);
-  p.arm_tangent_a = -dot(arm_a, n), p.arm_tangent_b = -dot(arm_b, n);
-  const auto mass = [&](Real la, Real lb) {
-    const Real k =
-        a.inverse_mass + b.inverse_mass + a.inverse_inertia * la * la + b.inverse_inertia * lb * lb;
-    return k > 0 ? 1 / k : 0;
+void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Vec2<Real>* arms_a,
+                  Vec2<Real> between, ContactConstraint<Real>& c) {
+  const Vec2<Real> n = c.normal;
+  const Real inverse_mass = a.inverse_mass + b.inverse_mass;
+  const auto coupling = [&](Real la, Real lb, Real ma, Real mb) {
+    return inverse_mass + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
   };
-  p.normal_mass = mass(p.arm_normal_a, p.arm_normal_b);
-  p.tangent_mass = mass(p.arm_tangent_a, p.arm_tangent_b);
+  const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
+  Vec2<Real> middle{};
+  Real k[2] = {};
+  for (int i = 0; i < c.count; ++i) {
+    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - between, n);
+    k[i] = coupling(c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
+    c.mass[i] = inverse(k[i]);
+    middle += arms_a[i];
+  }
+  if (c.count == 2) {
+    middle *= Real(0.5);
+    c.between = coupling(c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
+    const Real determinant = k[0] * k[1] - c.between * c.between;
+    // Points that are as good as one share its load.
+    const bool apart = determinant > Real(1e-3) * k[0] * k[1];
+    const Real d = apart ? 1 / determinant : Real(0);
+    c.inverse_pp = apart ? d * k[1] : Real(0.5) * c.mass[0];
+    c.inverse_qq = apart ? d * k[0] : Real(0.5) * c.mass[1];
+    c.inverse_pq = -d * c.between;
+  } else {
+    c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.between = c.inverse_pq = c.inverse_qq = 0;
+    c.inverse_pp = c.mass[0];
+  }
+  c.arm_tangent_a = -dot(middle, n), c.arm_tangent_b = -dot(middle - between, n);
+  c.tangent_mass = inverse(coupling(c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
 }
 
 // Writes the manifold into the constraint; points that were there before, by feature, keep their impulses.
@@ -73,25 +94,27 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   const int a = contact.body_a, b = contact.body_b;
   const Rotation<Real> q = w.rotation[a];
   const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
-  ContactPoint<Real> old[2] = {c.points[0], c.points[1]};
+  const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
   const std::uint16_t features[2] = {c.features[0], c.features[1]};
   const int old_count = c.count;
   c.normal = q * manifold.normal;
   c.count = static_cast<std::uint8_t>(manifold.count);
-  for (int i = 0; i < manifold.count; ++i) {
+  Vec2<Real> arms_a[2];
+  bool kept = false;
+  for (int i = 0; i < 2; ++i) {
+    c.normal_impulse[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    c.features[i] = 0;
+    if (i >= manifold.count) continue;
     const ContactManifoldPoint<Real>& from = manifold.points[i];
-    ContactPoint<Real>& p = c.points[i];
-    p = {};
     for (int j = 0; j < old_count; ++j) {
-      if (features[j] != from.feature) continue;
-      p.normal_impulse = old[j].normal_impulse;
-      p.tangent_impulse = old[j].tangent_impulse;
+      if (features[j] == from.feature) c.normal_impulse[i] = old[j], kept = true;
     }
-    const Vec2<Real> arm_a = q * from.point;
-    prepare_point(w.motion[a], w.motion[b], c.normal, arm_a, arm_a - between, p);
-    p.separation = from.separation;
+    arms_a[i] = q * from.point;
+    c.separation[i] = from.separation;
     c.features[i] = from.feature;
   }
+  if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
+  prepare_rows(w.motion[a], w.motion[b], arms_a, between, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
 }
@@ -107,6 +130,7 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
   c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
+  c.bounces = c.restitution > 0 || contact.hit_events || contact.pre_solve;
   c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
                                                                           : ContactHardness::Stiff;
 }
@@ -121,31 +145,27 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
   if (c.travel_left < 0) return false;
   const Real closed = dot(c.normal, shift);
   for (int i = 0; i < c.count; ++i) {
-    ContactPoint<Real>& p = c.points[i];
-    p.separation += closed + p.arm_normal_b * b.turned - p.arm_normal_a * a.turned;
+    c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
   }
   return true;
 }
 
 template <class Real>
-void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c, bool needs_approach) {
-  for (int i = 0; i < c.count; ++i) c.points[i].peak_impulse = 0;
-  if (!needs_approach) return;
+void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c) {
+  c.peak_impulse[0] = c.peak_impulse[1] = 0;
+  if (!c.bounces) return;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
-    ContactPoint<Real>& p = c.points[i];
-    p.approach = along + p.arm_normal_b * b.angular_velocity - p.arm_normal_a * a.angular_velocity;
+    c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
 }
 
 template <class Real>
 bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
-  for (int i = 0; i < c.count; ++i) {
-    if (c.points[i].separation <= near_enough || c.points[i].peak_impulse > 0) return true;
-  }
-  return false;
+  const auto touch = [&](int i) { return c.separation[i] <= near_enough || c.peak_impulse[i] > 0; };
+  return touch(0) || (c.count == 2 && touch(1));
 }
 
 }  // namespace
@@ -179,7 +199,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
     mix_materials(w, contact, c);
     rebuild(w, contact, manifold, c);
     if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
-    begin_step(w, c, true);
+    begin_step(w, c);
     w.begun_contacts.push_back(c);
   }
 
@@ -205,7 +225,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
         c.touching = touching;
         changed.push_back(c.contact);
       }
-      begin_step(w, c, true);
+      begin_step(w, c);
     }
   }
 
@@ -225,16 +245,12 @@ void report_hits(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     const ContactRecord& contact = w.contacts[c.contact];
     if (!contact.hit_events) return;
-    int hardest = 0;
-    for (int i = 1; i < c.count; ++i) {
-      if (c.points[i].approach < c.points[hardest].approach) hardest = i;
-    }
-    const ContactPoint<Real>& p = c.points[hardest];
+    const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
     const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
-    if (p.peak_impulse == 0 || p.approach > -least) return;
+    if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least) return;
     const ContactReading reading = reading_of(w, contact, c);
     w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
-                            -static_cast<double>(p.approach)});
+                            -static_cast<double>(c.approach[hardest])});
   });
 }
 

@@ -21,41 +21,6 @@ double decay(double x) {
   return sum;
 }
 
-// Forces that act through the whole step become kicks for its substeps.
-template <class Real>
-void prepare_kicks(WorldData<Real>& w, double h) {
-  w.kicks.resize(w.awake.size());
-  const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
-  const Real step = static_cast<Real>(h);
-  for (std::size_t i = 0; i < w.awake.size(); ++i) {
-    const int body = w.awake[i];
-    const BodyRecord<Real>& record = w.bodies[body];
-    BodyMotion<Real>& motion = w.motion[body];
-    motion.moved = {}, motion.turned = 0;
-    Kick<Real>& kick = w.kicks[i];
-    kick = {};
-    if (record.type != BodyType::Dynamic) continue;
-    kick.velocity = step * (record.gravity_scale * gravity + motion.inverse_mass * record.force);
-    kick.spin = step * motion.inverse_inertia * record.torque;
-    if (record.linear_damping > 0) kick.keep = static_cast<Real>(decay(h * double(record.linear_damping)));
-    if (record.angular_damping > 0)
-      kick.keep_spin = static_cast<Real>(decay(h * double(record.angular_damping)));
-    if (record.constraints == 0) kick.lag = Real(0.5) * kick.velocity, kick.lag_spin = Real(0.5) * kick.spin;
-    if (record.lock_x) kick.locked_x = true, kick.velocity.x = kick.lag.x = motion.velocity.x = 0;
-    if (record.lock_y) kick.locked_y = true, kick.velocity.y = kick.lag.y = motion.velocity.y = 0;
-  }
-}
-
-template <class Real>
-void integrate_velocities(WorldData<Real>& w) {
-  for (std::size_t i = 0; i < w.awake.size(); ++i) {
-    const Kick<Real>& kick = w.kicks[i];
-    BodyMotion<Real>& motion = w.motion[w.awake[i]];
-    motion.velocity = kick.keep * (motion.velocity + kick.velocity);
-    motion.angular_velocity = kick.keep_spin * (motion.angular_velocity + kick.spin);
-  }
-}
-
 // Turns by a small angle: sine and cosine to the order where a float rounds, the library's own beyond.
 template <class Real>
 Rotation<Real> turned_by(Rotation<Real> q, Real x) {
@@ -69,19 +34,81 @@ Rotation<Real> turned_by(Rotation<Real> q, Real x) {
   return {q.c * c - q.s * s, q.s * c + q.c * s};
 }
 
+// What a body's velocity gains and keeps in a time of its own accord.
+template <class Real>
+Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real t = static_cast<Real>(time);
+  Kick<Real> kick;
+  kick.body = body;
+  if (record.type != BodyType::Dynamic) return kick;
+  const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
+  kick.velocity = t * (record.gravity_scale * gravity + motion.inverse_mass * record.force);
+  kick.spin = t * motion.inverse_inertia * record.torque;
+  if (record.linear_damping > 0) kick.keep = static_cast<Real>(decay(time * double(record.linear_damping)));
+  if (record.angular_damping > 0)
+    kick.keep_spin = static_cast<Real>(decay(time * double(record.angular_damping)));
+  kick.locked_x = record.lock_x, kick.locked_y = record.lock_y;
+  return kick;
+}
+
+template <class Real>
+void apply(const Kick<Real>& kick, BodyMotion<Real>& motion) {
+  motion.velocity = kick.keep * (motion.velocity + kick.velocity);
+  motion.angular_velocity = kick.keep_spin * (motion.angular_velocity + kick.spin);
+  if (kick.locked_x) motion.velocity.x = 0;
+  if (kick.locked_y) motion.velocity.y = 0;
+}
+
+// In free flight constant acceleration is exact: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2) t.
+template <class Real>
+void fly(WorldData<Real>& w, int body, double dt) {
+  const Kick<Real> kick = kick_of(w, body, dt);
+  BodyMotion<Real>& motion = w.motion[body];
+  const Real t = static_cast<Real>(dt);
+  const Vec2<Real> before = motion.velocity;
+  const Real spin_before = motion.angular_velocity;
+  apply(kick, motion);
+  // The mean of both ends: exact for constant acceleration, of second order with damping.
+  motion.moved = (Real(0.5) * t) * (before + motion.velocity);
+  if (kick.locked_x) motion.moved.x = 0;
+  if (kick.locked_y) motion.moved.y = 0;
+  motion.turned = Real(0.5) * t * (spin_before + motion.angular_velocity);
+  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+}
+
+// Bodies that nothing holds fly through the whole step at once; the others get their kicks substep by
+// substep.
+template <class Real>
+void prepare_kicks(WorldData<Real>& w, double h, int substeps) {
+  w.kicks.clear();
+  for (const int body : w.awake) {
+    if (w.bodies[body].constraints == 0) {
+      fly(w, body, h * substeps);
+      continue;
+    }
+    w.motion[body].moved = {}, w.motion[body].turned = 0;
+    w.kicks.push_back(kick_of(w, body, h));
+  }
+}
+
+template <class Real>
+void integrate_velocities(WorldData<Real>& w) {
+  for (const Kick<Real>& kick : w.kicks) apply(kick, w.motion[kick.body]);
+}
+
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h) {
-  for (std::size_t i = 0; i < w.awake.size(); ++i) {
-    const Kick<Real>& kick = w.kicks[i];
-    const int body = w.awake[i];
-    BodyMotion<Real>& motion = w.motion[body];
+  for (const Kick<Real>& kick : w.kicks) {
+    BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
     if (kick.locked_y) motion.velocity.y = 0;
-    motion.moved += h * (motion.velocity - kick.lag);
-    const Real turn = h * (motion.angular_velocity - kick.lag_spin);
+    motion.moved += h * motion.velocity;
+    const Real turn = h * motion.angular_velocity;
     if (turn == 0) continue;
     motion.turned += turn;
-    w.rotation[body] = turned_by(w.rotation[body], turn);
+    w.rotation[kick.body] = turned_by(w.rotation[kick.body], turn);
   }
 }
 
@@ -107,7 +134,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h);
+  prepare_kicks(w, h, substeps);
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w);
   for (int substep = 0; substep < substeps; ++substep) {

@@ -109,16 +109,13 @@ struct ChainRecord {
   std::vector<int> shapes{};
 };
 
-/// How one awake body's velocity changes in a substep of its own accord.
+/// How a body's velocity changes in a substep of its own accord.
 template <class Real>
 struct Kick {
+  int body = 0;
   Vec2<Real> velocity{};         ///< m/s
   Real spin = 0;                 ///< rad/s
   Real keep = 1, keep_spin = 1;  ///< what damping leaves
-  /// m/s, rad/s: taken from the velocity when a body in free flight moves, so that constant acceleration is
-  /// exact: x(h) = x + v h + a h^2/2 = x + (v(h) - a h/2) h.
-  Vec2<Real> lag{};
-  Real lag_spin = 0;
   bool locked_x = false, locked_y = false;
 };
 
@@ -175,7 +172,7 @@ struct WorldData {
   bool reports_hits = false;               ///< some shape wants it
   std::vector<DirectIsland<Real>> direct;  ///< of this step; `direct_count` are in use
   int direct_count = 0;
-  std::vector<Kick<Real>> kicks;  ///< by place in `awake`
+  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that something holds
 
   // Kept between steps for their room alone.
   std::vector<int> scratch, island_of, island_size, island_place;

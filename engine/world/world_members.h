@@ -34,11 +34,11 @@ PLUMB_MEMBERS(SensorRecord, shape, visitors)
 
 PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
               pre_solve, hit_events, index)
-PLUMB_REAL_MEMBERS(ContactPoint, arm_normal_a, arm_normal_b, arm_tangent_a, arm_tangent_b, separation,
-                   normal_mass, tangent_mass, normal_impulse, tangent_impulse, peak_impulse, approach)
-PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, points, friction, restitution, rolling_arm,
-                   rolling_impulse, surface_speed, push_speed, travel_left, contact, features, count,
-                   hardness, touching)
+PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
+                   separation, normal_impulse, tangent_impulse, mass, inverse_pp, inverse_pq, inverse_qq,
+                   between, tangent_mass, friction, push_speed, surface_speed, hardness, count, touching,
+                   bounces, restitution, rolling_arm, rolling_impulse, peak_impulse, approach, travel_left,
+                   contact, features)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               user_data)
 
