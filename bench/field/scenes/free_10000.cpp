@@ -6,7 +6,7 @@ namespace plumb::field {
 Scene free_10000() {
   return {.name = "free_10000",
           .summary = "10000 squares fall freely and do not touch",
-          .steps = 300,
+          .steps = 100,
           .quick_steps = 30,
           .warm_up = 10,
           .build = [](Builder& world, bool quick) {

@@ -54,6 +54,7 @@ Scene washer() {
           .summary = "8100 small squares in a round drum with blades, moved as given",
           .steps = 500,
           .quick_steps = 60,
+          .continuous = false,
           .build = build};
 }
 
