@@ -24,7 +24,7 @@ inline constexpr int kJointColours = 24;
 inline constexpr int kOverflowColour = kJointColours, kParked = kJointColours + 1;
 
 /// What a joint is solved as. Two kinds have a plain form and a general one.
-enum JointForm {
+enum JointForm : int {
   kHinge,
   kDistance,
   kRevolute,
