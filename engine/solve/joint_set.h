@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "engine/joints/definitions.h"
+#include "engine/joints/joint_row.h"
 #include "engine/math/vec2.h"
 #include "engine/solve/body_motion.h"
 
@@ -27,6 +27,15 @@ struct JointError {
   Real linear = 0;   ///< m
   Real angular = 0;  ///< rad
 };
+
+/// One rigid row of a joint, as a direct solution needs it: J v + bias = 0 while positions are pulled back.
+template <class Real>
+struct RigidRow {
+  JointRow<Real> row{};
+  Real bias = 0;            ///< m/s or rad/s
+  Real* impulse = nullptr;  ///< its accumulated impulse, in the joint: valid until joints come or go
+};
+inline constexpr int kMostRigidRows = 3;
 
 /// All joints of a real-time world, solved by sequential impulses with soft steps and a relaxation ("TGS
 /// soft", Catto, Solver2D, 2024). Joints are coloured such that those of one colour share no dynamic body,
@@ -81,6 +90,10 @@ class JointSet {
   /// Evaluates all rows at the poses after the motion and holds velocities only: takes out what pulling back
   /// put in. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+
+  /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or `relax`);
+  /// returns their number.
+  int rigid_rows(int joint, const JointStep<Real>& step, RigidRow<Real> (&rows)[kMostRigidRows]);
 
   /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
   Real force(int joint, Real inverse_h) const;

@@ -12,6 +12,10 @@ inline constexpr double kStiffFrequencyShare = 0.25;
 /// Far over-critical: overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
+/// How far contacts yield to a load, as a share of what their spring would: towers sink by it, and large heaps swing
+/// without it.
+inline constexpr double kContactYield = 0.5;
+
 /// Share of an overlap that a contact which is solved directly takes back in a substep.
 inline constexpr double kPushShare = 0.1;
 
@@ -19,6 +23,9 @@ inline constexpr double kPushShare = 0.1;
 /// directly.
 inline constexpr int kDirectRows = 128;
 inline constexpr double kDirectCost = 20000;
+/// Islands with joints are so only when their heaviest body has more than this many times the mass of their lightest:
+/// sweeps hold chains of equal links well, and cost less.
+inline constexpr double kDirectMassRatio = 8;
 
 /// The same for joints.
 inline constexpr double kJointFrequencyShare = 0.25;

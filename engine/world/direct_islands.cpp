@@ -1,6 +1,7 @@
 #include "engine/world/direct_islands.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/world/constants.h"
 #include "engine/world/union_find.h"
@@ -12,6 +13,26 @@ namespace {
 template <class Real>
 ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+}
+
+// Takes islands with joints whose masses are alike out of the choice: they get a size beyond it.
+template <class Real>
+void note_mass_ratios(WorldData<Real>& w) {
+  w.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  w.heaviest.assign(w.bodies.size(), 0);
+  for (const int body : w.awake) {
+    const Real mass = w.bodies[body].mass;
+    if (!w.gives_way(body)) continue;
+    const int root = w.island_of[body];
+    w.lightest[root] = std::min(w.lightest[root], mass), w.heaviest[root] = std::max(w.heaviest[root], mass);
+  }
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (!joint.active) return;
+    const int root = w.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+    if (w.heaviest[root] <= Real(tuning::kDirectMassRatio) * w.lightest[root]) {
+      w.island_size[root] = tuning::kDirectRows + 1;
+    }
+  });
 }
 
 // Islands by the body that stands for them, with the number of constraints of each in `w.island_size`.
@@ -32,6 +53,11 @@ void find_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, c.count); });
   for (const int body : w.awake) w.island_of[body] = islands.find(body);
+  if (w.joint_set.active_count() == 0) return;
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (joint.active) count(joint.body_a, joint.body_b, 2);
+  });
+  note_mass_ratios(w);
 }
 
 template <class Real>
@@ -40,16 +66,37 @@ DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
   if (place == kNone) {
     place = w.direct_count++;
     if (w.direct_count > static_cast<int>(w.direct.size())) w.direct.emplace_back();
-    w.direct[place].contacts.clear();
+    w.direct[place].contacts.clear(), w.direct[place].joints.clear();
   }
   return w.direct[place];
 }
 
 template <class Real>
-void add_rows(DirectIsland<Real>& island) {
+void put_row(const RigidRow<Real>& from, DirectRow<Real>& row) {
+  row.linear_a = from.row.linear_a, row.linear_b = from.row.linear_b;
+  row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+  row.impulse = from.impulse;
+}
+
+template <class Real>
+void add_rows(WorldData<Real>& w, const JointStep<Real>& step, DirectIsland<Real>& island) {
   std::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
   int block = 0;
+  for (const int joint : island.joints) {
+    RigidRow<Real> rigid[kMostRigidRows];
+    const int count = w.joint_set.rigid_rows(joint, step, rigid);
+    const auto [a, b] = w.joint_set.bodies(joint);
+    for (int i = 0; i < count; ++i) {
+      DirectRow<Real> row;
+      row.a = a, row.b = b;
+      put_row(rigid[i], row);
+      row.block = block;
+      rows.push_back(row);
+    }
+    if (count > 0) ++block;
+  }
+  island.joint_rows = static_cast<int>(rows.size());
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
@@ -60,12 +107,26 @@ void add_rows(DirectIsland<Real>& island) {
       row.linear_a = -c->normal, row.linear_b = c->normal;
       row.angular_a = -c->arm_a[i], row.angular_b = c->arm_b[i];
       row.impulse = &c->normal_impulse[i];
-      row.bias = c->separation[i];
       row.one_sided = true;
       row.block = block;
       rows.push_back(row);
     }
     if (static_cast<int>(rows.size()) > before) ++block;
+  }
+}
+
+// Joints turn with their bodies: their rows are those of the last evaluation.
+template <class Real>
+void refresh_joints(WorldData<Real>& w, const JointStep<Real>& step, DirectIsland<Real>& island, bool push) {
+  std::size_t next = 0;
+  for (const int joint : island.joints) {
+    RigidRow<Real> rigid[kMostRigidRows];
+    const int count = w.joint_set.rigid_rows(joint, step, rigid);
+    for (int i = 0; i < count; ++i) {
+      DirectRow<Real>& row = island.system.rows[next++];
+      put_row(rigid[i], row);
+      row.bias = push ? rigid[i].bias : Real(0);
+    }
   }
 }
 
@@ -79,7 +140,7 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
 }  // namespace
 
 template <class Real>
-void prepare_direct_islands(WorldData<Real>& w) {
+void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   w.direct_count = 0;
   find_islands(w);
   w.graph.for_each([&](ContactConstraint<Real>& c) {
@@ -88,11 +149,18 @@ void prepare_direct_islands(WorldData<Real>& w) {
     if (rows <= 2 || rows > tuning::kDirectRows) return;
     island_at(w, root).contacts.push_back(&c);
   });
+  if (w.joint_set.active_count() > 0) {
+    w.joints.for_each([&](int, const JointRecord& joint) {
+      if (!joint.active) return;
+      const int root = w.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+      if (w.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
+    });
+  }
   for (int i = 0; i < w.direct_count; ++i) {
     DirectIsland<Real>& island = w.direct[i];
-    add_rows(island);
+    add_rows(w, joints, island);
     if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
-      island.contacts.clear(), island.system.rows.clear();
+      island.contacts.clear(), island.joints.clear(), island.system.rows.clear();
       continue;
     }
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
@@ -101,10 +169,12 @@ void prepare_direct_islands(WorldData<Real>& w) {
 }
 
 template <class Real>
-void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, const JointStep<Real>& joints,
+                          bool push) {
   for (int i = 0; i < w.direct_count; ++i) {
     DirectIsland<Real>& island = w.direct[i];
-    std::size_t next = 0;
+    refresh_joints(w, joints, island, push);
+    std::size_t next = static_cast<std::size_t>(island.joint_rows);
     for (ContactConstraint<Real>* c : island.contacts) {
       for (int k = 0; k < c->count; ++k) {
         if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
@@ -115,6 +185,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
         row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
       }
     }
+    if (!push && !island.joints.empty()) island.system.factorise(w.motion.data());
     island.system.solve(w.motion.data());
   }
 }
@@ -126,9 +197,10 @@ void finish_direct_islands(WorldData<Real>& w) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                 \
-  template void prepare_direct_islands(WorldData<Real>&);                               \
-  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
+#define PLUMB_FOR(Real)                                                                                  \
+  template void prepare_direct_islands(WorldData<Real>&, const JointStep<Real>&);                        \
+  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, const JointStep<Real>&, \
+                                     bool);                                                              \
   template void finish_direct_islands(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

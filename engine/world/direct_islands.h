@@ -9,12 +9,13 @@ namespace plumb {
 
 /// Finds them and factorises their systems, at the start of a step.
 template <class Real>
-void prepare_direct_islands(WorldData<Real>& w);
+void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints);
 
 /// Impulses such that all of an island's rows hold: with the push out of overlaps before bodies move
-/// (`push`), without it afterwards.
+/// (`push`), without it afterwards. Joints have been evaluated where the bodies are.
 template <class Real>
-void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push);
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, const JointStep<Real>& joints,
+                          bool push);
 
 /// Contacts answer softly again.
 template <class Real>

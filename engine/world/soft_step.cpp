@@ -112,20 +112,28 @@ void integrate_positions(WorldData<Real>& w, Real h) {
   }
 }
 
+// A contact's spring, that yields less to loads than it gives way to motion.
+template <class Real>
+Softness<Real> contact_softness(double frequency_share, double h) {
+  Softness<Real> soft = softness<Real>(frequency_share / h, tuning::kContactDampingRatio, h);
+  soft.impulse_scale *= Real(tuning::kContactYield);
+  soft.mass_scale = 1 - soft.impulse_scale;
+  return soft;
+}
+
 }  // namespace
 
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
   const Vec2d gravity = w.settings.gravity;
-  ContactStep<Real> contacts{
-      .inverse_h = static_cast<Real>(1 / h),
-      .softness = {softness<Real>(tuning::kContactFrequencyShare / h, tuning::kContactDampingRatio, h),
-                   softness<Real>(tuning::kStiffFrequencyShare / h, tuning::kContactDampingRatio, h),
-                   Softness<Real>{static_cast<Real>(tuning::kPushShare / h), 1, 0}},
-      .warm_start = warm_start,
-      .bounce_threshold =
-          static_cast<Real>(tuning::kRestingSteps * h * substeps * std::sqrt(length_squared(gravity)))};
+  ContactStep<Real> contacts{.inverse_h = static_cast<Real>(1 / h),
+                             .softness = {contact_softness<Real>(tuning::kContactFrequencyShare, h),
+                                          contact_softness<Real>(tuning::kStiffFrequencyShare, h),
+                                          Softness<Real>{static_cast<Real>(tuning::kPushShare / h), 1, 0}},
+                             .warm_start = warm_start,
+                             .bounce_threshold = static_cast<Real>(tuning::kRestingSteps * h * substeps *
+                                                                   std::sqrt(length_squared(gravity)))};
   JointStep<Real> joints{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
@@ -136,17 +144,17 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
 
   prepare_kicks(w, h, substeps);
   if (jointed) w.joint_set.prepare(bodies, joints);
-  prepare_direct_islands(w);
+  prepare_direct_islands(w, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     integrate_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     warm_start_contacts(bodies.motion, w.graph, contacts);
-    solve_direct_islands(w, contacts, true);
     if (jointed) w.joint_set.solve(bodies, joints);
+    solve_direct_islands(w, contacts, joints, true);
     solve_contacts(bodies.motion, w.graph, contacts);
     integrate_positions(w, static_cast<Real>(h));
-    solve_direct_islands(w, contacts, false);
     if (jointed) w.joint_set.relax(bodies, joints);
+    solve_direct_islands(w, contacts, joints, false);
     relax_contacts(bodies.motion, w.graph, contacts);
     contacts.warm_start = joints.warm_start = 1;
   }

@@ -125,7 +125,7 @@ struct DirectIsland {
   std::vector<ContactConstraint<Real>*> contacts;
   std::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
-  int body = kNone, constraints = 0;  ///< who stands for it, while islands are found
+  int joint_rows = 0;       ///< of the system; those of contacts follow
 };
 
 template <class Real>
@@ -176,6 +176,7 @@ struct WorldData {
 
   // Kept between steps for their room alone.
   std::vector<int> scratch, island_of, island_size, island_place;
+  std::vector<Real> lightest, heaviest;
   std::vector<char> restless;
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<int> lost_contacts, ended_contacts, touch_changes, fast_bodies;

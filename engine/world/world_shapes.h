@@ -127,13 +127,20 @@ JointReading BasicWorld<Real>::read(JointId joint) const {
   const BodyMotion<Real> motion_a = w.motion[a], motion_b = w.motion[b];
   for (const int body : {a, b}) w.motion[body].moved = {}, w.motion[body].turned = 0;
   const JointError<Real> error = w.joint_set.error(slot, bodies);
-  JointReading reading{static_cast<double>(w.joint_set.force(slot, rate)),
-                       static_cast<double>(w.joint_set.torque(slot, rate)),
-                       static_cast<double>(error.linear),
-                       static_cast<double>(error.angular),
-                       static_cast<double>(w.joint_set.angle(slot, bodies)),
-                       static_cast<double>(w.joint_set.translation(slot, bodies)),
-                       static_cast<double>(w.joint_set.length(slot, bodies))};
+  JointReading reading;
+  reading.force = static_cast<double>(w.joint_set.force(slot, rate));
+  reading.torque = static_cast<double>(w.joint_set.torque(slot, rate));
+  reading.linear_error = static_cast<double>(error.linear);
+  reading.angular_error = static_cast<double>(error.angular);
+  const auto is = [&]<class... Kinds>() {
+    return (std::holds_alternative<Kinds>(w.joint_set.definition(slot)) || ...);
+  };
+  const bool has_length = is.template operator()<DistanceDefinition, PulleyDefinition>();
+  const bool has_translation = is.template operator()<PrismaticDefinition, WheelDefinition>();
+  const bool has_angle = !has_length && !is.template operator()<MouseDefinition, GearDefinition>();
+  if (has_angle) reading.angle = static_cast<double>(w.joint_set.angle(slot, bodies));
+  if (has_translation) reading.translation = static_cast<double>(w.joint_set.translation(slot, bodies));
+  if (has_length) reading.length = static_cast<double>(w.joint_set.length(slot, bodies));
   w.motion[a] = motion_a, w.motion[b] = motion_b;
   return reading;
 }

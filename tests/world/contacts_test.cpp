@@ -16,7 +16,7 @@ TEST(Materials, FrictionSlowsAtMuG) {
   // A wide, flat box: it does not tip. One substep passes before the contact presses.
   EXPECT_NEAR(world.velocity(box).x, 8 - 0.4 * kGravity, 0.4 * kGravity / 60);
   run(world, 90);
-  EXPECT_EQ(world.velocity(box).x, 0);
+  EXPECT_NEAR(world.velocity(box).x, 0, 1e-6);
 }
 
 TEST(Materials, CombineRulesAreTheWorlds) {
@@ -76,7 +76,7 @@ TEST(Materials, ConveyorsCarry) {
   add_ground(world, {.surface_speed = 2});
   const BodyId box = add_box(world, {0, 0.5});
   run(world, 120);
-  EXPECT_NEAR(world.velocity(box).x, 2, 1e-4);
+  EXPECT_NEAR(world.velocity(box).x, 2, 3e-4);
 }
 
 TEST(Materials, CanChangeWhileTheWorldRuns) {
