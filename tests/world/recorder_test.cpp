@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <sstream>
 
 #include "engine/scene/error.h"
@@ -292,19 +292,35 @@ std::string text_of(const fs::path& path) {
   return out.str();
 }
 
+std::string without_comments(const std::string& text) {
+  std::istringstream in(text);
+  std::string out;
+  for (std::string line; std::getline(in, line);) out += line.substr(0, line.find("//")) + "\n";
+  return out;
+}
+
+// The name before a declaration's first parenthesis; empty for what is no function.
+std::string name_in(const std::string& declaration) {
+  const std::size_t end = declaration.find('(');
+  if (end == std::string::npos) return "";
+  std::size_t begin = end;
+  while (begin > 0 && (std::isalnum(static_cast<unsigned char>(declaration[begin - 1])) != 0 ||
+                       declaration[begin - 1] == '_'))
+    --begin;
+  return declaration.substr(begin, end - begin);
+}
+
 // How often each member function that is not const is declared in the public part of a class.
 std::map<std::string, int> changing_members(const fs::path& header, const std::string& name) {
-  std::string text = std::regex_replace(text_of(header), std::regex("//[^\n]*"), "");
+  std::string text = without_comments(text_of(header));
   text = text.substr(text.find("class " + name + " {"));
   text = text.substr(0, text.find("\n private:"));
   std::map<std::string, int> members;
-  std::stringstream declarations(text.substr(text.find("public:") + 7));
+  std::istringstream declarations(text.substr(text.find("public:") + 7));
   for (std::string each; std::getline(declarations, each, ';');) {
-    std::smatch found;
-    const bool is_const = std::regex_search(each, std::regex("\\)\\s*const\\b"));
-    if (is_const || !std::regex_search(each, found, std::regex("([A-Za-z_]\\w*)\\s*\\("))) continue;
-    const std::string member = found[1];
-    if (member == name || each.find("operator") != std::string::npos) continue;
+    const std::string member = name_in(each);
+    const bool is_const = each.find(") const") != std::string::npos;
+    if (is_const || member.empty() || member == name || each.find("operator") != std::string::npos) continue;
     ++members[member];
   }
   return members;
