@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/math/vec2.h"
+
+namespace plumb {
+
+/// (1 - exp(-x)) / x for x >= 0, without a library: the mean of a decaying quantity over the time in which it
+/// decays by exp(-x), as a share of its start.
+inline double mean_of_decay(double x) {
+  if (x <= 0.25) {
+    // 1 - x/2! + x^2/3! - ... + x^12/13!: below rounding for x <= 1/4.
+    double sum = 1;
+    for (int n = 13; n >= 2; --n) sum = 1 - x / n * sum;
+    return sum;
+  }
+  // exp(-x) = exp(-x / 2^k)^(2^k) with the series where it is short.
+  double small = x;
+  int halvings = 0;
+  for (; small > 0.125; small *= 0.5) ++halvings;
+  double decay = 1;
+  for (int n = 10; n >= 1; --n) decay = 1 - small / n * decay;
+  for (; halvings > 0; --halvings) decay *= decay;
+  return (1 - decay) / x;
+}
+
+/// The mean over `dt` of the drag -c v in m v' = -c v + load, from the equation's solution: a constant force
+/// of this size leads to the exact velocity after `dt`, and never past the one at which drag and load are in
+/// balance. `inverse_mass` in 1/kg, `coefficient` c in N s/m, >= 0.
+inline double mean_linear_drag(double velocity, double coefficient, double inverse_mass, double load,
+                               double dt) {
+  const double share = mean_of_decay(coefficient * inverse_mass * dt);
+  return -(coefficient * share * velocity + (1 - share) * load);
+}
+inline Vec2d mean_linear_drag(Vec2d velocity, double coefficient, double inverse_mass, Vec2d load,
+                              double dt) {
+  const double share = mean_of_decay(coefficient * inverse_mass * dt);
+  return -(coefficient * share * velocity + (1 - share) * load);
+}
+
+}  // namespace plumb
