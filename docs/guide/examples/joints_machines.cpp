@@ -1,5 +1,6 @@
 // Gears that mesh, a ratchet that lets them turn one way, and a pulley that lifts a load.
 #include <cstdio>
+#include <optional>
 
 #include "engine/world/world.h"
 
@@ -25,8 +26,8 @@ int main() {
   const BodyId up = world.create_body({.position = {11, -2}}, light);
   world.create_joint(down, up, {.kind = PulleyDefinition{.ground_a = {9, 2}, .ground_b = {11, 2}}});
 
-  for (int i = 0; i < 60; ++i) {
-    world.apply_torque(winch, i < 30 ? 1 : -1);  // up, then back
+  for (int i = 0; i < 90; ++i) {
+    world.apply_torque(winch, i < 20 ? 1 : -1);  // up, then back
     world.step();
   }
   std::printf("gears %.2f and %.2f rad/s, winch held at %.2f rad, %.2f rad/s\n",

@@ -1,5 +1,6 @@
 // A car: two wheels on springs, one of them driven.
 #include <cstdio>
+#include <variant>
 
 #include "engine/world/world.h"
 
@@ -18,7 +19,7 @@ int main() {
                                                        .limits = Range{-0.2, 0.2},
                                                        .motor = Motor{.speed = 0, .max_force = torque}}});
   };
-  const JointId rear = add_wheel(-1, 60);
+  const JointId rear = add_wheel(-1, 150);
   add_wheel(1, 0);
 
   const auto drive = [&](double speed) {  // m/s; wheels turn clockwise to roll to the right

@@ -25,7 +25,7 @@ int main() {
   const BodyId parcel = world.create_body({.position = {0, 30.25}}, {.geometry = Box{0.5, 0.5}});
 
   double top = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 75; ++i) {
     world.step();
     if (world.velocity(ball).y > 0) top = std::fmax(top, world.position(ball).y - 10.5);
   }

@@ -1,5 +1,6 @@
 // Sleep and waking, substeps, and a bullet that does not tunnel.
 #include <cstdio>
+#include <vector>
 
 #include "engine/world/world.h"
 
@@ -17,8 +18,7 @@ int main() {
 
   world.destroy(tower[0]);  // the support goes: what stood on it wakes
   world.step();
-  std::printf("%d of 7 boxes awake, %zu events of waking\n", world.counts().awake,
-              world.events().woke.size());
+  std::printf("%d of 7 boxes awake\n", world.counts().awake);
 
   // 1000 m/s is 17 m a step, against a wall of 0.1 m.
   world.create_body({.type = BodyType::Static, .position = {105, 5}}, {.geometry = Box{0.1, 10}});
@@ -26,5 +26,5 @@ int main() {
       world.create_body({.position = {60, 5}, .velocity = {1000, 0}}, {.geometry = Circle{0.05}});
   for (int i = 0; i < 10; ++i) world.step(1.0 / 60, 8);  // more substeps: stiffer, and dearer
   std::printf("the bullet is at %.1f m, in front of the wall\n", world.position(bullet).x);
-  return 0;
+  return world.position(bullet).x < 105 ? 0 : 1;
 }
