@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/forces/wrench.h"
+#include "engine/world/islands.h"
+#include "engine/world/placed_shape.h"
+#include "engine/world/validate.h"
+#include "engine/world/world.h"
+
+/// What force laws have in common: which bodies they act on, and how their forces get there.
+namespace plumb {
+
+struct BodyWrench {
+  int body = 0;
+  Wrench<double> wrench{};
+};
+
+/// A list of wrenches that keeps its room from call to call, and may be used within another's use.
+class WrenchList {
+ public:
+  WrenchList() : items_(std::move(kept())) { items_.clear(); }
+  ~WrenchList() {
+    if (items_.capacity() > kept().capacity()) kept() = std::move(items_);
+  }
+  WrenchList(const WrenchList&) = delete;
+  WrenchList& operator=(const WrenchList&) = delete;
+
+  void add(int body, const Wrench<double>& wrench) { items_.push_back({body, wrench}); }
+  auto begin() const { return items_.begin(); }
+  auto end() const { return items_.end(); }
+
+ private:
+  static std::vector<BodyWrench>& kept() {
+    thread_local std::vector<BodyWrench> list;
+    return list;
+  }
+  std::vector<BodyWrench> items_;
+};
+
+/// Throws Error (Value) with the body's name or handle; `field` says what is not finite.
+[[noreturn]] void report_not_finite(const std::string& name, int body, const char* field);
+
+template <class Real>
+void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<double>& wrench,
+                           const char* field) {
+  const Vec2d force = wrench.force;
+  const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
+  if (!fits(force.x) || !fits(force.y) || !fits(wrench.torque)) report_not_finite(w.names[body], body, field);
+}
+
+/// Whoever is pushed does not fall asleep at once.
+template <class Real>
+void wake_pushed(WorldData<Real>& w, int body) {
+  if (!w.bodies[body].awake) {
+    wake_body(w, body);
+    w.bodies[body].still_for = 0;
+  }
+}
+
+/// Calls `visit(body)` for the dynamic bodies that a law acts on.
+template <class Real, class Visit>
+void for_each_law_body(WorldData<Real>& w, bool wakes, Visit&& visit) {
+  if (!wakes) {
+    for (const int body : w.awake) {
+      if (w.gives_way(body)) visit(body);
+    }
+    return;
+  }
+  w.bodies.for_each([&](int body, const BodyRecord<Real>& record) {
+    if (record.type == BodyType::Dynamic) visit(body);
+  });
+}
+
+/// Adds the wrenches to what the next step applies, once all of them are known to be good.
+template <class Real>
+void add_wrenches(WorldData<Real>& w, const WrenchList& list) {
+  for (const BodyWrench& item : list) require_finite_wrench(w, item.body, item.wrench, "force law");
+  for (const BodyWrench& item : list) {
+    if (item.wrench.force == Vec2d{} && item.wrench.torque == 0) continue;
+    wake_pushed(w, item.body);
+    w.bodies[item.body].force += item.wrench.force.template as<Real>();
+    w.bodies[item.body].torque += static_cast<Real>(item.wrench.torque);
+  }
+}
+
+/// Adds `wrench_of(body)` for each body that a law acts on.
+template <class Real, class Law>
+void apply_to_bodies(WorldData<Real>& w, bool wakes, Law&& wrench_of) {
+  WrenchList list;
+  for_each_law_body(w, wakes, [&](int body) { list.add(body, wrench_of(body)); });
+  add_wrenches(w, list);
+}
+
+/// A wrench against motion, shortened so that through `dt` it ends that motion at most: its power falls by
+/// W M^-1 W dt, and may not change sign. `power` (W) is that of the wrench in the motion that it opposes.
+template <class Real>
+Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>& wrench, double power,
+                            double dt) {
+  const double loss = dt * (static_cast<double>(motion.inverse_mass) * length_squared(wrench.force) +
+                            static_cast<double>(motion.inverse_inertia) * wrench.torque * wrench.torque);
+  return loss > power ? (power / loss) * wrench : wrench;
+}
+
+/// A shape in double precision, placed with a body that is turned by `turn` and seen from `offset` m off its
+/// centre of mass.
+class LawShape {
+ public:
+  template <class Real>
+  LawShape(const WorldData<Real>& w, int shape, Rotation<double> turn, Vec2d offset)
+      : count_(w.forms[shape].count), radius_(static_cast<double>(w.forms[shape].radius)) {
+    const Convex<Real> local = w.convex(shape);
+    for (int i = 0; i < count_; ++i) {
+      corners_[i] = {offset + turn * local.corners[i].point.template as<double>(),
+                     turn * local.corners[i].normal.template as<double>()};
+    }
+  }
+  Convex<double> convex() const { return {corners_, count_, radius_}; }
+
+ private:
+  Corner<double> corners_[kMaxCorners];
+  int count_;
+  double radius_;
+};
+
+/// The body's shapes that fluids and blasts act on.
+template <class Real, class Visit>
+void for_each_solid_shape(const WorldData<Real>& w, int body, Visit&& visit) {
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (!w.forms[shape].sensor && !w.forms[shape].chain) visit(shape);
+  }
+}
+
+}  // namespace plumb
