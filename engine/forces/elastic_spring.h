@@ -16,15 +16,16 @@ struct ElasticSpring {
 
 /// The mean tension over `dt`, N, positive pulls. `length` (m) and `rate` (m/s) at its start, `inverse_mass`
 /// (1/kg) of what the two ends weigh along the line. Elastic force at the step's predicted middle, which
-/// conserves the oscillation's phase area exactly: the discrete period is that of 1 - cos(theta) =
-/// (omega dt)^2 / 2 a step. Stiffness is limited to omega dt = 1, beyond which a step cannot follow.
+/// conserves the oscillation's phase area exactly: the discrete motion turns by theta a step, with
+/// 1 - cos(theta) = (omega dt)^2 / 2. Damping as the mean of its own decay, which never reverses the rate.
+/// Stiffness is limited to omega dt = 1, beyond which a step cannot follow.
 inline double spring_tension(const ElasticSpring& spring, double length, double rate, double inverse_mass,
                              double dt) {
   const double stretch = length + 0.5 * dt * rate - spring.rest_length;
   if (spring.pulls_only && stretch <= 0) return 0;
   const double stiffest = inverse_mass > 0 ? 1 / (inverse_mass * dt * dt) : 0;
   const double elastic = std::min(spring.stiffness, stiffest) * stretch;
-  const double tension = elastic - mean_linear_drag(rate, spring.damping, inverse_mass, -elastic, dt);
+  const double tension = elastic - mean_linear_drag(rate, spring.damping, inverse_mass, 0, dt);
   return spring.pulls_only ? std::max(tension, 0.0) : tension;
 }
 

@@ -98,8 +98,8 @@ void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& l
 }
 
 template <class Real>
-void apply_attraction(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
-                      LawOptions options) {
+void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
+                              LawOptions options) {
   check(law, dt);
   world.position(centre);  // throws when the body is gone
   WorldData<Real>& w = world.data();
@@ -158,7 +158,7 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   template void apply_linear_drag(BasicWorld<Real>&, const LinearDragRates&, double, LawOptions);           \
   template void apply_quadratic_drag(BasicWorld<Real>&, double, double, LawOptions);                        \
   template void apply_attraction(BasicWorld<Real>&, Vec2d, const Attraction&, double, LawOptions);          \
-  template void apply_attraction(BasicWorld<Real>&, BodyId, const Attraction&, double, LawOptions);         \
+  template void apply_attraction_to_body(BasicWorld<Real>&, BodyId, const Attraction&, double, LawOptions); \
   template void apply_spring(BasicWorld<Real>&, BodyId, Vec2d, BodyId, Vec2d, const ElasticSpring&, double, \
                              LawOptions);
 PLUMB_INSTANTIATE(float)

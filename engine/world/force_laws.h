@@ -58,8 +58,8 @@ void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& l
                       LawOptions options = {});
 /// To a body's centre of mass. A dynamic one feels the opposite of all the forces, so that momentum stays.
 template <class Real>
-void apply_attraction(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
-                      LawOptions options = {});
+void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
+                              LawOptions options = {});
 
 /// Wind on the outlines of all shapes but sensors and chains. Where its force could reverse the motion of a
 /// light body in the wind within the step, it is less.
