@@ -241,6 +241,80 @@ TYPED_TEST(ForceLaws, AnExplosionPushesAWallByItsIntegralAndSparesWhatItCovers) 
   EXPECT_NEAR(world.velocity(wall).y, 0, 1e-5);
 }
 
+TYPED_TEST(ForceLaws, AttractionIsSoftenedLikeABallOfEvenDensity) {
+  typename TestFixture::World world(weightless());
+  const BodyId body = add_body(world, {0.05, 0}, kDisc);
+  apply_attraction(world, {0, 0}, {.strength = 2, .softening = 0.5}, kDt);
+  world.step(kDt);
+  EXPECT_NEAR(world.velocity(body).x, -2 * 0.05 / 0.125 * kDt, TestFixture::kSingle ? 2e-9 : 1e-16);
+}
+
+TYPED_TEST(ForceLaws, DragLeavesTheWeightOfWhatRests) {
+  typename TestFixture::World world(without_sleep());
+  add_ground(world);
+  const BodyId box = add_box(world, {0, 0.5}, 4);
+  for (int i = 0; i < 120; ++i) {
+    apply_linear_drag(world, {.linear = 500}, kDt);
+    world.step(kDt);
+  }
+  double impulse = 0;
+  for (const ContactReading& contact : world.contacts(box)) {
+    for (int i = 0; i < contact.count; ++i) impulse += contact.impulses[i];
+  }
+  // A quarter of a step.
+  EXPECT_NEAR(impulse, 4 * kGravity * kDt / 4, 1e-5 * 4 * kGravity * kDt);
+}
+
+TYPED_TEST(ForceLaws, ASpringOffTheCentreTurnsBodiesAndKeepsAngularMomentum) {
+  typename TestFixture::World world(weightless());
+  const BodyId a = add_box(world, {0, 0}, 1, 2, 0.5), b = add_box(world, {0, 3}, 2, 1, 0.5);
+  // So stiff that it counts as 1 / (w dt^2): one step gives the points the rate -stretch / dt.
+  apply_spring(world, a, {1, 0}, b, {-0.5, 0}, {.stiffness = 1e9, .rest_length = 3}, kDt);
+  const Vec2d end_a = world.world_point(a, {1, 0}), end_b = world.world_point(b, {-0.5, 0});
+  const double length = std::hypot(1.5, 3.0), stretch = length - 3;
+  const Vec2d axis = (1 / length) * Vec2d{-1.5, 3}, ca = world.centre(a), cb = world.centre(b);
+  world.step(kDt);
+  const auto velocity_of = [&](BodyId body, Vec2d arm) {
+    return world.velocity(body) + cross(world.angular_velocity(body), arm);
+  };
+  const double rate = dot(axis, velocity_of(b, end_b - cb) - velocity_of(a, end_a - ca));
+  EXPECT_NEAR(rate, -stretch / kDt, TestFixture::kSingle ? 2e-5 : 1e-12);
+  EXPECT_GT(std::abs(world.angular_velocity(b)), 1);
+  double momentum = 0;
+  for (const auto& [body, centre] : {std::pair{a, ca}, std::pair{b, cb}}) {
+    momentum += world.mass(body) * cross(centre, world.velocity(body)) +
+                world.inertia(body) * world.angular_velocity(body);
+  }
+  EXPECT_NEAR(momentum, 0, TestFixture::kSingle ? 3e-5 : 1e-13);
+}
+
+TYPED_TEST(ForceLaws, ARubberBandIsSlackBelowItsRestLength) {
+  typename TestFixture::World world(weightless());
+  const BodyId a = add_body(world, {0, 0}, kDisc), b = add_body(world, {3, 0}, kDisc, {1, 0});
+  apply_spring(world, a, {0, 0}, b, {0, 0}, {.damping = 50, .rest_length = 4, .pulls_only = true}, kDt);
+  world.step(kDt);
+  EXPECT_EQ(world.velocity(a), Vec2d{});
+  apply_spring(world, a, {0, 0}, b, {0, 0}, {.rest_length = 2, .pulls_only = true}, kDt);
+  world.step(kDt);
+  EXPECT_GT(world.velocity(a).x, 0.1);
+}
+
+TYPED_TEST(ForceLaws, SpringsLetSleepersLieAndExplosionsWakeThem) {
+  typename TestFixture::World world(weightless());
+  const BodyId a = add_body(world, {0, 0}, kDisc), b = add_body(world, {3, 0}, kDisc);
+  world.set_awake(a, false), world.set_awake(b, false);
+  apply_spring(world, a, {0, 0}, b, {0, 0}, {}, kDt);
+  EXPECT_FALSE(world.awake(a));
+  apply_spring(world, a, {0, 0}, b, {0, 0}, {}, kDt, {.wakes = true});
+  EXPECT_TRUE(world.awake(a) && world.awake(b));
+  world.set_awake(a, false), world.set_awake(b, false);
+  // In the middle of a: it is not pushed.
+  explode(world, {.centre = {0.2, 0}, .impulse = 5});
+  EXPECT_FALSE(world.awake(a));
+  EXPECT_TRUE(world.awake(b));
+  EXPECT_EQ(world.velocity(a), Vec2d{});
+}
+
 TYPED_TEST(ForceLaws, ALawOfOnesOwnActsOnAwakeBodiesAlone) {
   typename TestFixture::World world(weightless());
   const BodyId awake = add_body(world, {0, 0}, kDisc), asleep = add_body(world, {9, 0}, kDisc);
