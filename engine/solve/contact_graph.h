@@ -44,6 +44,7 @@ class ContactGraph {
   static constexpr int order(int nth) { return nth == 0 ? kOverflow : nth - 1; }
 
   std::size_t size() const;
+  bool empty() const { return used_count_ == 0; }
 
   /// To be called after constraints were put into the colours' lists directly: finds again which bodies each
   /// colour has, and which colours are in use. `gives_way(body)`: whether it is dynamic. False when two of a

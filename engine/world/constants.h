@@ -12,8 +12,8 @@ inline constexpr double kStiffFrequencyShare = 0.25;
 /// Far over-critical: overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
-/// How far contacts yield to a load, as a share of what their spring would: towers sink by it, and large heaps swing
-/// without it.
+/// How far contacts yield to a load, as a share of what their spring would: towers sink by it, and large
+/// heaps swing without it.
 inline constexpr double kContactYield = 0.5;
 
 /// Share of an overlap that a contact which is solved directly takes back in a substep.
@@ -23,8 +23,8 @@ inline constexpr double kPushShare = 0.1;
 /// directly.
 inline constexpr int kDirectRows = 128;
 inline constexpr double kDirectCost = 20000;
-/// Islands with joints are so only when their heaviest body has more than this many times the mass of their lightest:
-/// sweeps hold chains of equal links well, and cost less.
+/// Islands with joints are so only when their heaviest body has more than this many times the mass of their
+/// lightest: sweeps hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;
 
 /// The same for joints.
@@ -48,7 +48,7 @@ inline constexpr double kManifoldTravel = 0.002;
 /// Broad-phase margin, as a share of the shape's extent, and how many steps of motion ahead it looks. Larger:
 /// fewer updates of the tree, more pairs to look at.
 inline constexpr double kBoxMargin = 0.1;
-inline constexpr double kBoxSteps = 2;
+inline constexpr double kBoxSteps = 4;
 
 /// Approaches slower than this many times |gravity| dt do not bounce: a body at rest gains |gravity| dt
 /// before its contact answers.

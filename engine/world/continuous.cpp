@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/geometry/convex_bounds.h"
@@ -47,10 +48,20 @@ bool in_front(const WorldData<Real>& w, int chain_segment, Vec2<Real> point, con
   return dot(segment.corners[0].normal, local - segment.corners[0].point) >= 0;
 }
 
+// Whether two bodies move fast relative to each other: no slower than one could pass through the other.
+template <class Real>
+bool pass_fast(const WorldData<Real>& w, int a, int b) {
+  const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
+  const Real turned =
+      std::abs(w.motion[a].turned) * w.extents[a] + std::abs(w.motion[b].turned) * w.extents[b];
+  return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
+}
+
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, int shape, int other) {
   const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
+  if (!pass_fast(w, body, other_body)) return 1;
   const Vec2d origin = w.position[body] - w.motion[body].moved.template as<double>();  // where it started
   const Sweep<Real> sweep = sweep_of(w, body, origin), other_sweep = sweep_of(w, other_body, origin);
   if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
@@ -90,20 +101,37 @@ Aabb<Real> way_of(const WorldData<Real>& w, int body) {
   return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(extent);
 }
 
+// Smallest fraction over all that the body meets, when all of that has a contact with it.
+template <class Real>
+double first_impact_of_pairs(const WorldData<Real>& w, int body) {
+  double first = 1;
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
+    if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
+    const bool is_a = (edge & 1) == 0;
+    const int shape = is_a ? contact.shape_a : contact.shape_b,
+              other = is_a ? contact.shape_b : contact.shape_a;
+    if (!w.forms[shape].chain) first = std::min(first, fraction_of_impact(w, shape, other));
+  });
+  return first;
+}
+
 // Smallest fraction over all that the body meets.
 template <class Real>
-double first_impact(WorldData<Real>& w, int body) {
+double first_impact(const WorldData<Real>& w, const FastBody& fast) {
+  const int body = fast.body;
+  if (fast.covered) return first_impact_of_pairs(w, body);
   double first = 1;
   const Aabb<Real> swept = way_of(w, body);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    if (w.forms[shape].sensor || w.forms[shape].chain) continue;
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
     const auto visit = [&](int other, int) {
       if (!may_collide(w, shape, other) || was_solved(w, body, shape, other)) return true;
       first = std::min(first, fraction_of_impact(w, shape, other));
       return true;
     };
-    w.still_tree.query(swept, seen_by(w.shapes[shape].filter), visit);
-    w.moving_tree.query(swept, seen_by(w.shapes[shape].filter), visit);
+    w.still_tree.query(swept, mask, visit);
+    w.moving_tree.query(swept, mask, visit);
   }
   return first;
 }
@@ -140,22 +168,27 @@ void turn_back(WorldData<Real>& w, int body, double fraction, Real dt) {
   motion.moved *= static_cast<Real>(fraction);
   motion.turned += back;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    refresh_box(w, shape, dt);
+    refresh_box(w, shape, dt, Real(0));
 }
 
 }  // namespace
 
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
+  if (w.fast_bodies.empty()) return;
   std::vector<double>& fractions = w.fractions;
   fractions.clear();
-  if (w.fast_bodies.empty()) return;
-  for (const int body : w.fast_bodies) show_way(w, body);
+  for (const FastBody& fast : w.fast_bodies) {
+    if (!fast.covered) show_way(w, fast.body);
+  }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
-  for (const int body : w.fast_bodies) fractions.push_back(w.gives_way(body) ? first_impact(w, body) : 1);
+  for (const FastBody& fast : w.fast_bodies) {
+    fractions.push_back(w.gives_way(fast.body) ? first_impact(w, fast) : 1);
+  }
   for (std::size_t i = 0; i < fractions.size(); ++i) {
-    if (fractions[i] < 1) turn_back(w, w.fast_bodies[i], fractions[i], dt);
-    hide_way(w, w.fast_bodies[i], dt);
+    const FastBody& fast = w.fast_bodies[i];
+    if (fractions[i] < 1) turn_back(w, fast.body, fractions[i], dt);
+    if (!fast.covered) hide_way(w, fast.body, dt);
   }
 }
 

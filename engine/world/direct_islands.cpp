@@ -15,6 +15,17 @@ ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Re
   return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
 }
 
+// Whether all that moves is of about one mass.
+template <class Real>
+bool masses_alike(const WorldData<Real>& w) {
+  Real lightest = std::numeric_limits<Real>::max(), heaviest = 0;
+  for (const int body : w.awake) {
+    if (!w.gives_way(body)) continue;
+    lightest = std::min(lightest, w.bodies[body].mass), heaviest = std::max(heaviest, w.bodies[body].mass);
+  }
+  return heaviest <= Real(tuning::kDirectMassRatio) * lightest;
+}
+
 // Takes islands with joints whose masses are alike out of the choice: they get a size beyond it.
 template <class Real>
 void note_mass_ratios(WorldData<Real>& w) {
@@ -142,6 +153,7 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   w.direct_count = 0;
+  if (w.graph.empty() && (w.joint_set.active_count() == 0 || masses_alike(w))) return;
   find_islands(w);
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = w.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];

@@ -58,16 +58,19 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
 }
 
 template <class Real>
-void refresh_box(WorldData<Real>& w, int shape, Real dt) {
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (record.proxy == kNone) return;
   DynamicTree<Real>& tree = w.tree_of(w.bodies[record.body].type);
+  const Aabb<Real> before = w.boxes[shape];
   w.boxes[shape] = box_of(w, shape);
-  if (tree.box(record.proxy).contains(w.boxes[shape])) return;
+  const Aabb<Real>& stored = tree.box(record.proxy);
+  const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
+  if (stored.contains(w.boxes[shape])) return covered;
   tree.enlarge(record.proxy, stored_box(w, shape, dt));
   w.enlarged[record.body] = 1;
   if (!record.moved) w.moved_shapes.push_back(shape);
   record.moved = true;
+  return covered;
 }
 
 template <class Real>
@@ -95,13 +98,17 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     const Real extent = w.extents[body];
     time_stillness(w, record, motion, extent, dt);
     w.enlarged[body] = 0;
-    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + std::abs(motion.turned) * extent;
-    if (way > Real(tuning::kFastShare) * record.half_width && record.first_shape != kNone) {
-      w.fast_bodies.push_back(body);
-    }
     if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
-    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
-      refresh_box(w, shape, dt);
+    const Real turned = std::abs(motion.turned) * extent;
+    bool covered = true;
+    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+      covered = refresh_box(w, shape, dt, turned) && covered;
+    }
+    // Whoever stays within its stored boxes, and has no pair, meets nothing.
+    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
+    const bool alone = covered && record.contact_count == 0;
+    if (way > Real(tuning::kFastShare) * record.half_width && !alone)
+      w.fast_bodies.push_back({body, covered});
   }
   w.moving_tree.rebuild();
 }
@@ -109,7 +116,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
 #define PLUMB_FOR(Real)                                              \
   template Aabb<Real> box_of(const WorldData<Real>&, int);           \
   template Aabb<Real> stored_box(const WorldData<Real>&, int, Real); \
-  template void refresh_box(WorldData<Real>&, int, Real);            \
+  template bool refresh_box(WorldData<Real>&, int, Real, Real);      \
   template void finish_motion(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

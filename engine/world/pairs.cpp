@@ -19,6 +19,7 @@ void find_pairs(WorldData<Real>& w) {
       return true;
     };
     const std::uint32_t mask = seen_by(record.filter);
+    if (mask == 0) continue;
     w.moving_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
   }

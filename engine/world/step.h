@@ -50,8 +50,9 @@ Aabb<Real> box_of(const WorldData<Real>& w, int shape);
 template <class Real>
 Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt);
 
-/// Brings a shape's boxes up to date where its body is now.
+/// Brings a shape's boxes up to date where its body is now, after it turned such that no point of it moved by
+/// more than `turned`, m. Returns whether its stored box held it all the way.
 template <class Real>
-void refresh_box(WorldData<Real>& w, int shape, Real dt);
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned);
 
 }  // namespace plumb

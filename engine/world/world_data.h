@@ -119,13 +119,20 @@ struct Kick {
   bool locked_x = false, locked_y = false;
 };
 
+/// A body that moved far in a step. `covered`: its stored boxes held it all the way, so that it can only have
+/// met what it has a contact with.
+struct FastBody {
+  int body = 0;
+  bool covered = false;
+};
+
 /// A small island whose constraints are solved all at once.
 template <class Real>
 struct DirectIsland {
   std::vector<ContactConstraint<Real>*> contacts;
   std::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
-  int joint_rows = 0;       ///< of the system; those of contacts follow
+  int joint_rows = 0;  ///< of the system; those of contacts follow
 };
 
 template <class Real>
@@ -179,7 +186,8 @@ struct WorldData {
   std::vector<Real> lightest, heaviest;
   std::vector<char> restless;
   std::vector<std::pair<int, int>> found_pairs;
-  std::vector<int> lost_contacts, ended_contacts, touch_changes, fast_bodies;
+  std::vector<int> lost_contacts, ended_contacts, touch_changes;
+  std::vector<FastBody> fast_bodies;
   std::vector<ContactConstraint<Real>> begun_contacts;
   std::vector<double> fractions;
   std::vector<ShapeId> visitors;
