@@ -10,9 +10,9 @@
 #include "engine/integrate/flow.h"
 #include "engine/joints/joints.h"
 #include "engine/scene/scene.h"
-#include "engine/solve/joint_system.h"
 #include "engine/simulation/precise_flight.h"
 #include "engine/simulation/precise_parts.h"
+#include "engine/solve/joint_system.h"
 
 namespace plumb::precise {
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "engine/forces/laws.h"
+#include "engine/simulation/contact_finder.h"
+#include "engine/simulation/driver.h"
+#include "engine/simulation/stages.h"
 #include "engine/solve/constants.h"
 #include "engine/solve/contact_solver.h"
 #include "engine/solve/impact_stage.h"
 #include "engine/solve/joint_method.h"
-#include "engine/simulation/contact_finder.h"
-#include "engine/simulation/driver.h"
-#include "engine/simulation/stages.h"
 
 namespace plumb {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "engine/solve/contact.h"
 #include "engine/simulation/driver.h"
 #include "engine/simulation/snapshot.h"
+#include "engine/solve/contact.h"
 
 namespace plumb {
 

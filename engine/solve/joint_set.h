@@ -91,8 +91,8 @@ class JointSet {
   /// put in. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
 
-  /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or `relax`);
-  /// returns their number.
+  /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or
+  /// `relax`); returns their number.
   int rigid_rows(int joint, const JointStep<Real>& step, RigidRow<Real> (&rows)[kMostRigidRows]);
 
   /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Holds the guide against its examples.
 
-usage: check_guide.py ROOT | --self-test
+usage: check_guide.py ROOT | --run ROOT EXAMPLE PROGRAM | --self-test
 
 A ```cpp block of a page under docs/guide that names a file (`docs/guide/examples/NAME.cpp` in the line of text
 before it) is that file's text; every example is quoted by a page and has at most 40 lines; files that a page links
 to exist; every row of the feature table has as many cells as its head.
+
+--run starts an example: it returns 0, and prints what stands on its page after "It prints", where that is said. The
+engine gives the same bits everywhere, so the texts are equal.
 """
 
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 
@@ -76,6 +80,24 @@ def check(root):
         yield "the guide has no pages or no examples"
 
 
+def said_output(page, example):
+    """What the page says that the example prints; None where it says nothing."""
+    after = page.partition("```cpp\n" + example + "```\n")[2]
+    said = re.match(r"\s*It prints\s*```\n(.*?)^```$", after, flags=re.M | re.S)
+    return said and said.group(1)
+
+
+def run(root, example, program):
+    result = subprocess.run([program], capture_output=True, text=True, timeout=50)
+    if result.returncode != 0:
+        yield f"{example} returned {result.returncode} and printed:\n{result.stdout}{result.stderr}"
+    text = (root / f"docs/guide/examples/{example}.cpp").read_text()
+    for path in sorted((root / "docs/guide").glob("*.md")):
+        said = said_output(path.read_text(), text)
+        if said is not None and said != result.stdout:
+            yield f"docs/guide/{path.name} says that {example} prints\n{said}but it prints\n{result.stdout}"
+
+
 def self_test():
     def faults(page, example="int main() {}\n"):
         with tempfile.TemporaryDirectory() as folder:
@@ -98,7 +120,10 @@ def self_test():
         (head + "```cpp\nint main() {}\n```\n", 0),
         (head, 1),
     ]
-    wrong = [f"{len(faults(page))} faults, not {count}, in:\n{page}" for page, count in cases if len(faults(page)) != count]
+    found = [(page, count, len(faults(page))) for page, count in cases]
+    wrong = [f"{now} faults, not {count}, in:\n{page}" for page, count, now in found if now != count]
+    if said_output(good + "\nIt prints\n\n```\nhello\n```\n", "int main() {}\n") != "hello\n" or said_output(good, "x"):
+        wrong.append("what a page says that an example prints is not found")
     long_one = "int x;\n" * (MOST_LINES + 1)
     if len(faults(head + name + "```cpp\n" + long_one + "```\n", long_one)) != 1:
         wrong.append("an example of 41 lines passes")
@@ -106,9 +131,15 @@ def self_test():
 
 
 def main():
-    if len(sys.argv) != 2:
+    arguments = sys.argv[1:]
+    if arguments == ["--self-test"]:
+        faults = self_test()
+    elif len(arguments) == 4 and arguments[0] == "--run":
+        faults = list(run(pathlib.Path(arguments[1]), *arguments[2:]))
+    elif len(arguments) == 1:
+        faults = list(check(pathlib.Path(arguments[0])))
+    else:
         sys.exit(__doc__)
-    faults = self_test() if sys.argv[1] == "--self-test" else list(check(pathlib.Path(sys.argv[1])))
     print("\n".join(faults) if faults else "the guide and its examples agree")
     return 1 if faults else 0
 

@@ -37,7 +37,8 @@ TEST(Contacts, BlockOnARamp) {
 // Rolls iff mu >= tan(theta)/3, then with (2/3) g sin; else slides with g (sin - mu cos).
 TEST(Contacts, DiscOnARamp) {
   for (const double mu : {0.05, 0.13, 0.15, 0.6}) {
-    Simulation world = compile(with(empty_scene(), {plane(mu, 0, -kSlope), disc("disc", on_slope(0.5), 0.5, mu)}));
+    Simulation world =
+        compile(with(empty_scene(), {plane(mu, 0, -kSlope), disc("disc", on_slope(0.5), 0.5, mu)}));
     world.step(120);
     const bool rolls = mu >= std::tan(kSlope) / 3;
     const double acceleration =
@@ -73,7 +74,7 @@ TEST(Contacts, BoxesRestWhateverTheirSize) {
 
 TEST(Contacts, RestitutionDoesNotShakeWhatRests) {
   Simulation world = compile(with(empty_scene(), {plane(0.5, 1), box("box", {0, 0.5}, 1, 1, 0.5, 1),
-                                             disc("disc", {3, 0.5}, 0.5, 0.5, 1)}));
+                                                  disc("disc", {3, 0.5}, 0.5, 0.5, 1)}));
   for (int i = 0; i < 120; ++i) {
     world.step();
     EXPECT_NEAR(world.state(1).position.y, 0.5, 1e-13);

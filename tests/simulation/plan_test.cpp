@@ -125,7 +125,7 @@ TEST(Plan, DerivedAndEveryStageGiveTheSameBits) {
           accuracy.precision = precision;
           accuracy.joint_solver = solver;
           Simulation derived = compile(scenes[i], accuracy),
-                all = compile(scenes[i], accuracy, {.every_stage = true});
+                     all = compile(scenes[i], accuracy, {.every_stage = true});
           derived.step(60);
           all.step(60);
           EXPECT_EQ(derived.hash(), all.hash())

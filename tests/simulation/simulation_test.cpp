@@ -41,7 +41,7 @@ TEST(Simulation, RestoredRunsGoOnWithTheSameBits) {
   for (const double restitution : {0.0, 0.5}) {
     for (const Realtime& accuracy : kinds()) {
       Simulation world = compile(pile(27, restitution), accuracy),
-            other = compile(pile(27, restitution), accuracy);
+                 other = compile(pile(27, restitution), accuracy);
       for (const int steps : {0, 1, 50, 31}) {
         world.step(steps);
         const std::vector<std::byte> snapshot = world.save();
@@ -77,9 +77,11 @@ void expect_refused(Simulation& world, std::span<const std::byte> snapshot) {
 TEST(Simulation, ForeignSnapshotsAreRefused) {
   Simulation world = compile(pile(9, 0));
   world.step(30);
-  Simulation other_scene = compile(pile(10, 0)), other_accuracy = compile(pile(9, 0), Realtime{.substeps = 3}),
-        other_precision = compile(pile(9, 0), Realtime{.precision = Precision::Float});
-  for (Simulation* other : {&other_scene, &other_accuracy, &other_precision}) expect_refused(world, other->save());
+  Simulation other_scene = compile(pile(10, 0)),
+             other_accuracy = compile(pile(9, 0), Realtime{.substeps = 3}),
+             other_precision = compile(pile(9, 0), Realtime{.precision = Precision::Float});
+  for (Simulation* other : {&other_scene, &other_accuracy, &other_precision})
+    expect_refused(world, other->save());
 }
 
 TEST(Simulation, DamagedSnapshotsAreRefused) {
@@ -105,7 +107,8 @@ TEST(Simulation, DamagedSnapshotsAreRefused) {
 }
 
 TEST(Simulation, SetStateMovesABodyAndWakesItsSurroundings) {
-  Simulation world = compile(with(empty_scene(), {plane(), box("a", {0, 0.5}, 1, 1), box("b", {0, 1.5}, 1, 1)}));
+  Simulation world =
+      compile(with(empty_scene(), {plane(), box("a", {0, 0.5}, 1, 1), box("b", {0, 1.5}, 1, 1)}));
   world.step(60);
   world.set_state(1, {{50, 10}, 0.3, {1, 0}, 2});
   EXPECT_EQ(world.state(1).position, (Vec2d{50, 10}));

@@ -24,6 +24,6 @@ int main() {
     const plumb::Vec2d other = play(size);
     same = same && other == metres;
   }
-  std::printf("the ball ends at (%.2f, %.2f), at every size: %s\n", metres.x, metres.y, same ? "yes" : "no");
+  std::printf("the ball ends at the same place at every size: %s\n", same ? "yes" : "no");
   return same ? 0 : 1;
 }
