@@ -111,6 +111,7 @@ void press_one(Pair<Real>& pair, ContactConstraint<Real>& c, const Demand<Real>&
 
 template <class Real>
 void note_peaks(ContactConstraint<Real>& c) {
+  if (!c.bounces) return;
   for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
 }
 

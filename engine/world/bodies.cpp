@@ -63,6 +63,7 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   BodyRecord<Real>& record = w.bodies[body];
   BodyMotion<Real>& motion = w.motion[body];
   recentre(w, body, mass.centre.as<Real>());
+  w.ties_changed = true;
   record.mass = static_cast<Real>(mass.mass), record.inertia = static_cast<Real>(mass.inertia);
   const bool dynamic = record.type == BodyType::Dynamic;
   motion.inverse_mass = dynamic ? static_cast<Real>(1 / mass.mass) : Real(0);

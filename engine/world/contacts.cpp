@@ -30,6 +30,7 @@ void leave_near(WorldData<Real>& w, int contact) {
 template <class Real>
 void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
   ContactRecord& record = w.contacts[contact];
+  w.ties_changed = true;
   const auto place = w.graph.add(constraint, w.gives_way(record.body_a), w.gives_way(record.body_b));
   record.home = ContactHome::Graph;
   record.colour = static_cast<std::int8_t>(place.colour);
@@ -38,6 +39,7 @@ void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>&
 
 template <class Real>
 void leave_graph(WorldData<Real>& w, int contact) {
+  w.ties_changed = true;
   const ContactRecord& record = w.contacts[contact];
   const int follower =
       w.graph.remove({record.colour, record.index}, w.gives_way(record.body_a), w.gives_way(record.body_b));

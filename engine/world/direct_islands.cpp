@@ -46,7 +46,7 @@ void note_mass_ratios(WorldData<Real>& w) {
   });
 }
 
-// Islands by the body that stands for them, with the number of constraints of each in `w.island_size`.
+// Islands by the body that stands for them, with the most rows that each may have in `w.island_size`.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.island_of, w.bodies.size());
@@ -62,7 +62,7 @@ void find_islands(WorldData<Real>& w) {
   const auto count = [&](int a, int b, int rows) {
     w.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
   };
-  w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, c.count); });
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.island_of[body] = islands.find(body);
   if (w.joint_set.active_count() == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -78,6 +78,7 @@ DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
     place = w.direct_count++;
     if (w.direct_count > static_cast<int>(w.direct.size())) w.direct.emplace_back();
     w.direct[place].contacts.clear(), w.direct[place].joints.clear();
+    w.direct[place].root = root;
   }
   return w.direct[place];
 }
@@ -154,7 +155,8 @@ template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   w.direct_count = 0;
   if (w.graph.empty() && (w.joint_set.active_count() == 0 || masses_alike(w))) return;
-  find_islands(w);
+  if (w.ties_changed) find_islands(w);
+  w.ties_changed = false;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = w.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];
     const int rows = w.island_size[root];
@@ -206,6 +208,7 @@ template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.direct_count; ++i) {
     for (ContactConstraint<Real>* c : w.direct[i].contacts) c->hardness = hardness_of(w, *c);
+    w.island_place[w.direct[i].root] = kNone;
   }
 }
 

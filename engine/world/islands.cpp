@@ -70,6 +70,7 @@ template <class Real>
 void enter_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   record.awake = true;
+  w.ties_changed = true;
   record.still_for = 0;
   record.awake_index = static_cast<int>(w.awake.size());
   w.awake.push_back(body);
@@ -79,6 +80,7 @@ template <class Real>
 void leave_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   record.awake = false;
+  w.ties_changed = true;
   w.awake[record.awake_index] = w.awake.back();
   w.bodies[w.awake.back()].awake_index = record.awake_index;
   w.awake.pop_back();
@@ -117,6 +119,7 @@ void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
   UnionFind islands(w.island_of, w.bodies.size());
+  w.ties_changed = true;  // the islands that a step found are overwritten
   std::vector<char>& restless = w.restless;
   restless.assign(w.bodies.size(), 0);
   const auto tie = [&](int a, int b) {

@@ -10,6 +10,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   // First what may refuse the definition.
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
                                    w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
+  w.ties_changed = true;
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;
   record.slot = slot;
@@ -32,6 +33,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
 template <class Real>
 void remove_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
+  w.ties_changed = true;
   wake_body(w, record.body_a), wake_body(w, record.body_b);
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
   --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;

@@ -152,8 +152,8 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
 
 template <class Real>
 void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c) {
-  c.peak_impulse[0] = c.peak_impulse[1] = 0;
   if (!c.bounces) return;
+  c.peak_impulse[0] = c.peak_impulse[1] = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
@@ -164,7 +164,7 @@ void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c) {
 template <class Real>
 bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
-  const auto touch = [&](int i) { return c.separation[i] <= near_enough || c.peak_impulse[i] > 0; };
+  const auto touch = [&](int i) { return c.separation[i] <= near_enough || c.normal_impulse[i] > 0; };
   return touch(0) || (c.count == 2 && touch(1));
 }
 

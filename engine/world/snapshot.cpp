@@ -181,6 +181,7 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
     (std::swap(std::get<kEach>(from), std::get<kEach>(to)), ...);
   }
   (std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
+  world.data().ties_changed = true;
 }
 
 #define PLUMB_FOR(Real)                                                 \

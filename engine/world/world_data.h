@@ -132,6 +132,7 @@ struct DirectIsland {
   std::vector<ContactConstraint<Real>*> contacts;
   std::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
+  int root = kNone;    ///< the body that stands for it
   int joint_rows = 0;  ///< of the system; those of contacts follow
 };
 
@@ -181,7 +182,10 @@ struct WorldData {
   int direct_count = 0;
   std::vector<Kick<Real>> kicks;  ///< of the awake bodies that something holds
 
-  // Kept between steps for their room alone.
+  bool ties_changed =
+      true;  ///< since the islands were found: a contact or joint came or went, a body woke or slept
+
+  // Kept between steps for their room alone, and while no tie changes, for the islands.
   std::vector<int> scratch, island_of, island_size, island_place;
   std::vector<Real> lightest, heaviest;
   std::vector<char> restless;
