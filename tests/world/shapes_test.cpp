@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Resting{"Triangle", Polygon{{{-1, 0}, {1, 0}, {0, 1.5}}}, 0.5},
                     Resting{"RoundedBox", Polygon{{{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {-0.4, 0.3}}, 0.1},
                             0.4}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& each) { return each.param.name; });
 
 TEST(Shapes, ChainsHaveAFrontOnly) {
   World world(weightless());
