@@ -327,7 +327,7 @@ std::map<std::string, int> changing_members(const fs::path& header, const std::s
 }
 
 TEST(RecordedCalls, AreAllThatChangeAWorld) {
-  const fs::path folder = fs::path(__FILE__).parent_path() / "../../engine/world";
+  const fs::path folder = fs::path(PLUMB_ENGINE) / "world";
   std::map<std::string, int> world = changing_members(folder / "world.h", "BasicWorld");
   std::map<std::string, int> recorded = changing_members(folder / "recorder.h", "RecordedWorld");
   EXPECT_GT(world.size(), 25u);
