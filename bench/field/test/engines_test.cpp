@@ -235,7 +235,6 @@ TEST_P(OnEngine, AMotorPullsWithNoMoreThanItsTorque) {
 }
 
 TEST_P(OnEngine, SpringsPullTowardsTheReferenceAngle) {
-  if (GetParam()->name == "box2d") GTEST_SKIP() << "Box2D 2.4 has none";
   WorldSettings settings;
   settings.gravity = {0, 0};
   Stage stage(settings);
@@ -247,6 +246,11 @@ TEST_P(OnEngine, SpringsPullTowardsTheReferenceAngle) {
   for (int step = 0; step < 600; ++step) {
     stage.builder.step();
     highest = std::max(highest, stage.builder.states()[disc].angle);
+  }
+  // Box2D 2.4 has no such spring: it is left out, as its settings say, and nothing turns the disc.
+  if (GetParam()->name == "box2d") {
+    EXPECT_EQ(highest, 0);
+    return;
   }
   // It overshoots by exp(-pi z / sqrt(1 - z^2)) of the way at a damping ratio z, and comes to rest.
   EXPECT_NEAR(highest, 0.4 * (1 + std::exp(-std::numbers::pi * 0.2 / std::sqrt(0.96))), 0.03);
