@@ -191,7 +191,7 @@ void update_mass(WorldData<Real>& w, int body) {
   if (record.mass_given) return update_extents(w, body);
   double mass = 0, inertia = 0;
   Vec2d moment{};
-  std::vector<ConvexMass>& parts = w.mass_parts;
+  std::vector<ConvexMass>& parts = w.scratch.mass_parts;
   parts.clear();
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.forms[shape].chain || w.shapes[shape].density == 0) continue;

@@ -175,18 +175,18 @@ void turn_back(WorldData<Real>& w, int body, double fraction, Real dt) {
 
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
-  if (w.fast_bodies.empty()) return;
-  std::vector<double>& fractions = w.fractions;
+  if (w.scratch.fast_bodies.empty()) return;
+  std::vector<double>& fractions = w.scratch.fractions;
   fractions.clear();
-  for (const FastBody& fast : w.fast_bodies) {
+  for (const FastBody& fast : w.scratch.fast_bodies) {
     if (!fast.covered) show_way(w, fast.body);
   }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
-  for (const FastBody& fast : w.fast_bodies) {
+  for (const FastBody& fast : w.scratch.fast_bodies) {
     fractions.push_back(w.gives_way(fast.body) ? first_impact(w, fast) : 1);
   }
   for (std::size_t i = 0; i < fractions.size(); ++i) {
-    const FastBody& fast = w.fast_bodies[i];
+    const FastBody& fast = w.scratch.fast_bodies[i];
     if (fractions[i] < 1) turn_back(w, fast.body, fractions[i], dt);
     if (!fast.covered) hide_way(w, fast.body, dt);
   }

@@ -29,27 +29,28 @@ bool masses_alike(const WorldData<Real>& w) {
 // Takes islands with joints whose masses are alike out of the choice: they get a size beyond it.
 template <class Real>
 void note_mass_ratios(WorldData<Real>& w) {
-  w.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
-  w.heaviest.assign(w.bodies.size(), 0);
+  w.scratch.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  w.scratch.heaviest.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
     if (!w.gives_way(body)) continue;
-    const int root = w.island_of[body];
-    w.lightest[root] = std::min(w.lightest[root], mass), w.heaviest[root] = std::max(w.heaviest[root], mass);
+    const int root = w.scratch.island_of[body];
+    w.scratch.lightest[root] = std::min(w.scratch.lightest[root], mass),
+    w.scratch.heaviest[root] = std::max(w.scratch.heaviest[root], mass);
   }
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!joint.active) return;
-    const int root = w.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
-    if (w.heaviest[root] <= Real(tuning::kDirectMassRatio) * w.lightest[root]) {
-      w.island_size[root] = tuning::kDirectRows + 1;
+    const int root = w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+    if (w.scratch.heaviest[root] <= Real(tuning::kDirectMassRatio) * w.scratch.lightest[root]) {
+      w.scratch.island_size[root] = tuning::kDirectRows + 1;
     }
   });
 }
 
-// Islands by the body that stands for them, with the most rows that each may have in `w.island_size`.
+// Islands by the body that stands for them, with the most rows that each may have in `w.scratch.island_size`.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
-  UnionFind islands(w.island_of, w.bodies.size());
+  UnionFind islands(w.scratch.island_of, w.bodies.size());
   const auto tie = [&](int a, int b) {
     if (w.gives_way(a) && w.gives_way(b)) islands.join(a, b);
   };
@@ -57,13 +58,13 @@ void find_islands(WorldData<Real>& w) {
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (joint.active) tie(joint.body_a, joint.body_b);
   });
-  w.island_size.assign(w.bodies.size(), 0);
-  w.island_place.assign(w.bodies.size(), kNone);
+  w.scratch.island_size.assign(w.bodies.size(), 0);
+  w.scratch.island_place.assign(w.bodies.size(), kNone);
   const auto count = [&](int a, int b, int rows) {
-    w.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
+    w.scratch.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
-  for (const int body : w.awake) w.island_of[body] = islands.find(body);
+  for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   if (w.joint_set.active_count() == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (joint.active) count(joint.body_a, joint.body_b, 2);
@@ -73,14 +74,14 @@ void find_islands(WorldData<Real>& w) {
 
 template <class Real>
 DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
-  int& place = w.island_place[root];
+  int& place = w.scratch.island_place[root];
   if (place == kNone) {
-    place = w.direct_count++;
-    if (w.direct_count > static_cast<int>(w.direct.size())) w.direct.emplace_back();
-    w.direct[place].contacts.clear(), w.direct[place].joints.clear();
-    w.direct[place].root = root;
+    place = w.scratch.direct_count++;
+    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back();
+    w.scratch.direct[place].contacts.clear(), w.scratch.direct[place].joints.clear();
+    w.scratch.direct[place].root = root;
   }
-  return w.direct[place];
+  return w.scratch.direct[place];
 }
 
 template <class Real>
@@ -153,25 +154,25 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
 
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
-  w.direct_count = 0;
+  w.scratch.direct_count = 0;
   if (w.graph.empty() && (w.joint_set.active_count() == 0 || masses_alike(w))) return;
   if (w.ties_changed) find_islands(w);
   w.ties_changed = false;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
-    const int root = w.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];
-    const int rows = w.island_size[root];
+    const int root = w.scratch.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];
+    const int rows = w.scratch.island_size[root];
     if (rows <= 2 || rows > tuning::kDirectRows) return;
     island_at(w, root).contacts.push_back(&c);
   });
   if (w.joint_set.active_count() > 0) {
     w.joints.for_each([&](int, const JointRecord& joint) {
       if (!joint.active) return;
-      const int root = w.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
-      if (w.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
+      const int root = w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+      if (w.scratch.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
     });
   }
-  for (int i = 0; i < w.direct_count; ++i) {
-    DirectIsland<Real>& island = w.direct[i];
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    DirectIsland<Real>& island = w.scratch.direct[i];
     add_rows(w, joints, island);
     if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
       island.contacts.clear(), island.joints.clear(), island.system.rows.clear();
@@ -185,8 +186,8 @@ void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, const JointStep<Real>& joints,
                           bool push) {
-  for (int i = 0; i < w.direct_count; ++i) {
-    DirectIsland<Real>& island = w.direct[i];
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    DirectIsland<Real>& island = w.scratch.direct[i];
     refresh_joints(w, joints, island, push);
     std::size_t next = static_cast<std::size_t>(island.joint_rows);
     for (ContactConstraint<Real>* c : island.contacts) {
@@ -206,9 +207,9 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
 
 template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
-  for (int i = 0; i < w.direct_count; ++i) {
-    for (ContactConstraint<Real>* c : w.direct[i].contacts) c->hardness = hardness_of(w, *c);
-    w.island_place[w.direct[i].root] = kNone;
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
+    w.scratch.island_place[w.scratch.direct[i].root] = kNone;
   }
 }
 

@@ -75,7 +75,7 @@ bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
 
 template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt) {
-  w.fast_bodies.clear();
+  w.scratch.fast_bodies.clear();
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
     BodyMotion<Real>& motion = w.motion[body];
@@ -108,7 +108,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
     const bool alone = covered && record.contact_count == 0;
     if (way > Real(tuning::kFastShare) * record.half_width && !alone)
-      w.fast_bodies.push_back({body, covered});
+      w.scratch.fast_bodies.push_back({body, covered});
   }
   w.moving_tree.rebuild();
 }

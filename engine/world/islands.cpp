@@ -91,7 +91,7 @@ template <class Real>
 void wake_body(WorldData<Real>& w, int body) {
   const auto sleeps = [&](int i) { return !w.bodies[i].awake && w.bodies[i].type != BodyType::Static; };
   if (!sleeps(body)) return;
-  std::vector<int>& queue = w.scratch;
+  std::vector<int>& queue = w.scratch.queue;
   const std::size_t first = queue.size();  // a waking may start another one
   const auto wake = [&](int i) {
     if (!sleeps(i)) return;
@@ -118,9 +118,9 @@ template <class Real>
 void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
-  UnionFind islands(w.island_of, w.bodies.size());
+  UnionFind islands(w.scratch.island_of, w.bodies.size());
   w.ties_changed = true;  // the islands that a step found are overwritten
-  std::vector<char>& restless = w.restless;
+  std::vector<char>& restless = w.scratch.restless;
   restless.assign(w.bodies.size(), 0);
   const auto tie = [&](int a, int b) {
     if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
@@ -136,7 +136,7 @@ void sleep_islands(WorldData<Real>& w) {
   for (const int body : w.awake) {
     if (restless[body] || !still(w, body)) restless[islands.find(body)] = 1;
   }
-  std::vector<int>& sleepers = w.scratch;
+  std::vector<int>& sleepers = w.scratch.queue;
   sleepers.clear();
   for (const int body : w.awake) {
     if (!restless[islands.find(body)]) sleepers.push_back(body);

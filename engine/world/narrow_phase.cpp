@@ -172,9 +172,10 @@ bool touches(const ContactConstraint<Real>& c) {
 
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt) {
-  std::vector<int>&lost = w.lost_contacts, &ended = w.ended_contacts, &changed = w.touch_changes;
+  std::vector<int>&lost = w.scratch.lost_contacts, &ended = w.scratch.ended_contacts,
+  &changed = w.scratch.touch_changes;
   lost.clear(), ended.clear(), changed.clear();
-  w.begun_contacts.clear();
+  w.scratch.begun_contacts.clear();
 
   const auto new_manifold = [&](const ContactRecord& contact) {
     const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -200,7 +201,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
     rebuild(w, contact, manifold, c);
     if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
     begin_step(w, c);
-    w.begun_contacts.push_back(c);
+    w.scratch.begun_contacts.push_back(c);
   }
 
   for (int nth = 0; nth <= ContactGraph<Real>::kColours; ++nth) {
@@ -232,7 +233,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   for (const int id : changed) set_touching(w, id, constraint_of(w, w.contacts[id]).touching);
   for (const int id : lost) destroy_contact(w, id);
   for (const int id : ended) end_contact(w, id);
-  for (ContactConstraint<Real>& c : w.begun_contacts) {
+  for (ContactConstraint<Real>& c : w.scratch.begun_contacts) {
     c.touching = touches(c);
     const int id = c.contact;
     begin_contact(w, id, c);

@@ -5,7 +5,7 @@ namespace plumb {
 
 template <class Real>
 void find_pairs(WorldData<Real>& w) {
-  std::vector<std::pair<int, int>>& found = w.found_pairs;
+  std::vector<std::pair<int, int>>& found = w.scratch.found_pairs;
   found.clear();
   for (const int shape : w.moved_shapes) {
     const ShapeRecord<Real>& record = w.shapes[shape];

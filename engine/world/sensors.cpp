@@ -30,7 +30,7 @@ constexpr bool before(const ShapeId& a, const ShapeId& b) {
 template <class Real>
 void update_sensors(WorldData<Real>& w) {
   for (SensorRecord& sensor : w.sensors) {
-    std::vector<ShapeId>& now = w.visitors;
+    std::vector<ShapeId>& now = w.scratch.visitors;
     now.clear();
     const int shape = sensor.shape, body = w.shapes[shape].body;
     const auto visit = [&](int other, int) {

@@ -82,25 +82,25 @@ void fly(WorldData<Real>& w, int body, double dt) {
 // substep.
 template <class Real>
 void prepare_kicks(WorldData<Real>& w, double h, int substeps) {
-  w.kicks.clear();
+  w.scratch.kicks.clear();
   for (const int body : w.awake) {
     if (w.bodies[body].constraints == 0) {
       fly(w, body, h * substeps);
       continue;
     }
     w.motion[body].moved = {}, w.motion[body].turned = 0;
-    w.kicks.push_back(kick_of(w, body, h));
+    w.scratch.kicks.push_back(kick_of(w, body, h));
   }
 }
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for (const Kick<Real>& kick : w.kicks) apply(kick, w.motion[kick.body]);
+  for (const Kick<Real>& kick : w.scratch.kicks) apply(kick, w.motion[kick.body]);
 }
 
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h) {
-  for (const Kick<Real>& kick : w.kicks) {
+  for (const Kick<Real>& kick : w.scratch.kicks) {
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
     if (kick.locked_y) motion.velocity.y = 0;

@@ -136,6 +136,25 @@ struct DirectIsland {
   int joint_rows = 0;  ///< of the system; those of contacts follow
 };
 
+/// What a step makes anew: kept between steps for its room alone, and the islands while no tie changes.
+template <class Real>
+struct Scratch {
+  std::vector<int> queue;
+  std::vector<std::pair<int, int>> found_pairs;
+  std::vector<int> lost_contacts, ended_contacts, touch_changes;
+  std::vector<ContactConstraint<Real>> begun_contacts;
+  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that something holds
+  std::vector<int> island_of, island_size, island_place;
+  std::vector<Real> lightest, heaviest;
+  std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
+  int direct_count = 0;
+  std::vector<char> restless;
+  std::vector<FastBody> fast_bodies;
+  std::vector<double> fractions;
+  std::vector<ShapeId> visitors;
+  std::vector<ConvexMass> mass_parts;
+};
+
 template <class Real>
 struct WorldData {
   WorldDefinition settings;
@@ -177,25 +196,10 @@ struct WorldData {
   Events events;               ///< of the last step
   Events pending;              ///< since then: the next step's
   bool stepping = false;
-  bool reports_hits = false;               ///< some shape wants it
-  std::vector<DirectIsland<Real>> direct;  ///< of this step; `direct_count` are in use
-  int direct_count = 0;
-  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that something holds
-
+  bool reports_hits = false;  ///< some shape wants it
   bool ties_changed =
       true;  ///< since the islands were found: a contact or joint came or went, a body woke or slept
-
-  // Kept between steps for their room alone, and while no tie changes, for the islands.
-  std::vector<int> scratch, island_of, island_size, island_place;
-  std::vector<Real> lightest, heaviest;
-  std::vector<char> restless;
-  std::vector<std::pair<int, int>> found_pairs;
-  std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  std::vector<FastBody> fast_bodies;
-  std::vector<ContactConstraint<Real>> begun_contacts;
-  std::vector<double> fractions;
-  std::vector<ShapeId> visitors;
-  std::vector<ConvexMass> mass_parts;
+  Scratch<Real> scratch;
 
   /// Asked about contacts with the shapes that want it, after their manifold was made; false: not in this
   /// step.

@@ -56,9 +56,7 @@ constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged, awake,
          shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near,
          graph, parked, joints, joint_set, sensors, breakable, events, pending, stepping, reports_hits,
-         direct, direct_count, kicks, ties_changed, scratch, island_of, island_size, island_place, lightest,
-         heaviest, restless, found_pairs, lost_contacts, ended_contacts, touch_changes, fast_bodies,
-         begun_contacts, fractions, visitors, mass_parts, pre_solve] = w;
+         ties_changed, scratch, pre_solve] = w;
   return std::tie(settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged,
                   awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree,
                   contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events,
