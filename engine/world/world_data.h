@@ -143,7 +143,7 @@ struct Scratch {
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   std::vector<ContactConstraint<Real>> begun_contacts;
-  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that something holds
+  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<int> island_of, island_size, island_place;
   std::vector<Real> lightest, heaviest;
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "engine/world/world_data.h"
+
+/// How awake bodies move of their own accord, whatever the solver: gravity, forces, damping and locks give
+/// each a kick a substep, and its velocity carries it.
+namespace plumb {
+
+/// What becomes of bodies that neither a contact nor a joint holds.
+enum class FreeFlight {
+  Exact,     ///< a parabola through the whole step at once
+  Substeps,  ///< like all others: v += h a, x += h v
+};
+
+/// At the step's start: the kick of each body for substeps of length `h`, and nothing has moved yet. Bodies
+/// in exact flight have arrived.
+template <class Real>
+void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight);
+
+/// v += h a.
+template <class Real>
+void integrate_velocities(WorldData<Real>& w);
+
+/// x += h v.
+template <class Real>
+void integrate_positions(WorldData<Real>& w, Real h);
+
+}  // namespace plumb
