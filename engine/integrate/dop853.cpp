@@ -1,6 +1,7 @@
 #include "engine/integrate/dop853.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,17 +12,22 @@ namespace plumb {
 using namespace dop853;
 
 Dop853::Dop853(std::size_t dimension)
-    : rates_(kStages, std::vector<double>(dimension)), at_stage_(dimension), increment_(dimension) {}
+    : rates_(kAllStages, std::vector<double>(dimension)), at_stage_(dimension), increment_(dimension) {}
 
+std::span<double> Dop853::last_rate() { return rates_[kStages]; }
+std::span<const double> Dop853::last_rate() const { return rates_[kStages]; }
+void Dop853::advance() { std::swap(rates_.front(), rates_[kStages]); }
+
+void Dop853::weighted_sum(const double* weights, int stages, std::span<double> out) const {
+  std::fill(out.begin(), out.end(), 0.0);
+  for (int j = 0; j < stages; ++j) {
+    if (weights[j] == 0) continue;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[j] * rates_[j][i];
+  }
+}
+
+// k_s = f(t + c_s h, y + h sum_{j < s} a_sj k_j),   increment = h sum b_s k_s
 void Dop853::step(Flow& flow, double time, double h, std::span<const double> y) {
-  // k_s = f(t + c_s h, y + h sum_{j < s} a_sj k_j),   increment = h sum b_s k_s
-  const auto weighted_sum = [&](const double* weights, int stages, std::span<double> out) {
-    std::fill(out.begin(), out.end(), 0.0);
-    for (int j = 0; j < stages; ++j) {
-      if (weights[j] == 0) continue;
-      for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[j] * rates_[j][i];
-    }
-  };
   for (int s = 1; s < kStages; ++s) {
     weighted_sum(kA[s], s, at_stage_);
     for (std::size_t i = 0; i < y.size(); ++i) at_stage_[i] = y[i] + h * at_stage_[i];
@@ -44,6 +50,29 @@ double Dop853::error(double h, std::span<const double> scale) const {
   }
   const double size = std::sqrt(largest5 * largest5 + 0.01 * largest3 * largest3);
   return size == 0 ? 0 : std::abs(h) * largest5 * (largest5 / size);
+}
+
+void Dop853::polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out) {
+  for (int s = 0; s < kDenseStages; ++s) {
+    const int stage = kStages + 1 + s;
+    weighted_sum(kDenseA[s], stage, at_stage_);
+    for (std::size_t i = 0; i < y.size(); ++i) at_stage_[i] = y[i] + h * at_stage_[i];
+    flow.rate(time + kDenseC[s] * h, at_stage_, rates_[stage]);
+  }
+  // The publication's terms are products of s and 1 - s in turn; here 1 - s is -(s - 1).
+  out.set_nodes(std::array{0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0});
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double moved = increment_[i], at_first = h * rates_.front()[i], at_last = h * rates_[kStages][i];
+    out.term(1)[i] = moved;
+    out.term(2)[i] = -(at_first - moved);
+    out.term(3)[i] = -(2 * moved - (at_first + at_last));
+  }
+  constexpr double kSign[kDenseTerms] = {1, 1, -1, -1};
+  for (int k = 0; k < kDenseTerms; ++k) {
+    const std::span<double> term = out.term(4 + k);
+    weighted_sum(kDenseD[k], kAllStages, term);
+    for (double& x : term) x *= kSign[k] * h;
+  }
 }
 
 }  // namespace plumb

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/integrate/flow.h"
+#include "engine/integrate/step_polynomial.h"
 
 namespace plumb {
 
@@ -15,8 +16,8 @@ class Dop853 {
   explicit Dop853(std::size_t dimension);
 
   /// dy/dt at the start of the step: to be set before `step`.
-  std::span<double> first_rate() { return rates_[0]; }
-  std::span<const double> first_rate() const { return rates_[0]; }
+  std::span<double> first_rate() { return rates_.front(); }
+  std::span<const double> first_rate() const { return rates_.front(); }
 
   /// From y at `time` over `h`: 11 evaluations of `flow`. The result is y + increment().
   void step(Flow& flow, double time, double h, std::span<const double> y);
@@ -28,8 +29,21 @@ class Dop853 {
   /// mean).
   double error(double h, std::span<const double> scale) const;
 
+  /// dy/dt at the end of the step: to be set before `polynomial`.
+  std::span<double> last_rate();
+  std::span<const double> last_rate() const;
+
+  /// The polynomial of order 7 over the last step, which was made from `y` at `time` over `h`: 3 evaluations
+  /// of `flow` (Hairer, Norsett & Wanner, II.6, and their program).
+  void polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out);
+
+  /// The end of the last step is the start of the next: `last_rate` becomes `first_rate`.
+  void advance();
+
  private:
-  std::vector<std::vector<double>> rates_;  // by stage
+  void weighted_sum(const double* weights, int stages, std::span<double> out) const;
+
+  std::vector<std::vector<double>> rates_;  // by stage; the last one of the step; the polynomial's stages
   std::vector<double> at_stage_, increment_;
 };
 

@@ -34,8 +34,9 @@ struct Realtime {
 
 /// Adaptive high-order steps in double; impacts are located in time.
 struct Precise {
-  double tolerance = 1e-9;   ///< local error a step, relative to the scene's own length and speed, > 0
-  double max_dt = 1.0 / 60;  ///< s, > 0; also what `Simulation::step` advances by
+  double tolerance = 1e-9;  ///< local error a step, relative to the scene's own length and speed, > 0
+  double max_dt =
+      1.0 / 60;  ///< s, > 0: what `Simulation::step` advances by; steps of the motion may be longer
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 

@@ -16,10 +16,11 @@ namespace plumb {
 /// step,
 ///   by a projection of positions and velocities onto the constraints;
 /// - circles' impacts are located in time and resolved there: Newton's restitution, Coulomb's friction.
-/// Steps end on the grid of max_dt, where forces are switched, and at impacts.
+/// Steps end where forces are switched and at impacts, not on the grid of max_dt: what is read there comes
+/// from the step's polynomial.
 ///
 /// `Precise::tolerance` bounds the error that a step adds: each is redone until its estimate is below a
-/// hundredth of the tolerance, in units of the scene's length (positions), speed (velocities; a body's own
+/// thousandth of the tolerance, in units of the scene's length (positions), speed (velocities; a body's own
 /// where that is more) and one radian. Errors of a whole run are then about the tolerance or less where the
 /// motion does not amplify them. Joints that start open are closed at once.
 std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,

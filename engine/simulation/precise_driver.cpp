@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "engine/scene/error.h"
@@ -14,8 +13,10 @@ namespace plumb::precise {
 
 void PreciseDriver::read(std::span<BodyState> out) const {
   for (const std::size_t body : parts_.flying) out[body] = flight_.at(body, time_).state;
+  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  sampled_ = time_;
   for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    out[parts_.integrated[slot]] = EquationsOfMotion::state(y_.value(), slot);
+    out[parts_.integrated[slot]] = EquationsOfMotion::state(sample_.value(), slot);
   }
 }
 
@@ -23,18 +24,19 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
   BodyState allowed = state;
   if (at_rest_[body]) allowed.velocity = {};
   if (at_rest_[body] || locked_[body]) allowed.angular_velocity = 0;
+  smooth_.rewind(time_);
   if (flight_.holds(body)) {
     flight_.restart(body, time_, allowed);
   } else {
-    EquationsOfMotion::set_state(y_, slot_of(body), allowed);
+    EquationsOfMotion::set_state(smooth_.change(), slot_of(body), allowed);
   }
   joints_closed_ = false;
-  proposed_step_ = 0;
+  sampled_ = -1;
 }
 
 void PreciseDriver::profile(bool on) {
   profiling_ = equations_.cost.on = on;
-  equations_.cost.forces = equations_.cost.joints = 0;
+  equations_.cost.forces = equations_.cost.joints = smooth_.projection_nanoseconds = 0;
   for (Stage& stage : plan_.stages) stage.nanoseconds = 0;
   cost_ = {};
 }
@@ -42,6 +44,7 @@ void PreciseDriver::profile(bool on) {
 Statistics PreciseDriver::statistics() const {
   Statistics all = statistics_;
   all.evaluations = equations_.evaluations();
+  all.rejected = smooth_.rejected();
   return all;
 }
 
@@ -59,7 +62,7 @@ void PreciseDriver::check_finite() {
     for (const std::size_t body : parts_.flying) check(body, flight_.at(body, time_).state);
   }
   for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    check(parts_.integrated[slot], EquationsOfMotion::state(y_.value(), slot));
+    check(parts_.integrated[slot], EquationsOfMotion::state(smooth_.state().value(), slot));
   }
 }
 
@@ -70,28 +73,11 @@ void PreciseDriver::fail(const std::string& subject, const std::string& field, c
                   " s; the world is left at that time");
 }
 
-/// A step cannot be made small enough: names the body that changes fastest, or is not finite.
-void PreciseDriver::blame_fastest() const {
-  std::size_t worst = 0;
-  double fastest = -1;
-  for (std::size_t i = 0; i < y_.size() && !std::isnan(fastest); ++i) {
-    const double change = std::abs(runge_kutta_.first_rate()[i]) / error_scale_[i];
-    if (change <= fastest) continue;
-    worst = i;
-    fastest = change;
-  }
-  const std::string subject =
-      y_.size() == 0 ? "the scene"
-                     : "body '" + names_[parts_.integrated[worst / EquationsOfMotion::kPerBody]] + "'";
-  if (!std::isfinite(fastest)) fail(subject, "acceleration", shortest(fastest), "not finite");
-  fail(subject, "step", shortest(proposed_step_) + " s",
-       "the motion changes too fast for any step; a larger tolerance or Realtime may do");
-}
-
 void PreciseDriver::report_cost() {
   if (!profiling_) return;
   cost_[kForces] = equations_.cost.forces;
   cost_[kJointAccelerations] = equations_.cost.joints;
+  cost_[kProjection] = smooth_.projection_nanoseconds;
   for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
   double& rest =
       plan_.stages[kRungeKutta].nanoseconds;  // what its evaluations and the projection did not take
@@ -100,41 +86,41 @@ void PreciseDriver::report_cost() {
 
 /// Snapshots are numbers of 8 bytes, one after the other.
 std::vector<std::byte> PreciseDriver::save() const {
-  std::vector<double> numbers{time_, static_cast<double>(grid_steps_), proposed_step_, control_.previous(),
-                              joints_closed_ ? 1.0 : 0.0};
-  for (const std::int64_t n :
-       {statistics_.steps, statistics_.rejected, statistics_.impacts, equations_.evaluations()}) {
-    numbers.push_back(static_cast<double>(n));
-  }
-  numbers.insert(numbers.end(), y_.value().begin(), y_.value().end());
-  numbers.insert(numbers.end(), y_.carry().begin(), y_.carry().end());
-  const auto arcs = std::as_bytes(std::span(flight_.arcs()));
-  const auto head = std::as_bytes(std::span(numbers));
-  std::vector<std::byte> snapshot(head.begin(), head.end());
-  snapshot.insert(snapshot.end(), arcs.begin(), arcs.end());
-  return snapshot;
+  SnapshotWriter out;
+  out.put(time_);
+  out.put(grid_steps_);
+  out.put(std::int64_t{joints_closed_});
+  out.put(statistics_.steps);
+  out.put(statistics_.impacts);
+  smooth_.save(time_, out);
+  out.put(equations_.evaluations());
+  for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
+  return out.bytes();
 }
 
 void PreciseDriver::restore(std::span<const std::byte> snapshot) {
-  constexpr std::size_t kHead = 9;
-  std::vector<double> numbers(kHead + 2 * y_.size());
-  const std::size_t head_size = numbers.size() * sizeof(double);
-  std::vector<Flight::Arc>& arcs = flight_.arcs();
-  if (snapshot.size() != head_size + arcs.size() * sizeof(Flight::Arc)) {
-    throw Error(Error::Kind::Value, "snapshot", "size", std::to_string(snapshot.size()),
-                "is not of this scene and accuracy");
+  const std::vector<std::byte> before = save();
+  try {
+    take(snapshot);
+  } catch (const Error&) {
+    take(before);
+    throw;
   }
-  std::memcpy(numbers.data(), snapshot.data(), head_size);
-  if (!arcs.empty()) std::memcpy(arcs.data(), snapshot.data() + head_size, arcs.size() * sizeof(Flight::Arc));
-  time_ = numbers[0];
-  grid_steps_ = static_cast<std::int64_t>(numbers[1]);
-  proposed_step_ = numbers[2];
-  control_.reset(numbers[3]);
-  joints_closed_ = numbers[4] != 0;
-  statistics_ = {static_cast<std::int64_t>(numbers[5]), static_cast<std::int64_t>(numbers[6]),
-                 static_cast<std::int64_t>(numbers[7]), 0};
-  equations_.set_evaluations(static_cast<std::int64_t>(numbers[8]));
-  for (std::size_t i = 0; i < y_.size(); ++i) y_.set(i, numbers[kHead + i], numbers[kHead + y_.size() + i]);
+}
+
+void PreciseDriver::take(std::span<const std::byte> snapshot) {
+  SnapshotReader in(snapshot);
+  time_ = in.get<double>();
+  grid_steps_ = in.get<std::int64_t>();
+  joints_closed_ = in.get<std::int64_t>() != 0;
+  statistics_ = {};
+  statistics_.steps = in.get<std::int64_t>();
+  statistics_.impacts = in.get<std::int64_t>();
+  smooth_.restore(in);
+  equations_.set_evaluations(in.get<std::int64_t>());
+  for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
+  in.expect_end();
+  sampled_ = -1;
 }
 
 }  // namespace plumb::precise

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "engine/integrate/compensated.h"
-#include "engine/integrate/dop853.h"
-#include "engine/integrate/step_control.h"
 #include "engine/scene/scene.h"
 #include "engine/simulation/accuracy.h"
 #include "engine/simulation/driver.h"
@@ -18,6 +16,7 @@
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_plan.h"
+#include "engine/simulation/precise_smooth.h"
 #include "engine/simulation/simulation.h"
 
 namespace plumb::precise {
@@ -40,47 +39,40 @@ class PreciseDriver final : public Driver {
  private:
   bool active(StageIndex stage) const { return plan_.stages[stage].active; }
 
-  // A step, in this order.
+  // What a step is made of, in this order.
   void close_joints();
+  void go_on(double end);
   void resolve_impacts();
-  double integrate(double limit);
-  double stop_at_impact(double next);
-  void move_to(double next);
+  void stop_at_impact(double next);
+  void arrive();
 
   // What those are made of.
-  double next_switch() const;
-  void take_increment(double end);
-  double first_step() const;
-  void set_error_scale();
   void motions(double time, std::span<const double> y, std::span<const double> rate,
                std::span<Motion> out) const;
   void strike(const Impact& impact);
   std::size_t slot_of(std::size_t body) const;
+  void take(std::span<const std::byte> snapshot);
   void check_finite();
   void report_cost();
-  [[noreturn]] void blame_fastest() const;
   [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
                          const std::string& problem) const;
 
-  const double max_dt_, tolerance_;
+  const double max_dt_;
   Parts parts_;
-  Scales scales_;
   Plan plan_;
   Flight flight_;
   EquationsOfMotion equations_;
-  Dop853 runge_kutta_;
-  StepControl control_;
-  Compensated y_, trial_;  // of the integrated bodies: now, and at the end of the step that is being tried
-  std::vector<double> end_rate_, error_scale_;
+  mutable SmoothMotion smooth_;  // its polynomial is made when somebody reads
+  mutable Compensated sample_;   // of the integrated bodies at sampled_, where that is within the last step
+  mutable double sampled_ = -1;  // s
   Impacts impacts_;
   std::vector<Motion> start_, end_;  // by body, of those with discs
   std::vector<Twist<double>> normal_response_, tangent_response_;
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 
-  double time_ = 0;
+  double time_ = 0;  // s, of what is read: within the last step of the motion, or at its end
   std::int64_t grid_steps_ = 0;
-  double proposed_step_ = 0;  // s; 0: none yet
   bool joints_closed_ = false;
   Statistics statistics_{};
   int impacts_in_step_ = 0, steps_in_step_ = 0;

@@ -139,5 +139,71 @@ TEST(Dop853, ErrorOfAStateThatIsNotFiniteIsInfinite) {
   EXPECT_TRUE(std::isinf(method.error(1, scale)));
 }
 
+TEST(Dop853Coefficients, StagesOfThePolynomialAreConsistent) {
+  for (int s = 0; s < kDenseStages; ++s) {
+    for (int power_of_c = 0; power_of_c <= 5; ++power_of_c) {  // sum a_sj c_j^k = c_s^(k + 1) / (k + 1)
+      long double sum = 0;
+      for (int j = 0; j < kStages; ++j) sum += kDenseA[s][j] * power(kC[j], power_of_c);
+      sum += kDenseA[s][kStages];  // at c = 1
+      for (int j = 0; j < s; ++j) sum += kDenseA[s][kStages + 1 + j] * power(kDenseC[j], power_of_c);
+      EXPECT_NEAR(static_cast<double>(sum),
+                  static_cast<double>(power(kDenseC[s], power_of_c + 1)) / (power_of_c + 1), 1e-14)
+          << s << " " << power_of_c;
+    }
+  }
+}
+
+/// y' = y^2 from y(0) = 1 by one step: the polynomial's largest error between its ends.
+double error_within(double h) {
+  Equation equation;
+  equation.f = [](double, std::span<const double> y, std::span<double> out) { out[0] = y[0] * y[0]; };
+  Dop853 method(1);
+  StepPolynomial path(1);
+  const std::vector<double> y{1};
+  equation.rate(0, y, method.first_rate());
+  method.step(equation, 0, h, y);
+  const std::vector<double> end{1 + method.increment()[0]};
+  equation.rate(h, end, method.last_rate());
+  method.polynomial(equation, 0, h, y, path);
+  double worst = 0;
+  for (int i = 1; i < 16; ++i) {
+    const double s = i / 16.0;
+    worst = std::max(worst, std::abs(1 + path.at(s, 0) - 1 / (1 - s * h)));
+  }
+  return worst;
+}
+
+TEST(Dop853, PolynomialIsOfOrderSeven) {
+  const double order = std::log2(error_within(0.2) / error_within(0.1)) - 1;  // of a step's error, h^8
+  EXPECT_GT(order, 6.8);
+  EXPECT_LT(order, 8.5);
+}
+
+TEST(Dop853, PolynomialReproducesOnesOfDegreeSeven) {
+  Equation equation;
+  equation.f = [](double t, std::span<const double>, std::span<double> out) {
+    out[0] = 7 * t * t * t * t * t * t;
+  };
+  Dop853 method(1);
+  StepPolynomial path(1);
+  const std::vector<double> y{3};
+  equation.rate(0, y, method.first_rate());
+  method.step(equation, 0, 2, y);
+  equation.rate(2, y, method.last_rate());
+  method.polynomial(equation, 0, 2, y, path);
+  const auto bernstein = path.bernstein(0);
+  for (int i = 0; i <= 8; ++i) {
+    const double s = i / 8.0, t = 2 * s;
+    EXPECT_NEAR(path.at(s, 0), static_cast<double>(power(t, 7)), 2e-12) << s;
+    EXPECT_NEAR(path.slope(s, 0), static_cast<double>(2 * 7 * power(t, 6)), 2e-11) << s;
+    double blended = 0;  // sum C(7, j) s^j (1 - s)^(7 - j) b_j
+    constexpr double kChoose7[8] = {1, 7, 21, 35, 35, 21, 7, 1};
+    for (int j = 0; j < 8; ++j) {
+      blended += kChoose7[j] * static_cast<double>(power(s, j) * power(1 - s, 7 - j)) * bernstein[j];
+    }
+    EXPECT_NEAR(blended, path.at(s, 0), 2e-12) << s;
+  }
+}
+
 }  // namespace
 }  // namespace plumb

@@ -5,6 +5,7 @@
 #include "engine/integrate/bernstein.h"
 #include "engine/integrate/compensated.h"
 #include "engine/integrate/step_control.h"
+#include "engine/integrate/step_polynomial.h"
 
 namespace plumb {
 namespace {
@@ -68,6 +69,19 @@ TEST(Bernstein, HalvesMeetInTheMiddle) {
   EXPECT_DOUBLE_EQ(left[2], -0.0625);
   EXPECT_DOUBLE_EQ(right[0], -0.0625);
   EXPECT_DOUBLE_EQ(left[0], 0.1875);
+}
+
+TEST(StepPolynomial, OfLowDegreeIsWrittenWithMoreCoefficients) {
+  // 2 s - 3 s (s - 1/2) = 3.5 s - 3 s^2, whose Bernstein coefficients of degree 7 are 3.5 j/7 - 3 j (j -
+  // 1)/42.
+  StepPolynomial path(1);
+  path.set_nodes(std::array{0.0, 0.5});
+  path.term(1)[0] = 2;
+  path.term(2)[0] = -3;
+  EXPECT_DOUBLE_EQ(path.at(0.25, 0), 3.5 * 0.25 - 3 * 0.0625);
+  EXPECT_DOUBLE_EQ(path.slope(0.25, 0), 3.5 - 6 * 0.25);
+  const auto c = path.bernstein(0);
+  for (int j = 0; j < 8; ++j) EXPECT_NEAR(c[j], 0.5 * j - j * (j - 1) / 14.0, 1e-15) << j;
 }
 
 }  // namespace

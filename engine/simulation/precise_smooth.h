@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/integrate/compensated.h"
+#include "engine/integrate/dop853.h"
+#include "engine/integrate/step_control.h"
+#include "engine/integrate/step_polynomial.h"
+#include "engine/scene/scene.h"
+#include "engine/simulation/accuracy.h"
+#include "engine/simulation/precise_motion.h"
+#include "engine/simulation/precise_parts.h"
+#include "engine/simulation/snapshot.h"
+
+namespace plumb::precise {
+
+/// The motion of the integrated bodies between events: steps whose error meets the tolerance, and the state
+/// at any time within the last one. Where events lie is the caller's to know: a step is made first and looked
+/// at then, and events are looked for inside it; `cut` ends it at one, and after a jump `restart` is due.
+class SmoothMotion {
+ public:
+  SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);
+
+  double time() const { return time_; }                ///< s: where the last step ended
+  const Compensated& state() const { return y_; }      ///< there, joints closed
+  std::size_t dimension() const { return y_.size(); }  ///< 0: nothing is integrated
+
+  /// One step that meets the tolerance, from `time` to at most `limit` (may be infinite) and to at most the
+  /// next time at which a force is switched; returns where it ends. Throws `Error` (Run) that names the body
+  /// when no step is small enough. With nothing to integrate, it ends as far as it may: `limit` is then
+  /// finite.
+  double step(double limit);
+
+  double start() const { return start_; }  ///< s: where the last step began
+  const Compensated& state_at_start() const { return y0_; }
+
+  /// dy/dt where the last step began, and where it ended.
+  std::span<const double> rate_at_start() const { return method_.first_rate(); }
+  std::span<const double> rate_at_end();
+
+  /// The polynomial over the last step, as the state's distance from `state_at_start` with s = (t - start) /
+  /// (time - start). Of order 7; made when first asked for after a step.
+  const StepPolynomial& polynomial();
+
+  /// The state at a time within the last step, by its polynomial. `project` closes the joints there too.
+  void at(double time, bool project, Compensated& out);
+
+  /// Makes the last step end at `time`, within it, as a step of its own: with the method's own order.
+  void cut(double time);
+
+  /// Goes back to a time within the last step: what was found beyond it is forgotten.
+  void rewind(double time);
+
+  /// The state at `time`, to be changed; `restart` (or `start_anew`) is due afterwards.
+  Compensated& change() { return y_; }
+  /// After a jump of velocities or of forces: the next step begins from `change` as it is.
+  void restart();
+  /// After bodies were moved from outside: closes joints, and the length of steps is found anew.
+  void start_anew();
+
+  std::int64_t rejected() const { return rejected_; }
+  void set_rejected(std::int64_t count) { rejected_ = count; }
+
+  /// Throws `Error` (Run) that names the body whose motion changes fastest.
+  [[noreturn]] void blame_fastest() const;
+
+  /// All that later steps and states from `sampled` on depend on.
+  void save(double sampled, SnapshotWriter& out);
+  void restore(SnapshotReader& in);
+
+  double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
+
+ private:
+  double end_of_step(double limit) const;
+  double next_switch() const;
+  void take_increment(double end);
+  double first_step() const;
+  void set_error_scale();
+  void project(double time, Compensated& y);
+
+  const double tolerance_;
+  const Scales scales_;
+  const double longest_step_;  // s
+  const std::vector<std::size_t> bodies_;
+  const std::vector<double> switches_;
+  std::vector<std::string> names_;  // by slot
+  EquationsOfMotion& equations_;
+  Dop853 method_;
+  StepControl control_;
+  double start_ = 0, time_ = 0;
+  Compensated y0_, y_;  // where the last step began and ended
+  StepPolynomial polynomial_;
+  bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
+  std::vector<double> error_scale_;
+  double proposed_step_ = 0;  // s; 0: none yet
+  std::int64_t rejected_ = 0;
+};
+
+}  // namespace plumb::precise
