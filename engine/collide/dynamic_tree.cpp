@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "engine/scene/room.h"
+
 namespace plumb {
 namespace {
 
@@ -22,7 +24,7 @@ template <class Real>
 int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int user) {
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
-    slots_.push_back(kNone);
+    append(slots_, kNone);
     free_proxies_.reserve(slots_.capacity());
   } else {
     proxy = free_proxies_.back();
@@ -133,7 +135,7 @@ void DynamicTree<Real>::exchange(int a, int b) {
 template <class Real>
 int DynamicTree<Real>::new_pair() {
   if (free_pairs_.empty()) {
-    pairs_.emplace_back();
+    append(pairs_, Pair{});
     free_pairs_.reserve(pairs_.capacity());  // so that taking a leaf out allocates nothing
     return static_cast<int>(pairs_.size()) - 1;
   }

@@ -48,7 +48,7 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
-enum class BodyType { Static, Kinematic, Dynamic };
+enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
 /// A rigid body. Its frame has its origin at the centre of mass.
 struct Body {

@@ -13,13 +13,19 @@ namespace plumb {
 namespace {
 
 template <class Real>
-void make_room(WorldData<Real>& w, int body) {
-  const std::size_t size = static_cast<std::size_t>(w.bodies.size());
-  w.names.resize(size);
-  w.motion.resize(size), w.rotation.resize(size), w.position.resize(size);
-  w.extents.resize(size), w.enlarged.resize(size);
-  w.names[body].clear();
+void clear_place(WorldData<Real>& w, int body) {
+  const int size = w.bodies.size();
+  make_room(w.motion, size), make_room(w.rotation, size), make_room(w.position, size);
+  make_room(w.extents, size), make_room(w.enlarged, size);
+  w.loads.renew(body, size), w.body_data.renew(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
+}
+
+template <class Real>
+UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body) {
+  int& place = w.bodies[body].uncommon;
+  if (place == kNone) place = w.uncommon.add({});
+  return w.uncommon[place];
 }
 
 template <class Real>
@@ -93,14 +99,13 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
   record.may_sleep = definition.may_sleep;
   record.lock_x = definition.lock_x, record.lock_y = definition.lock_y;
   record.lock_rotation = definition.lock_rotation;
-  record.gravity_scale = static_cast<Real>(definition.gravity_scale);
-  record.linear_damping = static_cast<Real>(definition.linear_damping);
-  record.angular_damping = static_cast<Real>(definition.angular_damping);
   record.angle = definition.angle;
-  record.user_data = definition.user_data;
   const int body = w.bodies.add(record);
-  make_room(w, body);
-  w.names[body] = definition.name;
+  clear_place(w, body);
+  if (definition.user_data != 0) w.body_data.at(body, w.bodies.size()) = definition.user_data;
+  set_gravity_scale(w, body, definition.gravity_scale);
+  set_damping(w, body, definition.linear_damping, definition.angular_damping);
+  if (!definition.name.empty()) make_uncommon(w, body).name = definition.name;
   w.position[body] = definition.position;
   w.rotation[body] = rounded<Real>(rotation_of(definition.angle));
   if (definition.type != BodyType::Static) enter_awake(w, body);
@@ -134,7 +139,7 @@ void remove_body(WorldData<Real>& w, int body) {
     }
   }
   if (w.bodies[body].awake) leave_awake(w, body);
-  w.names[body].clear();
+  if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);
   w.motion[body] = {};
   w.bodies.remove(body);
 }
@@ -142,6 +147,21 @@ void remove_body(WorldData<Real>& w, int body) {
 template <class Real>
 Vec2d origin_of(const WorldData<Real>& w, int body) {
   return w.position[body] - (w.rotation[body] * w.bodies[body].centre).template as<double>();
+}
+
+template <class Real>
+void set_gravity_scale(WorldData<Real>& w, int body, double scale) {
+  const Real wanted = static_cast<Real>(scale);
+  if (w.uncommon_of(body).gravity_scale != wanted) make_uncommon(w, body).gravity_scale = wanted;
+}
+
+template <class Real>
+void set_damping(WorldData<Real>& w, int body, double linear, double angular) {
+  const Real wanted = static_cast<Real>(linear), wanted_angular = static_cast<Real>(angular);
+  const UncommonBody<Real>& now = w.uncommon_of(body);
+  if (now.linear_damping == wanted && now.angular_damping == wanted_angular) return;
+  UncommonBody<Real>& own = make_uncommon(w, body);
+  own.linear_damping = wanted, own.angular_damping = wanted_angular;
 }
 
 template <class Real>
@@ -217,6 +237,8 @@ void set_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   template int add_body(WorldData<Real>&, const BodyDefinition&, std::span<const ShapeDefinition>); \
   template void remove_body(WorldData<Real>&, int);                                                 \
   template Vec2d origin_of(const WorldData<Real>&, int);                                            \
+  template void set_gravity_scale(WorldData<Real>&, int, double);                                   \
+  template void set_damping(WorldData<Real>&, int, double, double);                                 \
   template void place_body(WorldData<Real>&, int, Vec2d, double);                                   \
   template void set_type(WorldData<Real>&, int, BodyType);                                          \
   template void update_mass(WorldData<Real>&, int);                                                 \

@@ -16,6 +16,11 @@ void remove_body(WorldData<Real>& w, int body);
 /// Where the body's origin is, and its frame.
 template <class Real>
 Vec2d origin_of(const WorldData<Real>& w, int body);
+template <class Real>
+void set_gravity_scale(WorldData<Real>& w, int body, double scale);
+/// Rates of decay, 1/s.
+template <class Real>
+void set_damping(WorldData<Real>& w, int body, double linear, double angular);
 /// Puts the body's origin somewhere else; what it rested on or held wakes up.
 template <class Real>
 void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);

@@ -56,14 +56,8 @@ void leave_parked(WorldData<Real>& w, int contact) {
 
 template <class Real>
 bool joined_without_collision(const WorldData<Real>& w, int body_a, int body_b) {
-  const BodyRecord<Real>&a = w.bodies[body_a], &b = w.bodies[body_b];
-  const int fewer = a.joint_count < b.joint_count ? body_a : body_b;
-  const int other = fewer == body_a ? body_b : body_a;
-  bool found = false;
-  for_each_edge(w.joints, w.bodies[fewer].first_joint, [&](int edge, const JointRecord& joint) {
-    found = found || (!joint.collide && ((edge & 1) == 0 ? joint.body_b : joint.body_a) == other);
-  });
-  return found;
+  return any_between(w.joints, w.bodies[body_a].first_joint, w.bodies[body_b].first_joint, body_a, body_b,
+                     [](const JointRecord& joint) { return !joint.collide; });
 }
 
 }  // namespace
@@ -88,7 +82,7 @@ void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
   record.pre_solve = a.pre_solve || b.pre_solve;
   record.hit_events = a.hit_events || b.hit_events;
   const int contact = w.contacts.add(record);
-  link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
+  link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
   w.pairs.insert(shape_a, shape_b);
   if (w.bodies[a.body].awake || w.bodies[b.body].awake) {
     enter_near(w, contact);
@@ -116,7 +110,7 @@ void destroy_contact(WorldData<Real>& w, int contact) {
   }
   if (record.home == ContactHome::Graph || record.home == ContactHome::Parked)
     count_constraint(w, record, -1);
-  unlink_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
+  unlink_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
   w.pairs.erase(record.shape_a, record.shape_b);
   w.contacts.remove(contact);
 }

@@ -61,18 +61,28 @@ void for_each_edge(Items& items, int first, Visit&& visit) {
   }
 }
 
+/// Whether there is an item between two bodies for which `holds` does: looks along both bodies' lists at
+/// once, as far as the shorter one goes.
+template <class Items, class Test>
+bool any_between(const Items& items, int edge_a, int edge_b, int body_a, int body_b, Test&& holds) {
+  while (edge_a != kNone && edge_b != kNone) {
+    const auto &of_a = items[edge_a / 2], &of_b = items[edge_b / 2];
+    if (((edge_a & 1) == 0 ? of_a.body_b : of_a.body_a) == body_b && holds(of_a)) return true;
+    if (((edge_b & 1) == 0 ? of_b.body_b : of_b.body_a) == body_a && holds(of_b)) return true;
+    edge_a = of_a.next[edge_a & 1], edge_b = of_b.next[edge_b & 1];
+  }
+  return false;
+}
+
 /// Puts item `index` with body_a and body_b into both bodies' lists that start at `head` (a member of
 /// BodyRecord), or takes it out.
 template <class Real, class Items>
-void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
-                int BodyRecord<Real>::*count);
+void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head);
 template <class Real, class Items>
-void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
-                  int BodyRecord<Real>::*count);
+void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head);
 
 template <class Real, class Items>
-void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
-                int BodyRecord<Real>::*count) {
+void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head) {
   for (int side = 0; side < 2; ++side) {
     auto& item = items[index];
     BodyRecord<Real>& body = w.bodies[side == 0 ? item.body_a : item.body_b];
@@ -80,13 +90,11 @@ void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real
     item.next[side] = body.*head;
     if (body.*head != kNone) items[body.*head / 2].previous[body.*head & 1] = 2 * index + side;
     body.*head = 2 * index + side;
-    ++(body.*count);
   }
 }
 
 template <class Real, class Items>
-void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head,
-                  int BodyRecord<Real>::*count) {
+void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head) {
   for (int side = 0; side < 2; ++side) {
     auto& item = items[index];
     BodyRecord<Real>& body = w.bodies[side == 0 ? item.body_a : item.body_b];
@@ -94,7 +102,6 @@ void unlink_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Re
     if (before != kNone) items[before / 2].next[before & 1] = after;
     if (after != kNone) items[after / 2].previous[after & 1] = before;
     if (body.*head == 2 * index + side) body.*head = after;
-    --(body.*count);
   }
 }
 

@@ -82,15 +82,13 @@ double fraction_of_impact(const WorldData<Real>& w, int shape, int other) {
 // Whether a contact between the shapes had points in this step: the solver has seen to it.
 template <class Real>
 bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
-  bool solved = false;
   const int other_body = w.shapes[other].body;
-  const int fewer = w.bodies[body].contact_count < w.bodies[other_body].contact_count ? body : other_body;
-  for_each_edge(w.contacts, w.bodies[fewer].first_contact, [&](int, const ContactRecord& contact) {
-    solved = solved ||
-             (contact.home == ContactHome::Graph && ((contact.shape_a == shape && contact.shape_b == other) ||
-                                                     (contact.shape_a == other && contact.shape_b == shape)));
-  });
-  return solved;
+  const auto is_solved = [&](const ContactRecord& contact) {
+    return contact.home == ContactHome::Graph && ((contact.shape_a == shape && contact.shape_b == other) ||
+                                                  (contact.shape_a == other && contact.shape_b == shape));
+  };
+  return any_between(w.contacts, w.bodies[body].first_contact, w.bodies[other_body].first_contact, body,
+                     other_body, is_solved);
 }
 
 // A box around all that the body covers on its way.
@@ -151,7 +149,7 @@ void hide_way(WorldData<Real>& w, int body, Real dt) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, stored_box(w, shape, dt));
     w.enlarged[body] = 1;
-    if (!w.shapes[shape].moved) w.moved_shapes.push_back(shape);
+    if (!w.shapes[shape].moved) append(w.moved_shapes, shape);
     w.shapes[shape].moved = true;
   }
 }

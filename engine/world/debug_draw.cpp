@@ -27,8 +27,8 @@ class Drawing {
       for_each_used(w_.contacts, [&](int contact) { draw_contact(w_.contacts[contact]); });
     for_each_used(w_.bodies, [&](int body) {
       if (options_.centres) draw_centre(body);
-      if (options_.names && !w_.names[body].empty())
-        out_.text(w_.position[body], w_.names[body], DrawRole::Name);
+      if (options_.names && !w_.uncommon_of(body).name.empty())
+        out_.text(w_.position[body], w_.uncommon_of(body).name, DrawRole::Name);
     });
   }
 

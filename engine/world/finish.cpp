@@ -17,7 +17,7 @@ constexpr int kRefresh = 256;
 
 template <class Real>
 [[noreturn]] void report_loss(const WorldData<Real>& w, int body) {
-  const std::string& name = w.names[body];
+  const std::string& name = w.uncommon_of(body).name;
   throw Error(Error::Kind::Run, "body " + (name.empty() ? std::to_string(body) : "'" + name + "'"), "state",
               "NaN",
               "is not finite after step " + std::to_string(w.steps + 1) +
@@ -68,7 +68,7 @@ bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
   if (stored.contains(w.boxes[shape])) return covered;
   tree.enlarge(record.proxy, stored_box(w, shape, dt));
   w.enlarged[record.body] = 1;
-  if (!record.moved) w.moved_shapes.push_back(shape);
+  if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
   return covered;
 }
@@ -76,6 +76,7 @@ bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
 template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt) {
   w.scratch.fast_bodies.clear();
+  Load<Real>* const loads = w.loads.data();
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
     BodyMotion<Real>& motion = w.motion[body];
@@ -94,7 +95,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
         q = {static_cast<Real>(exact.c), static_cast<Real>(exact.s)};
       }
     }
-    record.force = {}, record.torque = 0;
+    if (loads != nullptr) loads[body] = {};
     const Real extent = w.extents[body];
     time_stillness(w, record, motion, extent, dt);
     w.enlarged[body] = 0;
@@ -106,7 +107,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     }
     // Whoever stays within its stored boxes, and has no pair, meets nothing.
     const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
-    const bool alone = covered && record.contact_count == 0;
+    const bool alone = covered && record.first_contact == kNone;
     if (way > Real(tuning::kFastShare) * record.half_width && !alone)
       w.scratch.fast_bodies.push_back({body, covered});
   }

@@ -25,7 +25,7 @@ LawBody view_of(const WorldData<Real>& w, int body) {
           static_cast<double>(motion.angular_velocity),
           static_cast<double>(record.mass),
           static_cast<double>(record.inertia),
-          record.user_data};
+          w.body_data.get(body)};
 }
 
 // What moves a body besides drag, in free flight; what else holds it is not known before the step.
@@ -33,8 +33,10 @@ template <class Real>
 Wrench<double> known_load(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.constraints > 0) return {};
-  const Vec2d weight = static_cast<double>(record.mass * record.gravity_scale) * w.settings.gravity;
-  return {weight + record.force.template as<double>(), static_cast<double>(record.torque)};
+  const Real scale = w.uncommon_of(body).gravity_scale;
+  const Load<Real> load = w.loads.get(body);
+  const Vec2d weight = static_cast<double>(record.mass * scale) * w.settings.gravity;
+  return {weight + load.force.template as<double>(), static_cast<double>(load.torque)};
 }
 
 template <class Real>

@@ -26,11 +26,12 @@ Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
   kick.body = body;
   if (record.type != BodyType::Dynamic) return kick;
   const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
-  kick.velocity = t * (record.gravity_scale * gravity + motion.inverse_mass * record.force);
-  kick.spin = t * motion.inverse_inertia * record.torque;
-  if (record.linear_damping > 0) kick.keep = static_cast<Real>(decay(time * double(record.linear_damping)));
-  if (record.angular_damping > 0)
-    kick.keep_spin = static_cast<Real>(decay(time * double(record.angular_damping)));
+  const UncommonBody<Real>& own = w.uncommon_of(body);
+  const Load<Real> load = w.loads.get(body);
+  kick.velocity = t * (own.gravity_scale * gravity + motion.inverse_mass * load.force);
+  kick.spin = t * motion.inverse_inertia * load.torque;
+  if (own.linear_damping > 0) kick.keep = static_cast<Real>(decay(time * double(own.linear_damping)));
+  if (own.angular_damping > 0) kick.keep_spin = static_cast<Real>(decay(time * double(own.angular_damping)));
   kick.locked_x = record.lock_x, kick.locked_y = record.lock_y;
   return kick;
 }

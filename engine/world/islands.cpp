@@ -73,7 +73,7 @@ void enter_awake(WorldData<Real>& w, int body) {
   w.ties_changed = true;
   record.still_for = 0;
   record.awake_index = static_cast<int>(w.awake.size());
-  w.awake.push_back(body);
+  append(w.awake, body);
 }
 
 template <class Real>

@@ -19,7 +19,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.break_force = definition.break_force, record.break_torque = definition.break_torque;
   record.user_data = definition.user_data;
   const int joint = w.joints.add(record);
-  link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+  link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
   if (record.break_force > 0 || record.break_torque > 0) w.breakable.push_back(joint);
   wake_body(w, body_a), wake_body(w, body_b);
@@ -35,7 +35,7 @@ void remove_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
   w.ties_changed = true;
   wake_body(w, record.body_a), wake_body(w, record.body_b);
-  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
   w.joint_set.remove(record.slot);
   std::erase(w.breakable, joint);

@@ -48,7 +48,8 @@ void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<doub
                            const char* field) {
   const Vec2d force = wrench.force;
   const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
-  if (!fits(force.x) || !fits(force.y) || !fits(wrench.torque)) report_not_finite(w.names[body], body, field);
+  if (!fits(force.x) || !fits(force.y) || !fits(wrench.torque))
+    report_not_finite(w.uncommon_of(body).name, body, field);
 }
 
 /// Whoever is pushed does not fall asleep at once.
@@ -81,8 +82,9 @@ void add_wrenches(WorldData<Real>& w, const WrenchList& list) {
   for (const BodyWrench& item : list) {
     if (item.wrench.force == Vec2d{} && item.wrench.torque == 0) continue;
     wake_pushed(w, item.body);
-    w.bodies[item.body].force += item.wrench.force.template as<Real>();
-    w.bodies[item.body].torque += static_cast<Real>(item.wrench.torque);
+    Load<Real>& load = w.loads.at(item.body, w.bodies.size());
+    load.force += item.wrench.force.template as<Real>();
+    load.torque += static_cast<Real>(item.wrench.torque);
   }
 }
 

@@ -34,7 +34,7 @@ template <class Real>
 int insert(WorldData<Real>& w, int body, const Corners& corners, int count, const ShapeForm<Real>& form_like,
            const ShapeRecord<Real>& record_like) {
   const int shape = w.shapes.add(record_like);
-  w.forms.resize(w.shapes.size()), w.boxes.resize(w.shapes.size());
+  make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
   ShapeForm<Real>& form = w.forms[shape];
   form = form_like;
   const Corners local = translated(corners, -w.bodies[body].centre.template as<double>());
@@ -48,7 +48,6 @@ int insert(WorldData<Real>& w, int body, const Corners& corners, int count, cons
   record.body = body;
   record.next = w.bodies[body].first_shape;
   w.bodies[body].first_shape = shape;
-  ++w.bodies[body].shape_count;
   return shape;
 }
 
@@ -73,7 +72,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
   w.boxes[shape] = box_of(w, shape);
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
-  if (!record.moved) w.moved_shapes.push_back(shape);
+  if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
 }
 
@@ -118,7 +117,6 @@ void take_out_shape(WorldData<Real>& w, int shape) {
   int* link = &body.first_shape;
   while (*link != shape) link = &w.shapes[*link].next;
   *link = record.next;
-  --body.shape_count;
   w.shapes.remove(shape);
 }
 

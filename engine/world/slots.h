@@ -4,6 +4,8 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/scene/room.h"
+
 namespace plumb {
 
 /// Things in slots that stay where they are. A slot that becomes free is used again, the last freed first,
@@ -15,8 +17,8 @@ class Slots {
     int index;
     if (free_.empty()) {
       index = static_cast<int>(items_.size());
-      items_.push_back(value);
-      generations_.push_back(1);
+      append(items_, value);
+      append(generations_, std::uint32_t{1});
     } else {
       index = free_.back();
       free_.pop_back();

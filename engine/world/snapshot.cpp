@@ -61,6 +61,10 @@ class Save {
   void operator()(const Slots<T>& slots) {
     std::apply([&](const auto&... each) { (out_.put(each), ...); }, slots.parts());
   }
+  template <class T>
+  void operator()(const UsedList<T>& list) {
+    out_.put(std::get<0>(list.parts()));
+  }
   template <class Real>
   void operator()(const CornerPool<Real>& corners) {
     std::apply([&](const auto&... each) { (out_.put(each), ...); }, corners.parts());
@@ -96,6 +100,10 @@ class Restore {
   template <class T>
   void operator()(Slots<T>& slots) {
     std::apply([&](auto&... each) { (in_.get(each, "slots"), ...); }, slots.parts());
+  }
+  template <class T>
+  void operator()(UsedList<T>& list) {
+    in_.get(std::get<0>(list.parts()), "bodies");
   }
   template <class Real>
   void operator()(CornerPool<Real>& corners) {

@@ -52,8 +52,10 @@ class Check {
 
   void run() const {
     numbers();
-    slots(w_.bodies), slots(w_.shapes), slots(w_.chains), slots(w_.contacts), slots(w_.joints);
+    slots(w_.bodies), slots(w_.uncommon), slots(w_.shapes), slots(w_.chains), slots(w_.contacts),
+        slots(w_.joints);
     sizes();
+    uncommon();
     shape_lists();
     corners();
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
@@ -67,8 +69,8 @@ class Check {
     }
     homes();
     joints();
-    edges(w_.contacts, &BodyRecord<Real>::first_contact, &BodyRecord<Real>::contact_count);
-    edges(w_.joints, &BodyRecord<Real>::first_joint, &BodyRecord<Real>::joint_count);
+    edges(w_.contacts, &BodyRecord<Real>::first_contact);
+    edges(w_.joints, &BodyRecord<Real>::first_joint);
     constraints();
   }
 
@@ -82,13 +84,21 @@ class Check {
     bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
                   all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
                   all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
-                  all_finite(corners) && all_finite(w_.parked) &&
-                  all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
-                  all_finite(std::get<0>(w_.joints.parts()));
+                  all_finite(corners) && all_finite(w_.parked) && all_finite(std::get<0>(w_.loads.parts())) &&
+                  all_finite_uncommon() && all_finite(std::get<0>(w_.bodies.parts())) &&
+                  all_finite(std::get<0>(w_.shapes.parts())) && all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
     require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
     validate(w_.settings);
+  }
+
+  bool all_finite_uncommon() const {
+    const auto& all = std::get<0>(w_.uncommon.parts());
+    return std::all_of(all.begin(), all.end(), [](const UncommonBody<Real>& each) {
+      return is_finite(each.gravity_scale) && is_finite(each.linear_damping) &&
+             is_finite(each.angular_damping);
+    });
   }
 
   // A slot is free, and listed once, or in use.
@@ -108,11 +118,27 @@ class Check {
 
   void sizes() const {
     const auto is_by_body = [&](const auto& all) { return static_cast<int>(all.size()) == w_.bodies.size(); };
-    require(is_by_body(w_.names) && is_by_body(w_.motion) && is_by_body(w_.rotation) &&
-                is_by_body(w_.position) && is_by_body(w_.extents) && is_by_body(w_.enlarged),
+    const auto none_or_by_body = [&](const auto& list) {
+      const auto& items = std::get<0>(list.parts());
+      return items.empty() || is_by_body(items);
+    };
+    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) && is_by_body(w_.motion) &&
+                is_by_body(w_.rotation) && is_by_body(w_.position) && is_by_body(w_.extents) &&
+                is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
     require(w_.forms.size() == shapes && w_.boxes.size() == shapes, "shapes", "are not as many everywhere");
+  }
+
+  // Each belongs to one body.
+  void uncommon() const {
+    Marks taken(w_.uncommon.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      const int place = w_.bodies[body].uncommon;
+      require(place == kNone || (w_.bodies.used(body) && taken.mark(place) && w_.uncommon.used(place)),
+              "bodies", "share what is their own");
+    }
+    require(taken.count() == w_.uncommon.count(), "bodies", "have not all that is their own");
   }
 
   // Each body's list ends, and every shape is in the list of its body.
@@ -121,12 +147,10 @@ class Check {
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
       const BodyRecord<Real>& record = w_.bodies[body];
-      int count = 0;
-      for (int shape = record.first_shape; shape != kNone; shape = w_.shapes[shape].next, ++count) {
+      for (int shape = record.first_shape; shape != kNone; shape = w_.shapes[shape].next) {
         require(listed.mark(shape) && w_.shapes.used(shape) && w_.shapes[shape].body == body, "shapes",
                 "are in the lists of other bodies");
       }
-      require(count == record.shape_count, "shapes", "of a body are not as many as it says");
     }
     require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
   }
@@ -281,12 +305,12 @@ class Check {
 
   // Each body's list ends, and both ends of every contact or joint are in the list of their body.
   template <class Items>
-  void edges(const Items& items, int BodyRecord<Real>::*first, int BodyRecord<Real>::*number) const {
+  void edges(const Items& items, int BodyRecord<Real>::*first) const {
     Marks listed(2 * items.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
-      int count = 0, before = kNone;
-      for (int edge = w_.bodies[body].*first; edge != kNone; ++count) {
+      int before = kNone;
+      for (int edge = w_.bodies[body].*first; edge != kNone;) {
         require(listed.mark(edge) && items.used(edge / 2), "lists of contacts or joints", "run in circles");
         const auto& item = items[edge / 2];
         const int side = edge & 1;
@@ -295,7 +319,6 @@ class Check {
         before = edge;
         edge = item.next[side];
       }
-      require(count == w_.bodies[body].*number, "lists of contacts or joints", "are not as long as they say");
     }
     require(listed.count() == 2 * items.count(), "lists of contacts or joints", "are not complete");
   }

@@ -124,8 +124,9 @@ void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
   require_finite("body", "point", point);
   if (!data_->gives_way(index)) return;
   wake(index);
-  data_->bodies[index].force += force.as<Real>();
-  data_->bodies[index].torque += static_cast<Real>(cross(point - data_->position[index], force));
+  Load<Real>& load = data_->loads.at(index, data_->bodies.size());
+  load.force += force.as<Real>();
+  load.torque += static_cast<Real>(cross(point - data_->position[index], force));
 }
 template <class Real>
 void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
@@ -133,7 +134,7 @@ void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
   require_finite("body", "torque", torque);
   if (!data_->gives_way(index)) return;
   wake(index);
-  data_->bodies[index].torque += static_cast<Real>(torque);
+  data_->loads.at(index, data_->bodies.size()).torque += static_cast<Real>(torque);
 }
 template <class Real>
 void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse) {
@@ -194,7 +195,7 @@ template <class Real>
 void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
   const int index = place(body);
   require_finite("body", "gravity_scale", scale);
-  data_->bodies[index].gravity_scale = static_cast<Real>(scale);
+  plumb::set_gravity_scale(*data_, index, scale);
   wake(index);
 }
 template <class Real>
@@ -202,8 +203,7 @@ void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
   const int index = place(body);
   require_not_negative("body", "linear_damping", linear);
   require_not_negative("body", "angular_damping", angular);
-  data_->bodies[index].linear_damping = static_cast<Real>(linear);
-  data_->bodies[index].angular_damping = static_cast<Real>(angular);
+  plumb::set_damping(*data_, index, linear, angular);
 }
 template <class Real>
 void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
@@ -237,11 +237,11 @@ void BasicWorld<Real>::set_may_sleep(BodyId body, bool may_sleep) {
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(BodyId body) const {
-  return data_->bodies[place(body)].user_data;
+  return data_->body_data.get(place(body));
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
-  return data_->names[place(body)];
+  return data_->uncommon_of(place(body)).name;
 }
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {

@@ -16,6 +16,7 @@
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/slots.h"
+#include "engine/world/used_list.h"
 
 /// What a world consists of. Bodies, shapes, contacts and joints live in slots that never move; what the
 /// solver works on lies in arrays of its own. Lists that run through the slots (a body's shapes, contacts,
@@ -24,7 +25,7 @@ namespace plumb {
 
 inline constexpr int kNone = -1;
 
-/// The cold part of a body: read once a step at most.
+/// What solvers do not need of a body: read once a step at most. A cache line in float.
 template <class Real>
 struct BodyRecord {
   BodyType type = BodyType::Dynamic;
@@ -34,18 +35,29 @@ struct BodyRecord {
   bool mass_given = false;
   int awake_index = kNone;
   int first_shape = kNone, first_contact = kNone,
-      first_joint = kNone;  ///< contact and joint: edge = 2 index + side
-  int shape_count = 0, contact_count = 0, joint_count = 0;
+      first_joint = kNone;     ///< contact and joint: edge = 2 index + side
   int constraints = 0;         ///< contacts with points, and joints: 0 is free flight
+  int uncommon = kNone;        ///< its UncommonBody
   Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
   Vec2<Real> centre{};         ///< m, of mass, in the body's frame
-  Vec2<Real> force{};          ///< N, until the end of the next step
-  Real torque = 0;             ///< N m, likewise
+  Real half_width = 0;         ///< m, smallest half width of its shapes
+  Real still_for = 0;          ///< s
+  double angle = 0;            ///< rad, whole turns counted
+};
+static_assert(sizeof(BodyRecord<float>) == 64);
+
+/// What few bodies have: a name, damping, a gravity of their own.
+template <class Real>
+struct UncommonBody {
+  std::string name{};
   Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
-  Real half_width = 0;  ///< m, smallest half width of its shapes
-  Real still_for = 0;   ///< s
-  double angle = 0;     ///< rad, whole turns counted
-  std::uint64_t user_data = 0;
+};
+
+/// What the user applies to a body until the end of the next step.
+template <class Real>
+struct Load {
+  Vec2<Real> force{};  ///< N
+  Real torque = 0;     ///< N m
 };
 
 /// What collision reads of a shape, in the frame of its body's centre of mass.
@@ -164,7 +176,9 @@ struct WorldData {
 
   // Bodies, by index.
   Slots<BodyRecord<Real>> bodies;
-  std::vector<std::string> names;
+  Slots<UncommonBody<Real>> uncommon;
+  UsedList<Load<Real>> loads;
+  UsedList<std::uint64_t> body_data;  ///< the user's
   std::vector<BodyMotion<Real>> motion;
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;  ///< m, of the centres of mass
@@ -209,6 +223,11 @@ struct WorldData {
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
   bool gives_way(int body) const { return bodies[body].type == BodyType::Dynamic; }
+  const UncommonBody<Real>& uncommon_of(int body) const {
+    static const UncommonBody<Real> common;
+    const int place = bodies[body].uncommon;
+    return place == kNone ? common : uncommon[place];
+  }
   Convex<Real> convex(int shape) const {
     const ShapeForm<Real>& form = forms[shape];
     return {corners.data() + form.corner + (form.chain ? 1 : 0), form.count, form.radius};

@@ -21,9 +21,10 @@ PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, s
 PLUMB_MEMBERS(Filter, category, mask, group)
 
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, awake_index,
-                   first_shape, first_contact, first_joint, shape_count, contact_count, joint_count,
-                   constraints, mass, inertia, centre, force, torque, gravity_scale, linear_damping,
-                   angular_damping, half_width, still_for, angle, user_data)
+                   first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia, centre,
+                   half_width, still_for, angle)
+PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping)
+PLUMB_REAL_MEMBERS(Load, force, torque)
 PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
 
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
@@ -53,14 +54,14 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 /// WorldData has to be named here, and to be returned unless it is one of those.
 template <class World>
 constexpr auto state_of(World& w) {
-  auto& [settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged, awake,
-         shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near,
-         graph, parked, joints, joint_set, sensors, breakable, events, pending, stepping, reports_hits,
-         ties_changed, scratch, pre_solve] = w;
-  return std::tie(settings, time, steps, last_h, bodies, names, motion, rotation, position, extents, enlarged,
-                  awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree, moving_tree,
-                  contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events,
-                  pending, reports_hits);
+  auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
+         extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree,
+         moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events,
+         pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
+  return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
+                  position, extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes,
+                  still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors,
+                  breakable, events, pending, reports_hits);
 }
 
 }  // namespace plumb
