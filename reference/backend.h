@@ -39,7 +39,7 @@ struct Identity {
 };
 
 /// How an engine's time stepping works: what error bounds are derived from.
-enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, Adaptive };
+enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4, Adaptive };
 
 struct Method {
   Scheme scheme = Scheme::SemiImplicitEuler;

@@ -15,10 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::pair<Scheme, const char*>, 4> kSchemes{
+constexpr std::array<std::pair<Scheme, const char*>, 5> kSchemes{
     {{Scheme::ExplicitEuler, "explicit_euler"},
      {Scheme::SemiImplicitEuler, "semi_implicit_euler"},
      {Scheme::VelocityVerlet, "velocity_verlet"},
+     {Scheme::RungeKutta4, "runge_kutta_4"},
      {Scheme::Adaptive, "adaptive"}}};
 
 constexpr std::array<std::pair<Error::Kind, const char*>, 6> kKinds{

@@ -71,6 +71,41 @@ INSTANTIATE_TEST_SUITE_P(plumb, ConvergenceOrder,
                                          Order{"pendulum_chain[5]", "explicit_euler", 1, false}),
                          name_of_test);
 
+struct Rival {
+  const char* engine;
+  const char* instance;
+  const char* integrator;
+  double order;
+};
+
+void PrintTo(const Rival& rival, std::ostream* out) { *out << rival.engine; }
+
+class RivalsOrder : public testing::TestWithParam<Rival> {};
+
+// That an adapter drives an engine as its makers meant it: the engine keeps its method's order.
+TEST_P(RivalsOrder, IsTheOneOfItsMethod) {
+  const auto& [engine, instance, integrator, order] = GetParam();
+  if (!reference::find_backend(engine).identity().available)
+    GTEST_SKIP() << reference::find_backend(engine).identity().reason;
+  std::vector<double> errors;
+  for (const int parts : {1, 2, 4}) {
+    reference::StepSettings settings;
+    settings.dt = 1.0 / 120 / parts;
+    settings.options["integrator"] = integrator;
+    errors.push_back(error_of(instance, engine, settings, false));
+  }
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    EXPECT_NEAR(std::log2(errors[i - 1] / errors[i]), order, kMargin) << errors[i - 1] << " to " << errors[i];
+}
+
+INSTANTIATE_TEST_SUITE_P(mechanisms, RivalsOrder,
+                         testing::Values(Rival{"mujoco", "pendulum_chain[5]", "rk4", 4},
+                                         Rival{"mujoco", "pendulum_chain[5]", "euler", 1},
+                                         Rival{"mujoco", "free_fall/drag", "rk4", 4},
+                                         Rival{"bullet-multibody", "pendulum_chain[5]", "rk4", 4},
+                                         Rival{"bullet-multibody", "pendulum_chain[5]", "euler", 1}),
+                         [](const auto& which) { return "engine" + std::to_string(which.index); });
+
 class PreciseConvergence : public testing::TestWithParam<std::string> {};
 
 // A hundredth of the tolerance: less than a tenth of the error, until rounding is reached.

@@ -1,0 +1,326 @@
+//! cmake: include(mujoco/library.cmake)
+//! link: plumb_mujoco
+//! missing: MuJoCo was not found; install libmujoco-dev and build again
+
+// MuJoCo in double, for mechanisms: trees of hinges become joint angles, so that joints cannot open. Contacts
+// are left to other engines: MuJoCo's are soft and know no coefficient of restitution.
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+#include "reference/backend.h"
+#include "reference/support/applied_forces.h"
+#include "reference/support/mechanism.h"
+#include "reference/support/range.h"
+#include "reference/support/settings.h"
+
+namespace plumb::reference {
+namespace {
+
+constexpr const char* kName = "mujoco";
+
+enum class Stepper { RungeKutta4, Euler };
+
+struct MujocoSettings {
+  int substeps = 1;
+  double substep = 0;  ///< s
+  Stepper stepper = Stepper::RungeKutta4;
+};
+
+/// The mechanism as MuJoCo's own XML, with all bodies at angle 0: its coordinates are then the scene's. The
+/// reader of XML nests a hundred elements in a file, so that long chains are continued in further ones.
+class Writer {
+ public:
+  Writer(const Scene& scene, const std::vector<Link>& links, const MujocoSettings& settings)
+      : scene_(scene), links_(links), children_(links.size()) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].parent >= 0) children_[static_cast<std::size_t>(links[i].parent)].push_back(i);
+    }
+    const std::string head = fmt::format(
+        "<mujoco><compiler angle='radian' inertiafromgeom='false'/>"
+        "<option timestep='{}' gravity='{} {} 0' integrator='{}'><flag contact='disable'/></option>"
+        "<worldbody>",
+        settings.substep, scene.gravity.x, scene.gravity.y,
+        settings.stepper == Stepper::RungeKutta4 ? "RK4" : "Euler");
+    files_.push_back(head);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].parent < 0) write(i, 0, 0);
+    }
+    files_[0] += "</worldbody></mujoco>";
+  }
+
+  /// The first one includes the others, by `name_of_file`.
+  const std::vector<std::string>& files() const { return files_; }
+  static std::string name_of_file(std::size_t file) { return fmt::format("part{}.xml", file); }
+
+ private:
+  static constexpr int kDeepest = 64;
+
+  void write(std::size_t i, std::size_t file, int depth) {
+    const Link& link = links_[i];
+    const Body& body = scene_.bodies[link.body];
+    const Vec2d at = link.hinged ? link.parent_anchor - link.anchor : Vec2d{};
+    // Only the moment about z matters; a body that cannot turn gets any.
+    const double inertia = body.fixed_rotation ? body.mass : inertia_of(body);
+    files_[file] += fmt::format(
+        "<body name='{0}' pos='{1} {2} 0'><inertial pos='0 0 0' mass='{3}' diaginertia='{4} {4} {4}'/>", i,
+        at.x, at.y, body.mass, inertia);
+    if (!link.hinged) files_[file] += "<joint type='slide' axis='1 0 0'/><joint type='slide' axis='0 1 0'/>";
+    if (!body.fixed_rotation)
+      files_[file] += fmt::format("<joint type='hinge' axis='0 0 1' pos='{} {} 0'/>",
+                                  link.hinged ? link.anchor.x : 0, link.hinged ? link.anchor.y : 0);
+    for (const std::size_t child : children_[i]) {
+      if (depth < kDeepest) {
+        write(child, file, depth + 1);
+        continue;
+      }
+      const std::size_t next = files_.size();
+      files_.emplace_back("<mujocoinclude>");
+      files_[file] += fmt::format("<include file='{}'/>", name_of_file(next));
+      write(child, next, 0);
+      files_[next] += "</mujocoinclude>";
+    }
+    files_[file] += "</body>";
+  }
+
+  const Scene& scene_;
+  const std::vector<Link>& links_;
+  std::vector<std::vector<std::size_t>> children_;
+  std::vector<std::string> files_;
+};
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using Model = std::unique_ptr<mjModel, DeleteModel>;
+using Data = std::unique_ptr<mjData, DeleteData>;
+
+Model load(const std::vector<std::string>& xml) {
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  for (std::size_t i = 0; i < xml.size(); ++i) {
+    const std::string name = Writer::name_of_file(i);
+    mj_makeEmptyFileVFS(files.get(), name.c_str(), static_cast<int>(xml[i].size()));
+    std::memcpy(files->filedata[mj_findFileVFS(files.get(), name.c_str())], xml[i].data(), xml[i].size());
+  }
+  std::array<char, 500> problem{};
+  Model model(mj_loadXML(Writer::name_of_file(0).c_str(), files.get(), problem.data(),
+                         static_cast<int>(problem.size())));
+  mj_deleteVFS(files.get());
+  if (!model) throw Error(Error::Kind::Run, "engine 'mujoco'", "scene", "", problem.data());
+  return model;
+}
+
+class MujocoSimulator final : public Simulator {
+ public:
+  MujocoSimulator(const Scene& scene, const MujocoSettings& settings)
+      : scene_(scene),
+        settings_(settings),
+        links_(links_of(scene_)),
+        model_(load(Writer(scene_, links_, settings_).files())),
+        data_(mj_makeData(model_.get())),
+        link_of_(scene_.bodies.size(), -1) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      link_of_[links_[i].body] = static_cast<int>(i);
+      mujoco_body_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, std::to_string(i).c_str()));
+      set_start(links_[i], mujoco_body_.back());
+    }
+    for (const AppliedForce& force : applied_forces(scene_)) {
+      if (link_of_[force.body] >= 0) forces_.push_back(force);
+    }
+    // Warnings would go to a file; what they say is looked up in `data_`. Errors would end the program.
+    mju_user_warning = [](const char*) {};
+    mju_user_error = [](const char* problem) {
+      throw Error(Error::Kind::Run, "engine 'mujoco'", "", "", problem);
+    };
+  }
+
+  double advance(int steps) override {
+    // MuJoCo asks for forces by a global function.
+    acting_ = forces_.empty() ? nullptr : this;
+    mjcb_passive = forces_.empty() ? nullptr : add_forces;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < steps * settings_.substeps; ++i) {
+      step_start_ = time();
+      mj_step(model_.get(), data_.get());
+      ++substeps_done_;
+    }
+    const auto end = std::chrono::steady_clock::now();
+    mjcb_passive = nullptr;
+    for (const mjtWarning bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
+      diverged_ = diverged_ || data_->warning[bad].number > 0;
+    }
+    return std::chrono::duration<double, std::nano>(end - start).count();
+  }
+
+  double time() const override { return static_cast<double>(substeps_done_) * settings_.substep; }
+
+  void read(std::span<BodyState> out) const override {
+    // What lies in `data_` besides coordinates is of the last evaluation.
+    mj_fwdPosition(model_.get(), data_.get());
+    mj_fwdVelocity(model_.get(), data_.get());
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      out[i] = initial_state(scene_.bodies[i]);
+      if (link_of_[i] >= 0) {
+        out[i] = state_of(static_cast<std::size_t>(link_of_[i]));
+      } else if (scene_.bodies[i].type == BodyType::Kinematic) {
+        out[i].position += time() * out[i].velocity;
+        out[i].angle += time() * out[i].angular_velocity;
+      }
+    }
+  }
+
+ private:
+  void set_start(const Link& link, int body) {
+    const Body& from = scene_.bodies[link.body];
+    int at = model_->body_jntadr[body];
+    const auto set = [&](double position, double velocity) {
+      data_->qpos[model_->jnt_qposadr[at]] = position;
+      data_->qvel[model_->jnt_dofadr[at]] = velocity;
+      ++at;
+    };
+    if (!link.hinged) {
+      set(from.position.x, from.velocity.x);
+      set(from.position.y, from.velocity.y);
+    }
+    if (!from.fixed_rotation) set(link.angle, link.angle_speed);
+  }
+
+  BodyState state_of(std::size_t i) const {
+    if (diverged_) {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      return {{kNone, kNone}, kNone, {kNone, kNone}, kNone};
+    }
+    const int body = mujoco_body_[i];
+    const mjtNum* at = data_->xipos + 3 * body;
+    mjtNum motion[6];
+    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, body, motion, 0);
+    return {{at[0], at[1]}, angle_of(i), {motion[3], motion[4]}, motion[2]};
+  }
+
+  /// Hinges count whole turns, and so does their sum along the tree.
+  double angle_of(std::size_t i) const {
+    double sum = 0;
+    for (int link = static_cast<int>(i); link >= 0; link = links_[static_cast<std::size_t>(link)].parent) {
+      const int body = mujoco_body_[static_cast<std::size_t>(link)];
+      if (scene_.bodies[links_[static_cast<std::size_t>(link)].body].fixed_rotation) {
+        sum += scene_.bodies[links_[static_cast<std::size_t>(link)].body].angle;
+        continue;
+      }
+      const int hinge = model_->body_jntadr[body] + model_->body_jntnum[body] - 1;
+      sum += data_->qpos[model_->jnt_qposadr[hinge]];
+    }
+    return sum;
+  }
+
+  /// At every stage of a step, so that laws which depend on the motion keep the method's order.
+  static void add_forces(const mjModel* model, mjData* data) {
+    const MujocoSimulator& self = *acting_;
+    for (const AppliedForce& force : self.forces_) {
+      const auto link = static_cast<std::size_t>(self.link_of_[force.body]);
+      const Wrench<double> wrench = evaluate(force.law, self.state_of(link), self.step_start_,
+                                             self.step_start_ + self.settings_.substep);
+      const mjtNum push[3] = {wrench.force.x, wrench.force.y, 0}, turn[3] = {0, 0, wrench.torque};
+      const int body = self.mujoco_body_[link];
+      mj_applyFT(model, data, push, turn, data->xipos + 3 * body, body, data->qfrc_passive);
+    }
+  }
+
+  static inline thread_local const MujocoSimulator* acting_ = nullptr;
+
+  Scene scene_;
+  MujocoSettings settings_;
+  std::vector<Link> links_;
+  Model model_;
+  Data data_;
+  std::vector<int> link_of_;      // by body of the scene, or -1
+  std::vector<int> mujoco_body_;  // by link
+  std::vector<AppliedForce> forces_;
+  double step_start_ = 0;
+  std::int64_t substeps_done_ = 0;
+  bool diverged_ = false;
+};
+
+class MujocoBackend final : public Backend {
+ public:
+  std::string_view name() const override { return kName; }
+  std::string_view summary() const override {
+    return "MuJoCo: joint angles as coordinates, no contacts here";
+  }
+  Identity identity() const override { return {.version = mj_versionString(), .precision = "double"}; }
+
+  std::vector<Option> options() const override {
+    return {{"integrator", "rk4", "rk4 or euler (semi-implicit)"}};
+  }
+
+  Method method(const StepSettings& settings) const override {
+    const MujocoSettings chosen = read_settings(settings);
+    const bool fourth = chosen.stepper == Stepper::RungeKutta4;
+    return {.scheme = fourth ? Scheme::RungeKutta4 : Scheme::SemiImplicitEuler,
+            .order = fourth ? 4 : 1,
+            .substep = chosen.substep,
+            .epsilon = std::numeric_limits<double>::epsilon()};
+  }
+
+  std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
+    read_settings(settings);
+    if (std::string reason = not_a_mechanism(scene); !reason.empty()) return reason;
+    for (const Body& body : scene.bodies) {
+      if (body.type == BodyType::Dynamic && body.mass < mjMINVAL)
+        return "body " + plumb::quoted(body.name) + ": mass " + shortest(body.mass) +
+               " kg is below MuJoCo's least, " + shortest(mjMINVAL) + " kg";
+    }
+    return out_of_range(scene, kDoubleRange);
+  }
+
+  Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
+    const MujocoSettings chosen = read_settings(settings);
+    Settings out{{"dt", shortest(settings.dt)},
+                 {"substeps", std::to_string(chosen.substeps)},
+                 {"integrator", chosen.stepper == Stepper::RungeKutta4 ? "rk4" : "euler"},
+                 {"joints", "coordinates: hinges by their angle, free bodies by x, y and angle"},
+                 {"contacts", "off; scenes in which shapes may touch are refused"},
+                 {"forces",
+                  chosen.stepper == Stepper::RungeKutta4 ? "at every stage" : "at the start of each substep"},
+                 {"damping", "0"},
+                 {"inertia", "the scene's"},
+                 {"precision", "double"}};
+    append_contact_rules(out, scene);
+    return out;
+  }
+
+  std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
+    return std::make_unique<MujocoSimulator>(scene, read_settings(settings));
+  }
+
+ private:
+  static MujocoSettings read_settings(const StepSettings& settings) {
+    check_steps(kName, settings, Stepping::Fixed);
+    const OptionReader given(kName, settings, MujocoBackend().options());
+    MujocoSettings out;
+    out.substeps = settings.substeps.value_or(1);
+    out.substep = settings.dt / out.substeps;
+    out.stepper =
+        given.choice<Stepper>("integrator", {{"rk4", Stepper::RungeKutta4}, {"euler", Stepper::Euler}});
+    return out;
+  }
+};
+
+const Registration registration{std::make_unique<MujocoBackend>()};
+
+}  // namespace
+}  // namespace plumb::reference
