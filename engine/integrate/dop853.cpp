@@ -52,6 +52,15 @@ double Dop853::error(double h, std::span<const double> scale) const {
   return size == 0 ? 0 : std::abs(h) * largest5 * (largest5 / size);
 }
 
+double Dop853::stiffness(double h, std::span<const double> y_end, std::span<const double> scale) const {
+  double rates = 0, states = 0;
+  for (std::size_t i = 0; i < y_end.size(); ++i) {
+    rates = std::max(rates, std::abs(rates_[kStages][i] - rates_[kStages - 1][i]) / scale[i]);
+    states = std::max(states, std::abs(y_end[i] - at_stage_[i]) / scale[i]);
+  }
+  return states > 0 ? h * (rates / states) : 0;
+}
+
 void Dop853::polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out) {
   for (int s = 0; s < kDenseStages; ++s) {
     const int stage = kStages + 1 + s;

@@ -33,6 +33,12 @@ class Dop853 {
   std::span<double> last_rate();
   std::span<const double> last_rate() const;
 
+  /// The step's length times the largest rate at which the motion changes, from the last stage and the step's
+  /// end `y_end` with its `last_rate`: above some 6 the method is not stable, and steps are as short as that
+  /// alone asks for (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.2). To be asked for
+  /// right after a step.
+  double stiffness(double h, std::span<const double> y_end, std::span<const double> scale) const;
+
   /// The polynomial of order 7 over the last step, which was made from `y` at `time` over `h`: 3 evaluations
   /// of `flow` (Hairer, Norsett & Wanner, II.6, and their program).
   void polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out);

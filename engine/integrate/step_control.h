@@ -28,6 +28,16 @@ class StepControl {
     return std::clamp(kSafety / ((r * r) * (r * r)), kShrinkMost, kSafety);
   }
 
+  /// The factor after a step of a method whose error goes with h^6: error^(-1/6) with 1/8 + 1/32 + 1/128 for
+  /// the exponent.
+  static double sixth_order(double error) {
+    constexpr double kLeast = 1e-8;
+    if (!(error < 1e30)) return kShrinkMost;
+    const double e = std::max(error, kLeast), r32 = root32(e), r128 = std::sqrt(std::sqrt(r32));
+    const double r8 = (r32 * r32) * (r32 * r32);
+    return std::clamp(kSafety / (r8 * r32 * r128), kShrinkMost, 2 * kGrowMost);
+  }
+
   double previous() const { return previous_; }
   void reset(double previous = 1) { previous_ = previous; }
 

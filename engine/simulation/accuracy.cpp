@@ -20,9 +20,9 @@ void require_at_least_one(int value, const char* field) {
   throw Error(Error::Kind::Value, "realtime", field, std::to_string(value), "must be at least 1");
 }
 
-void require_known(int value, int last, const char* field) {
+void require_known(int value, int last, const char* field, const char* driver = "realtime") {
   if (value >= 0 && value <= last) return;
-  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value), "is not one of the known kinds");
+  throw Error(Error::Kind::Value, driver, field, std::to_string(value), "is not one of the known kinds");
 }
 
 }  // namespace
@@ -45,10 +45,24 @@ std::string_view name_of(JointSolver joint_solver) {
   return joint_solver == JointSolver::Direct ? "direct" : "iterative";
 }
 
+std::string_view name_of(MotionMethod method) {
+  switch (method) {
+    case MotionMethod::Automatic:
+      return "automatic";
+    case MotionMethod::Explicit:
+      return "explicit";
+    case MotionMethod::Implicit:
+      return "implicit";
+  }
+  return "unknown";
+}
+
 void validate(const Accuracy& accuracy) {
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     require_positive(precise->tolerance, "precise", "tolerance", "");
     require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
+    require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Implicit), "method",
+                  "precise");
     return;
   }
   const Realtime& realtime = std::get<Realtime>(accuracy);

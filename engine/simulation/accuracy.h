@@ -32,11 +32,19 @@ struct Realtime {
   friend bool operator==(const Realtime&, const Realtime&) = default;
 };
 
+/// How Precise follows the motion between events.
+enum class MotionMethod {
+  Automatic,  ///< Explicit, and Implicit for as long as the motion is stiff
+  Explicit,   ///< DOP853, order 8
+  Implicit,   ///< Radau IIA, order 9: modes far faster than the motion that is looked at do not limit steps
+};
+
 /// Adaptive high-order steps in double; impacts are located in time.
 struct Precise {
   double tolerance = 1e-9;  ///< local error a step, relative to the scene's own length and speed, > 0
   double max_dt =
       1.0 / 60;  ///< s, > 0: what `Simulation::step` advances by; steps of the motion may be longer
+  MotionMethod method = MotionMethod::Automatic;
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 
@@ -46,6 +54,7 @@ std::string_view name_of(Precision precision);  ///< "float", "double"
 std::string_view name_of(
     Integrator integrator);  ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
 std::string_view name_of(JointSolver joint_solver);  ///< "direct", "iterative"
+std::string_view name_of(MotionMethod method);       ///< "automatic", "explicit", "implicit"
 
 /// Throws `Error` (Value) that names the setting: dt <= 0, substeps < 1, a tolerance that is not positive.
 void validate(const Accuracy& accuracy);

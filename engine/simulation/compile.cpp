@@ -17,7 +17,8 @@ std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
   std::uint64_t out = mixed(hash(scene), accuracy.index());
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     out = mixed(out, std::bit_cast<std::uint64_t>(precise->tolerance));
-    return mixed(out, std::bit_cast<std::uint64_t>(precise->max_dt));
+    out = mixed(out, std::bit_cast<std::uint64_t>(precise->max_dt));
+    return mixed(out, static_cast<std::uint64_t>(precise->method));
   }
   const Realtime& realtime = std::get<Realtime>(accuracy);
   out = mixed(out, std::bit_cast<std::uint64_t>(realtime.dt));

@@ -16,6 +16,7 @@ struct Statistics {
   std::int64_t rejected = 0;     ///< Precise: steps that were redone with a smaller one
   std::int64_t impacts = 0;      ///< velocity jumps that were resolved
   std::int64_t evaluations = 0;  ///< evaluations of the accelerations
+  std::int64_t implicit = 0;     ///< Precise: accepted steps by the implicit method
 };
 
 /// A way of moving compiled bodies forward in time. One virtual call a step, none a body.

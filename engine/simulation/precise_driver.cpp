@@ -45,6 +45,7 @@ Statistics PreciseDriver::statistics() const {
   Statistics all = statistics_;
   all.evaluations = equations_.evaluations();
   all.rejected = smooth_.rejected();
+  all.implicit = smooth_.implicit_steps();
   return all;
 }
 

@@ -53,6 +53,14 @@ class EquationsOfMotion final : public Flow {
   double inverse_inertia(std::size_t body) const { return inverse_inertia_[body]; }
 
   std::span<const std::size_t> bodies() const { return bodies_; }
+
+  /// As the last evaluation of `rate` found them: poses and twists by body, the joints' rows and their
+  /// multipliers.
+  std::span<const Pose<double>> poses() const { return poses_; }
+  std::span<const Twist<double>> twists() const { return twists_; }
+  std::span<const Row<double>> rows() const { return rows_; }
+  std::span<const double> multipliers() const { return multipliers_; }
+  const Joints<double>& joints() const { return joints_; }
   static BodyState state(std::span<const double> y, std::size_t slot);
   static void set_state(Compensated& y, std::size_t slot, const BodyState& state);
 

@@ -1,6 +1,7 @@
 #include "engine/simulation/precise_smooth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,8 @@ constexpr double kLeastTolerance = 1e-15;
 /// A step is at most this many times as long as the scene's accelerations take over its length: where nothing
 /// moves, nothing else would bound it.
 constexpr double kLongestStep = 100;
+/// The error of a step whose stages were not found: the next try is a fifth as long.
+constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -32,7 +35,11 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       bodies_(parts.integrated),
       switches_(parts.switches),
       equations_(equations),
-      method_(equations.dimension()),
+      method_(precise.method),
+      explicit_(equations.dimension()),
+      implicit_(equations.dimension()),
+      stiff_motion_(scene, parts, equations),
+      stiff_(precise.method == MotionMethod::Implicit),
       y0_(equations.dimension()),
       y_(equations.dimension()),
       polynomial_(equations.dimension()),
@@ -54,29 +61,113 @@ double SmoothMotion::step(double limit) {
   equations_.set_window(time_, time_);  // what is switched on now stays on to the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
-    method_.advance();
+    explicit_.advance();
   } else {
-    equations_.rate(time_, y_.value(), method_.first_rate());
+    equations_.rate(time_, y_.value(), explicit_.first_rate());
   }
   start_ = time_;
   y0_ = y_;
   set_error_scale();
+  bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
+  if (stiff_) stiff_motion_.linearise(start_, y0_.value());
   for (;;) {
     const double end = end_of_step(limit), h = end - start_;
     if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) blame_fastest();
-    method_.step(equations_, start_, h, y0_.value());
-    const double error = method_.error(h, error_scale_);
+    const double error = try_step(end, again);
     if (error <= 1) {
-      const double next = std::min(h * control_.after_acceptance(error), longest_step_);
-      proposed_step_ = h < proposed_step_ ? std::max(next, proposed_step_) : next;
-      take_increment(end);
+      accept(end, error);
       return end;
     }
+    again = true;
     ++rejected_;
-    proposed_step_ = h * StepControl::after_rejection(error);
+    proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
+}
+
+/// The error of a step to `end`, 1 at most when it may be accepted. `again`: there was none before, or it
+/// failed.
+double SmoothMotion::try_step(double end, bool again) {
+  const double h = end - start_;
+  if (!stiff_) {
+    explicit_.step(equations_, start_, h, y0_.value());
+    return explicit_.error(h, error_scale_);
+  }
+  if (again) implicit_.forget();
+  const bool found = implicit_.step(stiff_motion_, start_, h, y0_.value(), rate_at_start(), error_scale_);
+  if (!found) return kNotFound;
+  return implicit_.error(stiff_motion_, start_, h, y0_.value(), rate_at_start(), error_scale_, again);
+}
+
+void SmoothMotion::accept(double end, double error) {
+  const double h = end - start_;
+  const double factor = stiff_ ? StepControl::sixth_order(error) : control_.after_acceptance(error);
+  const double next = std::min(h * factor, longest_step_);
+  proposed_step_ = h < proposed_step_ ? std::max(next, proposed_step_) : next;
+  last_implicit_ = stiff_;
+  implicit_steps_ += stiff_ ? 1 : 0;
+  take_increment(end);
+  if (method_ == MotionMethod::Automatic) watch_stiffness();
+}
+
+/// Steps are held short by stability alone: go on with the implicit method. They have become so long that the
+/// explicit one would have to be as short as they are: go on with that.
+void SmoothMotion::watch_stiffness() {
+  constexpr double kStable = 6.1;  // of DOP853, in lengths of step times rates
+  constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
+  const double h = time_ - start_;
+  if (!stiff_) {
+    rate_at_end();
+    if (explicit_.stiffness(h, y_.value(), error_scale_) > kStable) {
+      steps_without_ = 0;
+      if (++signs_of_stiffness_ < kSigns) return;
+    } else {
+      if (++steps_without_ >= kPause) signs_of_stiffness_ = 0;
+      return;
+    }
+  } else {
+    if (++steps_without_ < kLookEvery) return;
+    steps_without_ = 0;
+    if (h * fastest_rate() > kStable / 2) return;
+  }
+  stiff_ = !stiff_;
+  signs_of_stiffness_ = steps_without_ = 0;
+  control_.reset();
+  implicit_.forget();
+}
+
+/// About the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
+/// rates: two applications at a time, because positions and velocities take turns in an oscillation.
+double SmoothMotion::fastest_rate() {
+  constexpr double kShift = 1e-7;
+  constexpr int kPairs = 3;
+  const std::span<const double> rate = rate_at_end();
+  std::vector<double> y(y_.size()), out(y_.size()), direction(y_.size());
+  for (std::size_t i = 0; i < direction.size(); ++i) {  // any that has a part of every mode
+    const double mixed = static_cast<double>(static_cast<std::uint32_t>(i + 1) * 2654435761u) / 4294967296.0;
+    direction[i] = error_scale_[i] * (mixed - 0.5);
+  }
+  const auto size = [&](std::span<const double> v) {
+    double largest = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      largest = std::max(largest, std::abs(v[i]) * (tolerance_ / error_scale_[i]));
+    }
+    return largest;
+  };
+  double growth = 0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    growth = 1;
+    for (int i = 0; i < 2; ++i) {
+      const double before = size(direction);
+      if (!(before > 0) || !std::isfinite(before)) return 0;
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] = y_[k] + direction[k] * (kShift / before);
+      equations_.rate(time_, y, out);
+      for (std::size_t k = 0; k < y.size(); ++k) direction[k] = (out[k] - rate[k]) / kShift;
+      growth *= size(direction);
+    }
+  }
+  return std::sqrt(growth);
 }
 
 /// The proposed step, or an equal share of the way to `limit`: no short last step.
@@ -90,7 +181,8 @@ double SmoothMotion::end_of_step(double limit) const {
 /// y = y0 + increment, with joints closed.
 void SmoothMotion::take_increment(double end) {
   y_ = y0_;
-  for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, method_.increment()[i]);
+  const std::span<const double> increment = last_implicit_ ? implicit_.increment() : explicit_.increment();
+  for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, increment[i]);
   project(end, y_);
   time_ = end;
   polynomial_known_ = rate_known_ = false;
@@ -102,15 +194,19 @@ void SmoothMotion::project(double time, Compensated& y) {
 }
 
 std::span<const double> SmoothMotion::rate_at_end() {
-  if (!rate_known_) equations_.rate(time_, y_.value(), method_.last_rate());
+  if (!rate_known_) equations_.rate(time_, y_.value(), explicit_.last_rate());
   rate_known_ = true;
-  return method_.last_rate();
+  return explicit_.last_rate();
 }
 
 const StepPolynomial& SmoothMotion::polynomial() {
   if (!polynomial_known_) {
-    rate_at_end();
-    method_.polynomial(equations_, start_, time_ - start_, y0_.value(), polynomial_);
+    if (last_implicit_) {
+      implicit_.polynomial(polynomial_);
+    } else {
+      rate_at_end();
+      explicit_.polynomial(equations_, start_, time_ - start_, y0_.value(), polynomial_);
+    }
     polynomial_known_ = true;
   }
   return polynomial_;
@@ -130,8 +226,14 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
 }
 
 void SmoothMotion::cut(double time) {
-  if (y_.size() > 0) {
-    method_.step(equations_, start_, time - start_, y0_.value());
+  if (y_.size() > 0 && last_implicit_) {
+    implicit_.forget();
+    const bool found =
+        implicit_.step(stiff_motion_, start_, time - start_, y0_.value(), rate_at_start(), error_scale_);
+    if (!found) blame_fastest();
+    take_increment(time);
+  } else if (y_.size() > 0) {
+    explicit_.step(equations_, start_, time - start_, y0_.value());
     take_increment(time);
   }
   time_ = time;
@@ -150,6 +252,7 @@ void SmoothMotion::restart() {
   start_ = time_;
   y0_ = y_;
   polynomial_known_ = rate_known_ = false;
+  implicit_.forget();
 }
 
 void SmoothMotion::start_anew() {
@@ -180,7 +283,7 @@ void SmoothMotion::set_error_scale() {
 double SmoothMotion::first_step() const {
   double fastest = 0;
   for (std::size_t i = 0; i < y_.size(); ++i) {
-    fastest = std::max(fastest, std::abs(method_.first_rate()[i]) * (tolerance_ / error_scale_[i]));
+    fastest = std::max(fastest, std::abs(explicit_.first_rate()[i]) * (tolerance_ / error_scale_[i]));
   }
   return fastest > 0 ? std::min(0.1 / fastest, longest_step_) : longest_step_;
 }
@@ -189,7 +292,7 @@ void SmoothMotion::blame_fastest() const {
   std::size_t worst = 0;
   double fastest = -1;
   for (std::size_t i = 0; i < y_.size() && !std::isnan(fastest); ++i) {
-    const double change = std::abs(method_.first_rate()[i]) / error_scale_[i];
+    const double change = std::abs(explicit_.first_rate()[i]) / error_scale_[i];
     if (change <= fastest) continue;
     worst = i;
     fastest = change;
@@ -204,37 +307,53 @@ void SmoothMotion::blame_fastest() const {
 void SmoothMotion::save(double sampled, SnapshotWriter& out) {
   const bool with_polynomial = sampled < time_ && sampled > start_ && y_.size() > 0;
   if (with_polynomial) polynomial();
-  for (const double number : {start_, time_, proposed_step_, control_.previous()}) out.put(number);
-  out.put(rejected_);
-  out.put(with_polynomial ? std::int64_t{polynomial_.degree()} : std::int64_t{0});
-  out.put(std::int64_t{rate_known_});
   const auto put = [&](std::span<const double> numbers) {
     for (const double number : numbers) out.put(number);
   };
+  put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step()});
+  for (const std::int64_t number :
+       {rejected_, implicit_steps_, std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_},
+        std::int64_t{stiff_}, std::int64_t{last_implicit_}, std::int64_t{rate_known_},
+        std::int64_t{with_polynomial ? polynomial_.degree() : 0}}) {
+    out.put(number);
+  }
   for (const Compensated* y : {&y0_, &y_}) put(y->value()), put(y->carry());
-  if (rate_known_) put(method_.last_rate());
+  if (rate_known_) put(explicit_.last_rate());
+  if (implicit_.last_step() > 0) put(implicit_.memory());
   if (!with_polynomial) return;
   put(polynomial_.nodes());
   for (int k = 1; k <= polynomial_.degree(); ++k) put(polynomial_.term(k));
 }
 
 void SmoothMotion::restore(SnapshotReader& in) {
-  double previous = 0;
-  for (double* number : {&start_, &time_, &proposed_step_, &previous}) *number = in.get<double>();
-  control_.reset(previous);
-  rejected_ = in.get<std::int64_t>();
-  const auto degree = in.get<std::int64_t>();
-  in.expect(degree >= 0 && degree <= StepPolynomial::kMostTerms);
-  rate_known_ = in.get<std::int64_t>() != 0;
-  std::vector<double> value(y_.size());
   const auto get = [&](std::span<double> numbers) {
     for (double& number : numbers) number = in.get<double>();
   };
+  const auto integer = [&] { return in.get<std::int64_t>(); };
+  double previous = 0, last_step = 0;
+  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step}) *number = in.get<double>();
+  control_.reset(previous);
+  rejected_ = integer();
+  implicit_steps_ = integer();
+  signs_of_stiffness_ = static_cast<int>(integer());
+  steps_without_ = static_cast<int>(integer());
+  stiff_ = integer() != 0;
+  last_implicit_ = integer() != 0;
+  rate_known_ = integer() != 0;
+  const std::int64_t degree = integer();
+  in.expect(degree >= 0 && degree <= StepPolynomial::kMostTerms);
+  std::vector<double> value(y_.size());
   for (Compensated* y : {&y0_, &y_}) {
     get(value);
     for (std::size_t i = 0; i < value.size(); ++i) y->set(i, value[i], in.get<double>());
   }
-  if (rate_known_) get(method_.last_rate());
+  if (rate_known_) get(explicit_.last_rate());
+  implicit_.forget();
+  if (last_step > 0) {
+    std::vector<double> memory(implicit_.memory().size());
+    get(memory);
+    implicit_.set_memory(last_step, memory);
+  }
   polynomial_known_ = degree > 0;
   std::vector<double> nodes(static_cast<std::size_t>(degree));
   get(nodes);

@@ -8,12 +8,14 @@
 
 #include "engine/integrate/compensated.h"
 #include "engine/integrate/dop853.h"
+#include "engine/integrate/radau.h"
 #include "engine/integrate/step_control.h"
 #include "engine/integrate/step_polynomial.h"
 #include "engine/scene/scene.h"
 #include "engine/simulation/accuracy.h"
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
+#include "engine/simulation/precise_stiff.h"
 #include "engine/simulation/snapshot.h"
 
 namespace plumb::precise {
@@ -39,7 +41,7 @@ class SmoothMotion {
   const Compensated& state_at_start() const { return y0_; }
 
   /// dy/dt where the last step began, and where it ended.
-  std::span<const double> rate_at_start() const { return method_.first_rate(); }
+  std::span<const double> rate_at_start() const { return explicit_.first_rate(); }
   std::span<const double> rate_at_end();
 
   /// The polynomial over the last step, as the state's distance from `state_at_start` with s = (t - start) /
@@ -63,7 +65,7 @@ class SmoothMotion {
   void start_anew();
 
   std::int64_t rejected() const { return rejected_; }
-  void set_rejected(std::int64_t count) { rejected_ = count; }
+  std::int64_t implicit_steps() const { return implicit_steps_; }
 
   /// Throws `Error` (Run) that names the body whose motion changes fastest.
   [[noreturn]] void blame_fastest() const;
@@ -75,9 +77,13 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
+  double try_step(double end, bool again);
+  void accept(double end, double error);
+  void take_increment(double end);
+  void watch_stiffness();
+  double fastest_rate();
   double end_of_step(double limit) const;
   double next_switch() const;
-  void take_increment(double end);
   double first_step() const;
   void set_error_scale();
   void project(double time, Compensated& y);
@@ -89,15 +95,20 @@ class SmoothMotion {
   const std::vector<double> switches_;
   std::vector<std::string> names_;  // by slot
   EquationsOfMotion& equations_;
-  Dop853 method_;
+  const MotionMethod method_;
+  Dop853 explicit_;
+  Radau implicit_;
+  StiffMotion stiff_motion_;
   StepControl control_;
+  bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
+  int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;  // where the last step began and ended
   StepPolynomial polynomial_;
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
   std::vector<double> error_scale_;
   double proposed_step_ = 0;  // s; 0: none yet
-  std::int64_t rejected_ = 0;
+  std::int64_t rejected_ = 0, implicit_steps_ = 0;
 };
 
 }  // namespace plumb::precise

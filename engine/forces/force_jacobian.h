@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/joints/row.h"
+#include "engine/scene/scene.h"
+
+namespace plumb {
+
+/// How the wrench on one body changes with the motion of a body (often the same one): derivatives of force x,
+/// y and torque by position x, y and angle, and by velocity x, y and angular velocity.
+struct ForceBlock {
+  std::size_t on = 0, by = 0;  // bodies
+  double position[3][3] = {};
+  double velocity[3][3] = {};
+};
+
+/// The derivatives of a scene's force laws, each from its formula.
+class ForceJacobian {
+ public:
+  /// The scene is valid.
+  explicit ForceJacobian(const Scene& scene);
+
+  /// The blocks at `time`; which bodies they couple does not depend on the motion.
+  void evaluate(double time, std::span<const Pose<double>> poses, std::span<const Twist<double>> twists,
+                std::vector<ForceBlock>& out) const;
+
+ private:
+  struct Law {
+    ForceLaw law;
+    std::size_t body = 0;
+  };
+  std::vector<Law> laws_;
+};
+
+}  // namespace plumb
