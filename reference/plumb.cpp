@@ -56,84 +56,81 @@ class PlumbBackend : public Backend {
 
   template <class Value>
   static std::pair<std::string, Value> named(Value value) {
-    return {
-      std::string(name_of(value)), value
+    return {std::string(name_of(value)), value};
+  }
 
-          double
-          epsilon() const {
-        return precision_ == Precision::Float ? std::numeric_limits<float>::epsilon()
-                                              : std::numeric_limits<double>::epsilon();
-      }
+  double epsilon() const {
+    return precision_ == Precision::Float ? std::numeric_limits<float>::epsilon()
+                                          : std::numeric_limits<double>::epsilon();
+  }
 
-      std::string_view name_, summary_;
-      Precision precision_;
-    };
+  std::string_view name_, summary_;
+  Precision precision_;
+};
 
-    class RealtimeBackend final : public PlumbBackend {
-     public:
-      using PlumbBackend::PlumbBackend;
+class RealtimeBackend final : public PlumbBackend {
+ public:
+  using PlumbBackend::PlumbBackend;
 
-      std::vector<Option> options() const override {
-        return {{"integrator", std::string(name_of(kRealtime.integrator)),
-                 "velocity_verlet, semi_implicit_euler or explicit_euler"},
-                {"joint_solver", std::string(name_of(kRealtime.joint_solver)), "direct or iterative"},
-                {"iterations", std::to_string(kRealtime.iterations),
-                 "sweeps over contacts and iterative joints a substep"}};
-      }
+  std::vector<Option> options() const override {
+    return {{"integrator", std::string(name_of(kRealtime.integrator)),
+             "velocity_verlet, semi_implicit_euler or explicit_euler"},
+            {"joint_solver", std::string(name_of(kRealtime.joint_solver)), "direct or iterative"},
+            {"iterations", std::to_string(kRealtime.iterations),
+             "sweeps over contacts and iterative joints a substep"}};
+  }
 
-      Method method(const StepSettings& settings) const override {
-        const Realtime chosen = realtime(settings);
-        Method out{.substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
-        switch (chosen.integrator) {
-          case Integrator::VelocityVerlet:
-            out.scheme = Scheme::VelocityVerlet;
-            out.order = 2;
-            break;
-          case Integrator::SemiImplicitEuler:
-            out.scheme = Scheme::SemiImplicitEuler;
-            out.order = 1;
-            break;
-          case Integrator::ExplicitEuler:
-            out.scheme = Scheme::ExplicitEuler;
-            out.order = 1;
-            break;
-        }
-        return out;
-      }
+  Method method(const StepSettings& settings) const override {
+    const Realtime chosen = realtime(settings);
+    Method out{.substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
+    switch (chosen.integrator) {
+      case Integrator::VelocityVerlet:
+        out.scheme = Scheme::VelocityVerlet;
+        out.order = 2;
+        break;
+      case Integrator::SemiImplicitEuler:
+        out.scheme = Scheme::SemiImplicitEuler;
+        out.order = 1;
+        break;
+      case Integrator::ExplicitEuler:
+        out.scheme = Scheme::ExplicitEuler;
+        out.order = 1;
+        break;
+    }
+    return out;
+  }
 
-      Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
-        const Realtime chosen = realtime(settings);
-        Settings out{{"dt", shortest(chosen.dt)},
-                     {"substeps", std::to_string(chosen.substeps)},
-                     {"integrator", std::string(name_of(chosen.integrator))},
-                     {"joint_solver", std::string(name_of(chosen.joint_solver))},
-                     {"iterations", std::to_string(chosen.iterations)},
-                     {"precision", std::string(name_of(chosen.precision))}};
-        append_contact_rules(out, scene);
-        return out;
-      }
+  Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
+    const Realtime chosen = realtime(settings);
+    Settings out{{"dt", shortest(chosen.dt)},
+                 {"substeps", std::to_string(chosen.substeps)},
+                 {"integrator", std::string(name_of(chosen.integrator))},
+                 {"joint_solver", std::string(name_of(chosen.joint_solver))},
+                 {"iterations", std::to_string(chosen.iterations)},
+                 {"precision", std::string(name_of(chosen.precision))}};
+    append_contact_rules(out, scene);
+    return out;
+  }
 
-     protected:
-      Accuracy accuracy(const StepSettings& settings) const override { return realtime(settings); }
+ protected:
+  Accuracy accuracy(const StepSettings& settings) const override { return realtime(settings); }
 
-     private:
-      Realtime realtime(const StepSettings& settings) const {
-        check_steps(name_, settings, Stepping::Fixed);
-        const OptionReader given(name_, settings, options());
-        Realtime out;
-        out.dt = settings.dt;
-        out.substeps = settings.substeps.value_or(kRealtime.substeps);
-        out.iterations = given.integer("iterations", 1);
-        out.precision = precision_;
-        out.integrator = given.choice<Integrator>(
-            "integrator", {named(Integrator::VelocityVerlet), named(Integrator::SemiImplicitEuler),
-                           named(Integrator::ExplicitEuler)});
-        out.joint_solver = given.choice<JointSolver>(
-            "joint_solver", {named(JointSolver::Direct), named(JointSolver::Iterative)});
-        plumb::validate(Accuracy(out));
-        return out;
-      }
-    };
+ private:
+  Realtime realtime(const StepSettings& settings) const {
+    check_steps(name_, settings, Stepping::Fixed);
+    const OptionReader given(name_, settings, options());
+    Realtime out;
+    out.dt = settings.dt;
+    out.substeps = settings.substeps.value_or(kRealtime.substeps);
+    out.iterations = given.integer("iterations", 1);
+    out.precision = precision_;
+    out.integrator = given.choice<Integrator>(
+        "integrator", {named(Integrator::VelocityVerlet), named(Integrator::SemiImplicitEuler),
+                       named(Integrator::ExplicitEuler)});
+    out.joint_solver = given.choice<JointSolver>("joint_solver",
+                                                 {named(JointSolver::Direct), named(JointSolver::Iterative)});
+    plumb::validate(Accuracy(out));
+    return out;
   }
 };
 
