@@ -3,16 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/forces/potential.h"
+
 namespace plumb::harness {
 namespace {
 
 // A scale of zero (nothing moves in the truth) would make any figure infinite.
 double ratio(double value, double scale) { return value == 0 ? 0 : std::abs(value) / scale; }
 
+std::vector<BodyState> initial_states(const Scene& scene) {
+  std::vector<BodyState> out;
+  for (const Body& body : scene.bodies) out.push_back(initial_state(body));
+  return out;
+}
+
 }  // namespace
 
 Mechanics mechanics(const Scene& scene, std::span<const BodyState> states) {
   Mechanics sum;
+  if (!scene.forces.empty())
+    sum.potential += potential_energy(scene, states) - potential_energy(scene, initial_states(scene));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
@@ -38,13 +48,10 @@ ConservationScale conservation_scale(const Scene& scene, const TruthTable& truth
     scale.momentum = std::max(scale.momentum, now.sum_of_momenta);
     scale.angular_momentum = std::max(scale.angular_momentum, now.sum_of_angular_momenta);
   };
-  std::vector<BodyState> start;
   double mass = 0;
-  for (const Body& body : scene.bodies) {
-    start.push_back(initial_state(body));
+  for (const Body& body : scene.bodies)
     if (body.type == BodyType::Dynamic) mass += body.mass;
-  }
-  include(mechanics(scene, start));
+  include(mechanics(scene, initial_states(scene)));
   if (truth.known())
     for (int k = 0; k <= truth.steps(); ++k) include(mechanics(scene, truth.at(k)));
   const double length = truth.scale().extent, time = truth.scale().duration;
@@ -58,11 +65,7 @@ ConservationScale conservation_scale(const Scene& scene, const TruthTable& truth
 }
 
 DriftMeter::DriftMeter(const scenarios::Problem& problem, const ConservationScale& scale)
-    : problem_(problem), scale_(scale) {
-  std::vector<BodyState> start;
-  for (const Body& body : problem.scene.bodies) start.push_back(initial_state(body));
-  start_ = mechanics(problem.scene, start);
-}
+    : problem_(problem), scale_(scale), start_(mechanics(problem.scene, initial_states(problem.scene))) {}
 
 Drift DriftMeter::drift(std::span<const BodyState> states) const {
   const scenarios::Conserved& kept = problem_.conserved;

@@ -13,7 +13,7 @@ namespace plumb::harness {
 /// What a system of bodies has at one time, in the quantities that physics may keep.
 struct Mechanics {
   double kinetic = 0;                 ///< J
-  double potential = 0;               ///< J, in gravity, from where each body starts
+  double potential = 0;               ///< J, in gravity, springs and attractions, from where each body starts
   Vec2d momentum{};                   ///< kg m/s
   double angular_momentum = 0;        ///< kg m^2/s, about the origin
   double sum_of_momenta = 0;          ///< kg m/s, sum of the bodies' |m v|

@@ -72,7 +72,7 @@ class Box2dSimulator final : public Simulator {
         settings_(settings),
         rules_(scene_.contact_rules),
         world_(to_box2d(scene_.gravity)),
-        forces_(applied_forces(scene_)) {
+        forces_(scene_) {
     world_.SetAllowSleeping(false);
     world_.SetContinuousPhysics(settings_.continuous);
     world_.SetContactFilter(&rules_);
@@ -184,19 +184,19 @@ class Box2dSimulator final : public Simulator {
   // As a user of Box2D does it: forces of the state at the step's start, held for the step.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.exact_substep;
-    for (const AppliedForce& force : forces_) {
-      b2Body& body = *bodies_[force.body];
-      const Wrench<double> wrench = evaluate(force.law, state_of(body), start, end);
-      body.ApplyForceToCenter(to_box2d(wrench.force), true);
-      body.ApplyTorque(static_cast<float>(wrench.torque), true);
-    }
+    forces_.apply(
+        start, end, [&](std::size_t body) { return state_of(*bodies_[body]); },
+        [&](std::size_t body, const Wrench<double>& wrench) {
+          bodies_[body]->ApplyForceToCenter(to_box2d(wrench.force), true);
+          bodies_[body]->ApplyTorque(static_cast<float>(wrench.torque), true);
+        });
   }
 
   Scene scene_;  // fixtures point at its shapes
   Box2dSettings settings_;
   ContactRulesOfScene rules_;
   b2World world_;
-  std::vector<AppliedForce> forces_;
+  AppliedForces forces_;
   std::vector<b2Body*> bodies_;
   b2Body* fixed_frame_ = nullptr;
   std::int64_t substeps_done_ = 0;

@@ -133,14 +133,12 @@ class MujocoSimulator final : public Simulator {
         links_(links_of(scene_)),
         model_(load(Writer(scene_, links_, settings_).files())),
         data_(mj_makeData(model_.get())),
-        link_of_(scene_.bodies.size(), -1) {
+        link_of_(scene_.bodies.size(), -1),
+        forces_(scene_) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       link_of_[links_[i].body] = static_cast<int>(i);
       mujoco_body_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, std::to_string(i).c_str()));
       set_start(links_[i], mujoco_body_.back());
-    }
-    for (const AppliedForce& force : applied_forces(scene_)) {
-      if (link_of_[force.body] >= 0) forces_.push_back(force);
     }
     // Warnings would go to a file; what they say is looked up in `data_`. Errors would end the program.
     mju_user_warning = [](const char*) {};
@@ -173,15 +171,7 @@ class MujocoSimulator final : public Simulator {
     // What lies in `data_` besides coordinates is of the last evaluation.
     mj_fwdPosition(model_.get(), data_.get());
     mj_fwdVelocity(model_.get(), data_.get());
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      out[i] = initial_state(scene_.bodies[i]);
-      if (link_of_[i] >= 0) {
-        out[i] = state_of(static_cast<std::size_t>(link_of_[i]));
-      } else if (scene_.bodies[i].type == BodyType::Kinematic) {
-        out[i].position += time() * out[i].velocity;
-        out[i].angle += time() * out[i].angular_velocity;
-      }
-    }
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) out[i] = state_of_body(i, time());
   }
 
  private:
@@ -212,6 +202,14 @@ class MujocoSimulator final : public Simulator {
     return {{at[0], at[1]}, angle_of(i), {motion[3], motion[4]}, motion[2]};
   }
 
+  BodyState state_of_body(std::size_t body, double now) const {
+    if (link_of_[body] >= 0) return state_of(static_cast<std::size_t>(link_of_[body]));
+    BodyState state = initial_state(scene_.bodies[body]);
+    state.position += now * state.velocity;
+    state.angle += now * state.angular_velocity;
+    return state;
+  }
+
   /// Hinges count whole turns, and so does their sum along the tree.
   double angle_of(std::size_t i) const {
     double sum = 0;
@@ -229,18 +227,19 @@ class MujocoSimulator final : public Simulator {
 
   /// At every stage of a step, so that laws which depend on the motion keep the method's order.
   static void add_forces(const mjModel* model, mjData* data) {
-    const MujocoSimulator& self = *acting_;
-    for (const AppliedForce& force : self.forces_) {
-      const auto link = static_cast<std::size_t>(self.link_of_[force.body]);
-      const Wrench<double> wrench = evaluate(force.law, self.state_of(link), self.step_start_,
-                                             self.step_start_ + self.settings_.substep);
-      const mjtNum push[3] = {wrench.force.x, wrench.force.y, 0}, turn[3] = {0, 0, wrench.torque};
-      const int body = self.mujoco_body_[link];
-      mj_applyFT(model, data, push, turn, data->xipos + 3 * body, body, data->qfrc_passive);
-    }
+    MujocoSimulator& self = *acting_;
+    const double start = self.step_start_, end = start + self.settings_.substep;
+    self.forces_.apply_at(
+        data->time, start, end, [&](std::size_t body) { return self.state_of_body(body, data->time); },
+        [&](std::size_t body, const Wrench<double>& wrench) {
+          if (self.link_of_[body] < 0) return;
+          const mjtNum push[3] = {wrench.force.x, wrench.force.y, 0}, turn[3] = {0, 0, wrench.torque};
+          const int link = self.mujoco_body_[static_cast<std::size_t>(self.link_of_[body])];
+          mj_applyFT(model, data, push, turn, data->xipos + 3 * link, link, data->qfrc_passive);
+        });
   }
 
-  static inline thread_local const MujocoSimulator* acting_ = nullptr;
+  static inline thread_local MujocoSimulator* acting_ = nullptr;
 
   Scene scene_;
   MujocoSettings settings_;
@@ -249,7 +248,7 @@ class MujocoSimulator final : public Simulator {
   Data data_;
   std::vector<int> link_of_;      // by body of the scene, or -1
   std::vector<int> mujoco_body_;  // by link
-  std::vector<AppliedForce> forces_;
+  AppliedForces forces_;
   double step_start_ = 0;
   std::int64_t substeps_done_ = 0;
   bool diverged_ = false;

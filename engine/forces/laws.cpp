@@ -1,8 +1,6 @@
 #include "engine/forces/laws.h"
 
 #include <algorithm>
-#include <map>
-#include <string_view>
 #include <variant>
 
 #include "engine/forces/compile.h"
@@ -19,34 +17,32 @@ double active_share(double start, double duration, double t0, double t1) {
 
 template <class Real>
 Forces<Real>::Forces(const Scene& scene) : acts_on_(scene.bodies.size(), 0) {
-  std::map<std::string_view, std::size_t> index;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index.emplace(scene.bodies[i].name, i);
-
   struct Sorter {
-    Forces& forces;
-    std::size_t body;
-    void operator()(const LinearDrag& law) const {
-      forces.linear_drags_.push_back(compile_law<Real>(law, body));
+    Forces& to;
+    const LawCompiler<Real>& compiler;
+    void operator()(const LinearDrag& law) const { to.linear_drags_.push_back(compiler.compile(law)); }
+    void operator()(const QuadraticDrag& law) const { to.quadratic_drags_.push_back(compiler.compile(law)); }
+    void operator()(const PointForce& law) const { to.point_forces_.push_back(compiler.compile(law)); }
+    void operator()(const Torque& law) const { to.torques_.push_back(compiler.compile(law)); }
+    void operator()(const SpringForce& law) const { to.springs_.push_back(compiler.compile(law)); }
+    void operator()(const AttractionForce& law) const { to.attractions_.push_back(compiler.compile(law)); }
+    void operator()(const SinusoidalForce& law) const {
+      to.sinusoidal_forces_.push_back(compiler.compile(law));
     }
-    void operator()(const QuadraticDrag& law) const {
-      forces.quadratic_drags_.push_back(compile_law<Real>(law, body));
-    }
-    void operator()(const PointForce& law) const {
-      forces.point_forces_.push_back(compile_law<Real>(law, body));
-    }
-    void operator()(const Torque& law) const { forces.torques_.push_back(compile_law<Real>(law, body)); }
   };
+  const LawCompiler<Real> compiler(scene);
   for (const ForceLaw& law : scene.forces) {
-    const std::size_t body =
-        index.at(std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
-    acts_on_[body] = 1;
-    std::visit(Sorter{*this, body}, law);
+    for (const std::string_view name : ends_of(law)) {
+      if (const int body = compiler.end(name); body != kFixedFrame) acts_on_[body] = 1;
+    }
+    std::visit(Sorter{*this, compiler}, law);
   }
 }
 
 template <class Real>
 bool Forces<Real>::empty() const {
-  return linear_drags_.empty() && quadratic_drags_.empty() && point_forces_.empty() && torques_.empty();
+  return linear_drags_.empty() && quadratic_drags_.empty() && point_forces_.empty() && torques_.empty() &&
+         springs_.empty() && attractions_.empty() && sinusoidal_forces_.empty();
 }
 
 template <class Real>
@@ -55,11 +51,31 @@ bool Forces<Real>::acts_on(std::size_t body) const {
 }
 
 template <class Real>
-void Forces<Real>::add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
-                       Wrench<Real>* out) const {
-  const auto steady = [&](const auto& laws) {
+void Forces<Real>::add_steady(const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const {
+  const auto on_one = [&](const auto& laws) {
     for (const auto& law : laws) out[law.body] += law.wrench(poses[law.body], twists[law.body]);
   };
+  const Pose<Real> fixed_pose{};
+  const Twist<Real> no_motion{};
+  const auto on_two = [&](const auto& laws) {
+    for (const auto& law : laws) {
+      const bool has_a = law.a != kFixedFrame, has_b = law.b != kFixedFrame;
+      const auto [on_a, on_b] =
+          law.wrenches(has_a ? poses[law.a] : fixed_pose, has_a ? twists[law.a] : no_motion,
+                       has_b ? poses[law.b] : fixed_pose, has_b ? twists[law.b] : no_motion);
+      if (has_a) out[law.a] += on_a;
+      if (has_b) out[law.b] += on_b;
+    }
+  };
+  on_one(linear_drags_);
+  on_one(quadratic_drags_);
+  on_two(springs_);
+  on_two(attractions_);
+}
+
+template <class Real>
+void Forces<Real>::add_switched(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+                                Wrench<Real>* out) const {
   const auto switched = [&](const auto& laws) {
     for (const auto& law : laws) {
       const double share = active_share(law.start, law.duration, t0, t1);
@@ -67,10 +83,33 @@ void Forces<Real>::add(double t0, double t1, const Pose<Real>* poses, const Twis
       out[law.body] += static_cast<Real>(share) * law.wrench(poses[law.body], twists[law.body]);
     }
   };
-  steady(linear_drags_);
-  steady(quadratic_drags_);
   switched(point_forces_);
   switched(torques_);
+}
+
+template <class Real>
+void Forces<Real>::add_swinging(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+                                Wrench<Real>* out) const {
+  for (const auto& law : sinusoidal_forces_) {
+    const Real share = static_cast<Real>(law.mean_sine(t0, t1));
+    out[law.body] += share * law.wrench(poses[law.body], twists[law.body]);
+  }
+}
+
+template <class Real>
+void Forces<Real>::add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+                       Wrench<Real>* out) const {
+  add_steady(poses, twists, out);
+  add_switched(t0, t1, poses, twists, out);
+  add_swinging(t0, t1, poses, twists, out);
+}
+
+template <class Real>
+void Forces<Real>::add_at(double time, double t0, double t1, const Pose<Real>* poses,
+                          const Twist<Real>* twists, Wrench<Real>* out) const {
+  add_steady(poses, twists, out);
+  add_switched(t0, t1, poses, twists, out);
+  add_swinging(time, time, poses, twists, out);
 }
 
 template class Forces<float>;

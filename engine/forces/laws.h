@@ -3,9 +3,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/forces/attraction_force.h"
 #include "engine/forces/linear_drag.h"
 #include "engine/forces/point_force.h"
 #include "engine/forces/quadratic_drag.h"
+#include "engine/forces/sinusoidal_force.h"
+#include "engine/forces/spring_force.h"
 #include "engine/forces/torque.h"
 #include "engine/forces/wrench.h"
 #include "engine/joints/row.h"
@@ -22,22 +25,36 @@ double active_share(double start, double duration, double t0, double t1);
 template <class Real>
 class Forces {
  public:
-  /// The scene is valid: every law's body exists.
+  /// The scene is valid: every law's bodies exist.
   explicit Forces(const Scene& scene);
 
   bool empty() const;
   /// Whether any law acts on `body`.
   bool acts_on(std::size_t body) const;
 
-  /// Adds every law's wrench, averaged over [t0, t1] where a law is switched and with the given motion
+  /// Adds every law's wrench, averaged over [t0, t1] where a law depends on time and with the given motion
   /// elsewhere, to `out`. Arrays are indexed by body. Gravity is not among the laws.
   void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
+  /// The same at the instant `time` inside [t0, t1]: laws that change smoothly with time have their value
+  /// there. Switched laws keep their share of [t0, t1], which a caller ends where they are switched.
+  void add_at(double time, double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+              Wrench<Real>* out) const;
+
  private:
+  void add_steady(const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
+  void add_switched(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+                    Wrench<Real>* out) const;
+  void add_swinging(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
+                    Wrench<Real>* out) const;
+
   std::vector<LinearDragLaw<Real>> linear_drags_;
   std::vector<QuadraticDragLaw<Real>> quadratic_drags_;
   std::vector<PointForceLaw<Real>> point_forces_;
   std::vector<TorqueLaw<Real>> torques_;
+  std::vector<SpringForceLaw<Real>> springs_;
+  std::vector<AttractionForceLaw<Real>> attractions_;
+  std::vector<SinusoidalForceLaw<Real>> sinusoidal_forces_;
   std::vector<char> acts_on_;  // by body
 };
 

@@ -25,7 +25,8 @@ std::string entry_subject(const Node& list, const Node& item) {
   if (list.key == "bodies") return body_subject(index, string_member(item, "name"));
   if (list.key == "joints") return joint_subject(index, string_member(item, "name"));
   if (list.key == "forces")
-    return force_subject(index, string_member(item, "type"), string_member(item, "body"));
+    return force_subject(index, string_member(item, "type"),
+                         string_member(item, item.find("body_a") != nullptr ? "body_a" : "body"));
   return "";
 }
 

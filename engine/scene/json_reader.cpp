@@ -144,18 +144,61 @@ Torque read_torque(const Fields& fields) {
   return law;
 }
 
+SpringForce read_spring(const Fields& fields) {
+  SpringForce law{.body_a = json::string(fields.required("body_a")),
+                  .body_b = json::string(fields.required("body_b"))};
+  fields.read("anchor_a", law.anchor_a);
+  fields.read("anchor_b", law.anchor_b);
+  fields.read("rest_length", law.rest_length);
+  law.stiffness = json::number(fields.required("stiffness"));
+  fields.read("damping", law.damping);
+  return law;
+}
+
+AttractionForce read_attraction(const Fields& fields) {
+  AttractionForce law{.body = json::string(fields.required("body"))};
+  fields.read("centre_body", law.centre_body);
+  fields.read("centre", law.centre);
+  law.strength = json::number(fields.required("strength"));
+  if (fields.has("exponent")) {
+    law.exponent =
+        static_cast<int>(json::integer(fields.required("exponent"), -kLargestExponent, kLargestExponent));
+  }
+  return law;
+}
+
+SinusoidalForce read_sinusoidal_force(const Fields& fields) {
+  SinusoidalForce law{.body = json::string(fields.required("body")),
+                      .amplitude = json::vector(fields.required("amplitude"))};
+  fields.read("point", law.point);
+  law.angular_frequency = json::number(fields.required("angular_frequency"));
+  fields.read("phase", law.phase);
+  return law;
+}
+
 ForceLaw read_force(const View& view) {
   const Fields::Keys common{"type", "body"}, drag{"coefficient"}, timed{"start", "duration"};
   const Fields::Keys point{"force", "point", "frame"}, torque{"torque"};
-  switch (type_of(view, "a force", common + drag + timed + point + torque, kForceNames)) {
+  const Fields::Keys ends{"body_a", "body_b", "anchor_a", "anchor_b"};
+  const Fields::Keys spring{"rest_length", "stiffness", "damping"};
+  const Fields::Keys attraction{"centre_body", "centre", "strength", "exponent"};
+  const Fields::Keys wave{"amplitude", "angular_frequency", "phase"};
+  const Fields::Keys any = common + drag + timed + point + torque + ends + spring + attraction + wave;
+  switch (type_of(view, "a force", any, kForceNames)) {
     case 0:
       return read_drag<LinearDrag>(Fields(view, "a linear_drag", common + drag));
     case 1:
       return read_drag<QuadraticDrag>(Fields(view, "a quadratic_drag", common + drag));
     case 2:
       return read_point_force(Fields(view, "a point_force", common + point + timed));
-    default:
+    case 3:
       return read_torque(Fields(view, "a torque", common + torque + timed));
+    case 4:
+      return read_spring(Fields(view, "a spring", Fields::Keys{"type"} + ends + spring));
+    case 5:
+      return read_attraction(Fields(view, "an attraction", common + attraction));
+    default:
+      return read_sinusoidal_force(Fields(view, "a sinusoidal_force", common + wave + Fields::Keys{"point"}));
   }
 }
 

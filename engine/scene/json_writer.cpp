@@ -123,7 +123,12 @@ class Writer {
   void force(const ForceLaw& force) {
     out_.begin('{');
     write("type", kForceNames[force.index()]);
-    std::visit([this](const auto& law) { write("body", law.body), this->law(law); }, force);
+    std::visit(
+        [this](const auto& law) {
+          if constexpr (requires { law.body; }) write("body", law.body);
+          this->law(law);
+        },
+        force);
     out_.end('}');
   }
 
@@ -138,6 +143,28 @@ class Writer {
   void law(const Torque& torque) {
     write("torque", torque.torque);
     times(torque.start, torque.duration);
+  }
+
+  void law(const SpringForce& spring) {
+    write("body_a", spring.body_a);
+    write("body_b", spring.body_b);
+    write("anchor_a", spring.anchor_a);
+    write("anchor_b", spring.anchor_b);
+    write("rest_length", spring.rest_length);
+    write("stiffness", spring.stiffness);
+    write("damping", spring.damping);
+  }
+  void law(const AttractionForce& attraction) {
+    write("centre_body", attraction.centre_body);
+    write("centre", attraction.centre);
+    write("strength", attraction.strength);
+    out_.key("exponent"), out_.integer(attraction.exponent);
+  }
+  void law(const SinusoidalForce& force) {
+    write("amplitude", force.amplitude);
+    write("point", force.point);
+    write("angular_frequency", force.angular_frequency);
+    write("phase", force.phase);
   }
 
   /// JSON has no infinity: a law that lasts for ever has no duration.

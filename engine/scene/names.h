@@ -12,7 +12,7 @@ inline constexpr std::array<std::string_view, 5> kCombineNames{"geometric_mean",
 inline constexpr std::array<std::string_view, 2> kFrameNames{"world", "body"};
 inline constexpr std::array<std::string_view, 2> kGeometryNames{"circle", "box"};
 inline constexpr std::array<std::string_view, 2> kJointNames{"revolute", "distance"};
-inline constexpr std::array<std::string_view, 4> kForceNames{"linear_drag", "quadratic_drag", "point_force",
-                                                             "torque"};
+inline constexpr std::array<std::string_view, 7> kForceNames{
+    "linear_drag", "quadratic_drag", "point_force", "torque", "spring", "attraction", "sinusoidal_force"};
 
 }  // namespace plumb

@@ -62,6 +62,20 @@ bool may_touch(const Filter& a, const Filter& b) {
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
+std::array<std::string_view, 2> ends_of(const ForceLaw& law) {
+  return std::visit(
+      [](const auto& l) -> std::array<std::string_view, 2> {
+        if constexpr (requires { l.body_b; }) {
+          return {l.body_a, l.body_b};
+        } else if constexpr (requires { l.centre_body; }) {
+          return {l.body, l.centre_body};
+        } else {
+          return {l.body, kWorld};
+        }
+      },
+      law);
+}
+
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].name == name) return i;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -126,7 +127,47 @@ struct Torque {
   friend bool operator==(const Torque&, const Torque&) = default;
 };
 
-using ForceLaw = std::variant<LinearDrag, QuadraticDrag, PointForce, Torque>;
+/// Hooke's law with viscous damping along the line between two points: the tension is
+/// stiffness (length - rest_length) + damping d(length)/dt. Points that coincide feel none.
+struct SpringForce {
+  std::string body_a;  ///< a body's name, or "world"
+  std::string body_b;
+  Vec2d anchor_a{};        ///< m, in body a's frame
+  Vec2d anchor_b{};        ///< m, in body b's frame
+  double rest_length = 0;  ///< m, >= 0
+  double stiffness = 0;    ///< N/m, >= 0
+  double damping = 0;      ///< N s/m, >= 0
+  friend bool operator==(const SpringForce&, const SpringForce&) = default;
+};
+
+/// Attraction of a body's centre of mass towards a point: F = strength m / r^exponent, m the body's mass.
+/// What the point is fixed to feels the opposite force there. None at the point itself.
+struct AttractionForce {
+  std::string body;
+  std::string centre_body{kWorld};  ///< what `centre` is fixed to: a body's name, or "world"
+  Vec2d centre{};                   ///< m, in the frame of `centre_body`
+  double strength = 0;              ///< m^(1 + exponent)/s^2; negative pushes away
+  int exponent = 2;                 ///< -9..9: 2 is Newton's law, -1 a force that grows with the distance
+  friend bool operator==(const AttractionForce&, const AttractionForce&) = default;
+};
+
+inline constexpr int kLargestExponent = 9;
+
+/// A force at a point of the body that swings: F = amplitude sin(angular_frequency t + phase).
+struct SinusoidalForce {
+  std::string body;
+  Vec2d amplitude{};             ///< N, fixed in the world
+  Vec2d point{};                 ///< m, in the body's frame
+  double angular_frequency = 0;  ///< rad/s, >= 0
+  double phase = 0;              ///< rad
+  friend bool operator==(const SinusoidalForce&, const SinusoidalForce&) = default;
+};
+
+using ForceLaw = std::variant<LinearDrag, QuadraticDrag, PointForce, Torque, SpringForce, AttractionForce,
+                              SinusoidalForce>;
+
+/// The names of what a law acts on: a body, and another or "world" for laws between two.
+std::array<std::string_view, 2> ends_of(const ForceLaw& law);
 
 /// How two shapes' coefficients become a contact's.
 enum class Combine { GeometricMean, Product, Maximum, Minimum, Average };

@@ -91,8 +91,7 @@ class Checker {
                           scene_.joints[place_.index]);
       case Place::List::Forces: {
         const ForceLaw& law = scene_.forces[place_.index];
-        const auto body = std::visit([](const auto& force) { return force.body; }, law);
-        return force_subject(place_.index, kForceNames[law.index()], body);
+        return force_subject(place_.index, kForceNames[law.index()], ends_of(law)[0]);
       }
       case Place::List::None:
         break;
@@ -270,6 +269,38 @@ class Checker {
     body_called("body", law.body, false);
     number("torque", law.torque, Range::Any, "N m");
     check_time(law.start, law.duration);
+  }
+
+  void check_force(const SpringForce& law) const {
+    const Body* a = body_called("body_a", law.body_a, true);
+    const Body* b = body_called("body_b", law.body_b, true);
+    if (a == b)
+      fail(Error::Kind::Name, "body_b", law.body_b, "must differ from body_a: a spring pulls two ends");
+    vector("anchor_a", law.anchor_a, "m");
+    vector("anchor_b", law.anchor_b, "m");
+    number("rest_length", law.rest_length, Range::NonNegative, "m");
+    number("stiffness", law.stiffness, Range::NonNegative, "N/m");
+    number("damping", law.damping, Range::NonNegative, "N s/m");
+  }
+
+  void check_force(const AttractionForce& law) const {
+    const Body* attracted = body_called("body", law.body, false);
+    if (body_called("centre_body", law.centre_body, true) == attracted)
+      fail(Error::Kind::Name, "centre_body", law.centre_body,
+           "must differ from body: nothing attracts itself");
+    vector("centre", law.centre, "m");
+    number("strength", law.strength, Range::Any, "m^(1 + exponent)/s^2");
+    if (std::abs(law.exponent) > kLargestExponent)
+      fail(Error::Kind::Value, "exponent", std::to_string(law.exponent),
+           "must be a whole number from -9 to 9");
+  }
+
+  void check_force(const SinusoidalForce& law) const {
+    body_called("body", law.body, false);
+    vector("amplitude", law.amplitude, "N");
+    vector("point", law.point, "m");
+    number("angular_frequency", law.angular_frequency, Range::NonNegative, "rad/s");
+    number("phase", law.phase, Range::Any, "rad");
   }
 
   void check_time(double start, double duration) const {

@@ -66,7 +66,7 @@ std::string why_it_turns(const Scene& scene, bool touching) {
   if (touching) return "contacts can turn bodies";
   if (!scene.joints.empty()) return "joints can turn bodies";
   for (const ForceLaw& law : scene.forces)
-    if (std::holds_alternative<PointForce>(law) || std::holds_alternative<Torque>(law))
+    if (!std::holds_alternative<LinearDrag>(law) && !std::holds_alternative<QuadraticDrag>(law))
       return "a force law turns bodies";
   return "";
 }

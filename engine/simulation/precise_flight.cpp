@@ -2,9 +2,27 @@
 
 #include <variant>
 
-#include "engine/forces/evaluate.h"
-
 namespace plumb::precise {
+namespace {
+
+/// What a law gives whose wrench is the same between switching times, wherever its body is.
+Wrench<double> constant_wrench(const PointForce& law) { return {law.force, 0}; }
+Wrench<double> constant_wrench(const Torque& law) { return {{}, law.torque}; }
+template <class Law>
+Wrench<double> constant_wrench(const Law&) {
+  return {};  // constant as it is zero
+}
+
+bool is_on(const ForceLaw& law, double time) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.start; }) return active_share(l.start, l.duration, time, time) > 0;
+        return true;
+      },
+      law);
+}
+
+}  // namespace
 
 Flight::Flight(const Scene& scene, const Parts& parts)
     : slot_(scene.bodies.size(), -1), body_(parts.flying), gravity_(scene.gravity) {
@@ -19,9 +37,9 @@ Flight::Flight(const Scene& scene, const Parts& parts)
   }
   laws_.resize(arcs_.size());
   for (const ForceLaw& law : scene.forces) {
-    const std::size_t body =
-        *find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
-    if (slot_[body] >= 0 && scene.bodies[body].type == BodyType::Dynamic) laws_[slot_[body]].push_back(law);
+    const auto body = find_body(scene, ends_of(law)[0]);
+    if (!body || slot_[*body] < 0 || scene.bodies[*body].type != BodyType::Dynamic) continue;
+    laws_[slot_[*body]].push_back(law);
   }
   for (const std::size_t i : body_) restart(i, 0, initial_state(scene.bodies[i]));
 }
@@ -58,15 +76,15 @@ void Flight::switch_forces(double time) {
   }
 }
 
-/// The acceleration from `time` on. The laws are constant until the next switching time, so that any state
-/// will do.
+/// The acceleration from `time` on. The laws are constant until the next switching time.
 void Flight::accelerate(std::size_t body, double time) {
   const int slot = slot_[body];
   Motion& motion = arcs_[slot].motion;
   motion.acceleration = inverse_mass_[slot] > 0 ? gravity_ : Vec2d{};
   motion.angular_acceleration = 0;
   for (const ForceLaw& law : laws_[slot]) {
-    const Wrench<double> wrench = evaluate(law, motion.state, time, time);
+    if (!is_on(law, time)) continue;
+    const Wrench<double> wrench = std::visit([](const auto& l) { return constant_wrench(l); }, law);
     motion.acceleration += inverse_mass_[slot] * wrench.force;
     motion.angular_acceleration += inverse_inertia_[slot] * wrench.torque;
   }

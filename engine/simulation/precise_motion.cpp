@@ -18,9 +18,11 @@ namespace {
 Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
   Scene part = scene;
   std::erase_if(part.forces, [&](const ForceLaw& law) {
-    const auto body =
-        find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
-    return !std::binary_search(bodies.begin(), bodies.end(), *body);
+    const auto ends = ends_of(law);
+    return std::none_of(ends.begin(), ends.end(), [&](std::string_view name) {
+      const auto body = find_body(scene, name);
+      return body && std::binary_search(bodies.begin(), bodies.end(), *body);
+    });
   });
   return part;
 }
@@ -106,6 +108,11 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       }
     }
   }
+  for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {
+    for (const std::string_view name : ends_of(law)) {
+      if (const auto body = find_body(scene, name); body && flight_.holds(*body)) guides_.push_back(*body);
+    }
+  }
   std::sort(guides_.begin(), guides_.end());
   guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
   wide_mass_ratio_ = lightest > 100 * heaviest;
@@ -175,7 +182,7 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
   for (const std::size_t body : bodies_) wrenches_[body] = {};
   if (has_forces_) {
     const Clock clock(cost.on, cost.forces);
-    forces_.add(window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
+    forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
   }
   for (const std::size_t body : bodies_) {
     accelerations_[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,

@@ -81,7 +81,7 @@ class EquationsOfMotion final : public Flow {
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
 
   std::vector<std::size_t> bodies_;  // integrated, by slot
-  std::vector<std::size_t> guides_;  // not integrated, but with joints
+  std::vector<std::size_t> guides_;  // not integrated, but with joints or at the end of a law
   const Flight& flight_;
   Vec2d gravity_;
   Forces<double> forces_;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <variant>
 
+#include "engine/forces/attraction_force.h"
+#include "engine/math/trigonometry.h"
 #include "engine/simulation/precise.h"
 
 namespace plumb::precise {
@@ -19,10 +22,6 @@ Index index_of_bodies(const Scene& scene) {
   return index;
 }
 
-std::string_view body_of(const ForceLaw& law) {
-  return std::visit([](const auto& l) -> std::string_view { return l.body; }, law);
-}
-
 /// Whether a law's wrench on its body stays the same between switching times, however the body moves.
 bool is_constant(const LinearDrag& law, const Body&) { return law.coefficient == 0; }
 bool is_constant(const QuadraticDrag& law, const Body&) { return law.coefficient == 0; }
@@ -31,6 +30,9 @@ bool is_constant(const PointForce& law, const Body& body) {
   return law.force == Vec2d{} || (law.frame == Frame::World && no_lever);
 }
 bool is_constant(const Torque&, const Body&) { return true; }
+bool is_constant(const SpringForce& law, const Body&) { return law.stiffness == 0 && law.damping == 0; }
+bool is_constant(const AttractionForce& law, const Body&) { return law.strength == 0; }
+bool is_constant(const SinusoidalForce& law, const Body&) { return law.amplitude == Vec2d{}; }
 
 void add_window(const ForceLaw& law, std::vector<double>& switches) {
   std::visit(
@@ -59,8 +61,11 @@ std::vector<char> not_flying(const Scene& scene, const Index& index) {
     std::visit([&](const auto& j) { mark(j.body_a), mark(j.body_b); }, joint);
   }
   for (const ForceLaw& law : scene.forces) {
-    const Body& body = scene.bodies[index.at(body_of(law))];
-    if (!std::visit([&](const auto& l) { return is_constant(l, body); }, law)) mark(body_of(law));
+    for (const std::string_view name : ends_of(law)) {
+      if (name == kWorld) continue;
+      const Body& body = scene.bodies[index.at(name)];
+      if (!std::visit([&](const auto& l) { return is_constant(l, body); }, law)) mark(name);
+    }
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].type != BodyType::Dynamic) result[i] = 0;
@@ -96,6 +101,51 @@ double extent(const Circle& circle) { return circle.radius; }
 double extent(const Box& box) { return 0.5 * std::sqrt(box.width * box.width + box.height * box.height); }
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+/// What a law says of the scene's scales at the start: a length, and an acceleration that it gives.
+struct LawScale {
+  double length = 0, acceleration = 0;
+};
+
+class LawScales {
+ public:
+  LawScales(const Scene& scene, const Index& index) : scene_(scene), index_(index) {}
+
+  LawScale operator()(const LinearDrag&) const { return {}; }
+  LawScale operator()(const QuadraticDrag&) const { return {}; }
+  LawScale operator()(const Torque&) const { return {}; }
+  LawScale operator()(const PointForce& law) const {
+    return {length(law.point), length(law.force) / mass(law.body)};
+  }
+  LawScale operator()(const SinusoidalForce& law) const {
+    return {length(law.point), length(law.amplitude) / mass(law.body)};
+  }
+  LawScale operator()(const SpringForce& law) const {
+    const double span = length(place(law.body_b, law.anchor_b) - place(law.body_a, law.anchor_a));
+    const double pull = law.stiffness * std::abs(span - law.rest_length);
+    return {std::max(span, law.rest_length), pull / std::min(mass(law.body_a), mass(law.body_b))};
+  }
+  LawScale operator()(const AttractionForce& law) const {
+    const double distance = length(place(law.centre_body, law.centre) - place(law.body, {}));
+    if (distance == 0) return {};
+    return {distance, std::abs(law.strength) * whole_power(distance, -law.exponent)};
+  }
+
+ private:
+  double mass(std::string_view name) const {
+    if (name == kWorld) return std::numeric_limits<double>::infinity();
+    const Body& body = scene_.bodies[index_.at(name)];
+    return body.type == BodyType::Dynamic ? body.mass : std::numeric_limits<double>::infinity();
+  }
+  Vec2d place(std::string_view name, Vec2d point) const {
+    if (name == kWorld) return point;
+    const Body& body = scene_.bodies[index_.at(name)];
+    return body.position + rotation_of(body.angle) * point;
+  }
+
+  const Scene& scene_;
+  const Index& index_;
+};
 
 }  // namespace
 
@@ -148,10 +198,9 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
         joint);
   }
   for (const ForceLaw& law : scene.forces) {
-    const PointForce* force = std::get_if<PointForce>(&law);
-    if (!force) continue;
-    largest = std::max(largest, length(force->point));
-    acceleration = std::max(acceleration, length(force->force) / scene.bodies[index.at(force->body)].mass);
+    const LawScale scale = std::visit(LawScales(scene, index), law);
+    largest = std::max(largest, scale.length);
+    acceleration = std::max(acceleration, scale.acceleration);
   }
   Scales scales;
   if (largest > 0) scales.length = largest;

@@ -17,9 +17,11 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
   const std::size_t bodies = scene.bodies.size();
   const std::size_t laws = static_cast<std::size_t>(
       std::count_if(scene.forces.begin(), scene.forces.end(), [&](const ForceLaw& law) {
-        const auto body =
-            find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
-        return std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
+        const auto ends = ends_of(law);
+        return std::any_of(ends.begin(), ends.end(), [&](std::string_view name) {
+          const auto body = find_body(scene, name);
+          return body && std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
+        });
       }));
   const std::string some = std::to_string(parts.integrated.size()) + " of " + count(bodies, "body", "bodies");
   const bool integrates = !parts.integrated.empty(), joints = !scene.joints.empty(),

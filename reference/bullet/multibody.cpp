@@ -46,7 +46,8 @@ class MultibodySimulator final : public Simulator {
         links_(links_of(scene_)),
         places_(links_.size()),
         states_(links_.size()),
-        link_of_(scene_.bodies.size(), -1) {
+        link_of_(scene_.bodies.size(), -1),
+        forces_(scene_) {
     world_.setGravity(to_bullet(scene_.gravity));
     std::size_t end = 0;
     for (std::size_t root = 0; root < links_.size(); root = end) {
@@ -55,9 +56,6 @@ class MultibodySimulator final : public Simulator {
       add_tree(root, end);
     }
     for (std::size_t i = 0; i < links_.size(); ++i) link_of_[links_[i].body] = static_cast<int>(i);
-    for (const AppliedForce& force : applied_forces(scene_)) {
-      if (link_of_[force.body] >= 0) forces_.push_back(force);
-    }
   }
 
   ~MultibodySimulator() override {
@@ -67,7 +65,7 @@ class MultibodySimulator final : public Simulator {
   double advance(int steps) override {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < steps * settings_.substeps; ++i) {
-      if (!forces_.empty()) apply_forces();
+      apply_forces();
       world_.stepSimulation(static_cast<btScalar>(settings_.substep), 0);
       ++substeps_done_;
     }
@@ -78,15 +76,7 @@ class MultibodySimulator final : public Simulator {
 
   void read(std::span<BodyState> out) const override {
     find_states();
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      out[i] = initial_state(scene_.bodies[i]);
-      if (link_of_[i] >= 0) {
-        out[i] = states_[static_cast<std::size_t>(link_of_[i])];
-      } else if (scene_.bodies[i].type == BodyType::Kinematic) {
-        out[i].position += time() * out[i].velocity;
-        out[i].angle += time() * out[i].angular_velocity;
-      }
-    }
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) out[i] = state_of(i);
   }
 
  private:
@@ -144,17 +134,29 @@ class MultibodySimulator final : public Simulator {
     }
   }
 
+  /// Of a body of the scene, after `find_states`.
+  BodyState state_of(std::size_t body) const {
+    if (link_of_[body] >= 0) return states_[static_cast<std::size_t>(link_of_[body])];
+    BodyState state = initial_state(scene_.bodies[body]);
+    state.position += time() * state.velocity;
+    state.angle += time() * state.angular_velocity;
+    return state;
+  }
+
   // Forces of the state at the step's start, held for the step: Bullet's stages do not ask again.
   void apply_forces() {
+    if (forces_.empty()) return;
     find_states();
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.substep;
-    for (const AppliedForce& force : forces_) {
-      const auto link = static_cast<std::size_t>(link_of_[force.body]);
-      const Wrench<double> wrench = evaluate(force.law, states_[link], start, end);
-      btMultiBody& tree = *trees_[places_[link].tree];
-      tree.addLinkForce(places_[link].index, to_bullet(wrench.force));
-      tree.addLinkTorque(places_[link].index, {0, 0, static_cast<btScalar>(wrench.torque)});
-    }
+    forces_.apply(
+        start, end, [&](std::size_t body) { return state_of(body); },
+        [&](std::size_t body, const Wrench<double>& wrench) {
+          if (link_of_[body] < 0) return;
+          const Place& place = places_[static_cast<std::size_t>(link_of_[body])];
+          btMultiBody& tree = *trees_[place.tree];
+          tree.addLinkForce(place.index, to_bullet(wrench.force));
+          tree.addLinkTorque(place.index, {0, 0, static_cast<btScalar>(wrench.torque)});
+        });
   }
 
   Scene scene_;
@@ -169,7 +171,7 @@ class MultibodySimulator final : public Simulator {
   btMultiBodyConstraintSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broad_phase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btMultiBody>> trees_;
-  std::vector<AppliedForce> forces_;
+  AppliedForces forces_;
   std::int64_t substeps_done_ = 0;
 };
 

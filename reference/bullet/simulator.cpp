@@ -106,7 +106,7 @@ struct Machinery {
 class BulletSimulator final : public Simulator {
  public:
   BulletSimulator(const Scene& scene, const BulletSettings& settings)
-      : scene_(scene), settings_(settings), forces_(applied_forces(scene_)) {
+      : scene_(scene), settings_(settings), forces_(scene_) {
     configure(machinery_.world.getSolverInfo());
     machinery_.world.setGravity(to_bullet(scene_.gravity));
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) add_body(i);
@@ -256,12 +256,12 @@ class BulletSimulator final : public Simulator {
   // As a user of Bullet does it: forces of the state at the step's start, held for the step.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.substep;
-    for (const AppliedForce& force : forces_) {
-      btRigidBody& body = *bodies_[force.body];
-      const Wrench<double> wrench = evaluate(force.law, state_of(force.body), start, end);
-      body.applyCentralForce(to_bullet(wrench.force));
-      body.applyTorque({0, 0, static_cast<btScalar>(wrench.torque)});
-    }
+    forces_.apply(
+        start, end, [&](std::size_t body) { return state_of(body); },
+        [&](std::size_t body, const Wrench<double>& wrench) {
+          bodies_[body]->applyCentralForce(to_bullet(wrench.force));
+          bodies_[body]->applyTorque({0, 0, static_cast<btScalar>(wrench.torque)});
+        });
   }
 
   // Bullet derives a kinematic body's velocity from the pose that it is given for the step's end.
@@ -284,7 +284,7 @@ class BulletSimulator final : public Simulator {
 
   Scene scene_;  // shapes and bodies point at it
   BulletSettings settings_;
-  std::vector<AppliedForce> forces_;
+  AppliedForces forces_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   btEmptyShape no_shape_;
   btRigidBody fixed_frame_{0, nullptr, &no_shape_};

@@ -3,18 +3,43 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/forces/evaluate.h"
+#include "engine/forces/laws.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::reference {
 
-/// A force law and the index of the body that it acts on.
-struct AppliedForce {
-  std::size_t body;
-  ForceLaw law;
-};
+/// The scene's force laws for an engine that takes a force and a torque a step.
+class AppliedForces {
+ public:
+  explicit AppliedForces(const Scene& scene);
 
-/// The scene's force laws for an engine that takes a force and a torque a step: `evaluate` gives them.
-std::vector<AppliedForce> applied_forces(const Scene& scene);
+  bool empty() const { return bodies_.empty(); }
+
+  /// For each body that laws act on: reads its state, and hands over the sum of the wrenches on it in those
+  /// states, averaged over [start, end] where laws depend on time.
+  template <class StateOf, class Apply>
+  void apply(double start, double end, StateOf&& state_of, Apply&& apply) {
+    for (const std::size_t body : bodies_) place(body, state_of(body));
+    laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
+    for (const std::size_t body : bodies_) apply(body, wrenches_[body]);
+  }
+
+  /// The same for an engine that asks at each stage of a step from `start` to `end`, here at `time`.
+  template <class StateOf, class Apply>
+  void apply_at(double time, double start, double end, StateOf&& state_of, Apply&& apply) {
+    for (const std::size_t body : bodies_) place(body, state_of(body));
+    laws_.add_at(time, start, end, poses_.data(), twists_.data(), wrenches_.data());
+    for (const std::size_t body : bodies_) apply(body, wrenches_[body]);
+  }
+
+ private:
+  void place(std::size_t body, const BodyState& state);
+
+  Forces<double> laws_;
+  std::vector<std::size_t> bodies_;
+  std::vector<Pose<double>> poses_;  // by body
+  std::vector<Twist<double>> twists_;
+  std::vector<Wrench<double>> wrenches_;
+};
 
 }  // namespace plumb::reference

@@ -22,8 +22,42 @@ inline Vec2d turned(double angle, Vec2d v) {
   return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
 }
 
+/// A point of a body, or of the world.
+struct End {
+  Vec2d place{}, velocity{};
+};
+
+inline End end(const Scene& scene, std::span<const BodyState> states, std::string_view name, Vec2d anchor) {
+  const auto body = find_body(scene, name);
+  if (!body) return {anchor};
+  const BodyState& s = states[*body];
+  const Vec2d arm = turned(s.angle, anchor);
+  return {s.position + arm, s.velocity + s.angular_velocity * perpendicular(arm)};
+}
+
+/// Energy of springs and attractions, J: written from the laws' definitions.
+inline double potential(const Scene& scene, std::span<const BodyState> states, const ForceLaw& law) {
+  if (const auto* spring = std::get_if<SpringForce>(&law)) {
+    const double stretch = norm(end(scene, states, spring->body_a, spring->anchor_a).place -
+                                end(scene, states, spring->body_b, spring->anchor_b).place) -
+                           spring->rest_length;
+    return spring->stiffness * stretch * stretch / 2;
+  }
+  if (const auto* pull = std::get_if<AttractionForce>(&law)) {
+    const std::size_t attracted = *find_body(scene, pull->body);
+    const double r =
+        norm(end(scene, states, pull->centre_body, pull->centre).place - states[attracted].position);
+    const double mu = pull->strength * scene.bodies[attracted].mass;
+    const int n = pull->exponent;
+    return n == 1 ? mu * std::log(r) : -mu / ((n - 1) * std::pow(r, n - 1));
+  }
+  return 0;
+}
+
 /// Newton and Euler: gravity and the scene's force laws, without joints and contacts.
-inline Rate acceleration(const Scene& scene, std::size_t body, const BodyState& state, double time) {
+inline Rate acceleration(const Scene& scene, std::size_t body, std::span<const BodyState> states,
+                         double time) {
+  const BodyState& state = states[body];
   const Body& of = scene.bodies[body];
   if (of.type != BodyType::Dynamic) return {};
   Vec2d force = of.mass * scene.gravity;
@@ -38,6 +72,36 @@ inline Rate acceleration(const Scene& scene, std::size_t body, const BodyState& 
       const Vec2d f = push->frame == Frame::World ? push->force : turned(state.angle, push->force);
       force += f;
       torque += cross(turned(state.angle, push->point), f);
+    }
+    if (const auto* wave = std::get_if<SinusoidalForce>(&law); wave && wave->body == of.name) {
+      const Vec2d f = std::sin(wave->angular_frequency * time + wave->phase) * wave->amplitude;
+      force += f;
+      torque += cross(turned(state.angle, wave->point), f);
+    }
+    if (const auto* spring = std::get_if<SpringForce>(&law)) {
+      if (spring->body_a == of.name || spring->body_b == of.name) {
+        const bool first = spring->body_a == of.name;
+        const End own = end(scene, states, of.name, first ? spring->anchor_a : spring->anchor_b);
+        const End far = first ? end(scene, states, spring->body_b, spring->anchor_b)
+                              : end(scene, states, spring->body_a, spring->anchor_a);
+        const Vec2d way = far.place - own.place, axis = 1 / norm(way) * way;
+        const Vec2d f = (spring->stiffness * (norm(way) - spring->rest_length) +
+                         spring->damping * dot(axis, far.velocity - own.velocity)) *
+                        axis;
+        force += f;
+        torque += cross(own.place - state.position, f);
+      }
+    }
+    if (const auto* pull = std::get_if<AttractionForce>(&law)) {
+      if (pull->body == of.name || pull->centre_body == of.name) {
+        const End centre = end(scene, states, pull->centre_body, pull->centre);
+        const std::size_t attracted = *find_body(scene, pull->body);
+        const Vec2d way = centre.place - states[attracted].position;
+        const Vec2d f =
+            pull->strength * scene.bodies[attracted].mass / std::pow(norm(way), pull->exponent + 1) * way;
+        force += attracted == body ? f : -f;
+        if (attracted != body) torque -= cross(centre.place - state.position, f);
+      }
     }
     if (const auto* twist = std::get_if<Torque>(&law);
         twist && twist->body == of.name && time >= twist->start && time < twist->start + twist->duration)
@@ -75,6 +139,7 @@ inline Totals totals(const Scene& scene, std::span<const BodyState> states) {
     sum.angular_momentum.add(-s.position.y * momentum.x);
     sum.angular_momentum.add(spin);
   }
+  for (const ForceLaw& law : scene.forces) sum.energy.add(potential(scene, states, law));
   return sum;
 }
 

@@ -88,7 +88,7 @@ ForceLaw random_force(std::mt19937_64& random, const Body& body) {
   const double infinite = std::numeric_limits<double>::infinity();
   const double start = non_negative(random);
   const double duration = coin(random) ? infinite : non_negative(random);
-  switch (up_to(random, 3)) {
+  switch (up_to(random, 6)) {
     case 0:
       return LinearDrag{body.name, non_negative(random)};
     case 1:
@@ -96,8 +96,27 @@ ForceLaw random_force(std::mt19937_64& random, const Body& body) {
     case 2:
       return PointForce{body.name, vector(random), vector(random), static_cast<Frame>(up_to(random, 1)),
                         start,     duration};
-    default:
+    case 3:
       return Torque{body.name, any(random), start, duration};
+    case 4: {
+      SpringForce spring{"world", body.name, vector(random), vector(random)};
+      if (coin(random)) std::swap(spring.body_a, spring.body_b);
+      spring.rest_length = non_negative(random);
+      spring.stiffness = non_negative(random);
+      spring.damping = non_negative(random);
+      return spring;
+    }
+    case 5: {
+      const Vec2d centre = vector(random);
+      const double strength = any(random);
+      return AttractionForce{body.name, "world", centre, strength, up_to(random, 18) - 9};
+    }
+    default: {
+      SinusoidalForce force{body.name, vector(random), vector(random)};
+      force.angular_frequency = non_negative(random);
+      force.phase = any(random);
+      return force;
+    }
   }
 }
 
@@ -136,8 +155,13 @@ Scene full_scene() {
                   {"belt", BodyType::Kinematic, {9, 1}, 0.125, {1, 0}, 2, 0, 0.5, false, {}}};
   scene.joints = {RevoluteJoint{"hinge", "world", "ball", {1, 1}, {2, 2}, true},
                   DistanceJoint{"rod", "ball", "floor", {3, 3}, {4, 4}, 5, true}};
-  scene.forces = {LinearDrag{"ball", 0.5}, QuadraticDrag{"ball", 0.25},
-                  PointForce{"ball", {1, 2}, {3, 4}, Frame::Body, 0.5, 1.5}, Torque{"ball", -2, 0.25, 2}};
+  scene.forces = {LinearDrag{"ball", 0.5},
+                  QuadraticDrag{"ball", 0.25},
+                  PointForce{"ball", {1, 2}, {3, 4}, Frame::Body, 0.5, 1.5},
+                  Torque{"ball", -2, 0.25, 2},
+                  SpringForce{"ball", "floor", {1, 2}, {3, 4}, 0.5, 60, 0.75},
+                  AttractionForce{"ball", "floor", {5, 6}, 8, 3},
+                  SinusoidalForce{"ball", {1, 2}, {3, 4}, 5, 6}};
   return scene;
 }
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "engine/forces/wrench.h"
+#include "engine/joints/row.h"
+
+namespace plumb {
+
+/// x^n for whole n, by repeated multiplication: the same bits everywhere.
+template <class Real>
+constexpr Real whole_power(Real x, int n) {
+  Real power = 1;
+  for (int i = 0; i < (n < 0 ? -n : n); ++i) power *= x;
+  return n < 0 ? 1 / power : power;
+}
+
+/// A central force on a's centre of mass towards a point of b: F = mu m / r^n.
+template <class Real>
+struct AttractionForceLaw {
+  int a = kFixedFrame, b = kFixedFrame;
+  Vec2<Real> centre{};  ///< m, in b's frame
+  Real strength = 0;    ///< mu m, N m^n
+  int exponent = 2;     ///< n
+
+  /// On a and on b.
+  std::pair<Wrench<Real>, Wrench<Real>> wrenches(const Pose<Real>& pose_a, const Twist<Real>&,
+                                                 const Pose<Real>& pose_b, const Twist<Real>&) const {
+    const Vec2<Real> arm = pose_b.rotation * centre;
+    const Vec2<Real> way = (pose_b.position + arm) - pose_a.position;
+    const Real distance = std::sqrt(length_squared(way));
+    if (distance == 0) return {};  // no direction to pull in
+    // F r^ = mu m r / r^(n + 1)
+    const Vec2<Real> pull = (strength * whole_power(distance, -exponent - 1)) * way;
+    return {{pull, 0}, {-pull, -cross(arm, pull)}};
+  }
+
+  /// The potential, J, whose slope is the force: -mu m / ((n - 1) r^(n - 1)), or mu m ln r for n = 1.
+  double energy(const Pose<double>& pose_a, const Pose<double>& pose_b) const {
+    const Vec2d way = (pose_b.position + pose_b.rotation * centre) - pose_a.position;
+    const double distance = std::sqrt(length_squared(way));
+    if (exponent == 1) return strength * std::log(distance);
+    return -strength * whole_power(distance, 1 - exponent) / (exponent - 1);
+  }
+};
+
+}  // namespace plumb
