@@ -1,30 +1,54 @@
 #include "engine/forces/force_jacobian.h"
 
 #include <cmath>
-#include <string_view>
 #include <variant>
 
 #include "engine/forces/laws.h"
+#include "engine/math/trigonometry.h"
 
 namespace plumb {
 namespace {
 
-struct Body2 {
-  std::size_t index = 0;
-  const Pose<double>& pose;
-  const Twist<double>& twist;
+/// One end of a law: a body's index (or `kFixedFrame`), its pose and its motion.
+struct End {
+  int body = kFixedFrame;
+  Pose<double> pose{};
+  Twist<double> twist{};
 };
+
+/// A 2 x 2 matrix by its columns.
+struct Matrix {
+  Vec2d x{}, y{};
+  friend Matrix operator+(Matrix a, Matrix b) { return {a.x + b.x, a.y + b.y}; }
+  friend Matrix operator*(double s, Matrix a) { return {s * a.x, s * a.y}; }
+  friend Vec2d operator*(Matrix a, Vec2d v) { return v.x * a.x + v.y * a.y; }
+};
+
+Matrix outer(Vec2d a, Vec2d b) { return {b.x * a, b.y * a}; }
+
+/// A force f on one point, -f on another, that depends on the way d from the one to the other and on its rate
+/// w: how f changes with both.
+struct Coupling {
+  Vec2d arms[2]{};  ///< m, of the points, from the centres of mass in the world's axes
+  Vec2d force{};    ///< N, f
+  Matrix by_way{}, by_rate{};
+};
+
+void set_column(double (&block)[3][3], int column, Vec2d force, double torque) {
+  block[0][column] = force.x, block[1][column] = force.y, block[2][column] = torque;
+}
 
 /// Adds the blocks of one law.
 struct Derivative {
   double time;
-  Body2 body;
+  End ends[2];
   std::vector<ForceBlock>& out;
 
-  ForceBlock& block() const {
-    out.push_back({body.index, body.index});
+  ForceBlock& block(int on, int by) const {
+    out.push_back({static_cast<std::size_t>(on), static_cast<std::size_t>(by)});
     return out.back();
   }
+  ForceBlock& block() const { return block(ends[0].body, ends[0].body); }
 
   // F = -c v.
   void operator()(const LinearDrag& law) const {
@@ -35,7 +59,7 @@ struct Derivative {
   // F = -c |v| v: dF/dv = -c (|v| 1 + v v^T / |v|).
   void operator()(const QuadraticDrag& law) const {
     ForceBlock& b = block();
-    const Vec2d v = body.twist.velocity;
+    const Vec2d v = ends[0].twist.velocity;
     const double speed = std::sqrt(length_squared(v)), c = law.coefficient;
     if (speed == 0) return;
     b.velocity[0][0] = -c * (speed + v.x * v.x / speed);
@@ -47,25 +71,97 @@ struct Derivative {
   // by (z x r) x F = -r . F.
   void operator()(const PointForce& law) const {
     ForceBlock& b = block();
+    const Rotation<double> turn = ends[0].pose.rotation;
     const double share = active_share(law.start, law.duration, time, time);
     if (law.frame == Frame::Body) {
-      const Vec2d turned = share * perpendicular(body.pose.rotation * law.force);
+      const Vec2d turned = share * perpendicular(turn * law.force);
       b.position[0][2] = turned.x;
       b.position[1][2] = turned.y;
     } else {
-      b.position[2][2] = -share * dot(body.pose.rotation * law.point, law.force);
+      b.position[2][2] = -share * dot(turn * law.point, law.force);
     }
   }
 
   void operator()(const Torque&) const {}
+
+  void operator()(const SinusoidalForce& law) const {
+    const double sine = rotation_of(law.angular_frequency * time + law.phase).s;
+    block().position[2][2] = -sine * dot(ends[0].pose.rotation * law.point, law.amplitude);
+  }
+
+  // f = T u with u = d/l and T = k (l - l0) + c u.w:
+  // df/dd = k u u^T + T/l (1 - u u^T) + c/l u (w - (u.w) u)^T, df/dw = c u u^T.
+  void operator()(const SpringForce& law) const {
+    Coupling c{.arms = {ends[0].pose.rotation * law.anchor_a, ends[1].pose.rotation * law.anchor_b}};
+    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
+    const double length = std::sqrt(length_squared(way));
+    if (length > 0) {
+      const Vec2d u = (1 / length) * way, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
+      const double closing = dot(u, rate);
+      const double tension = law.stiffness * (length - law.rest_length) + law.damping * closing;
+      c.force = tension * u;
+      c.by_way = law.stiffness * outer(u, u) +
+                 (tension / length) * outer(perpendicular(u), perpendicular(u)) +
+                 (law.damping / length) * outer(u, rate - closing * u);
+      c.by_rate = law.damping * outer(u, u);
+    }
+    couple(c);
+  }
+
+  // f = mu m d / r^(n + 1): df/dd = mu m / r^(n + 1) (1 - (n + 1) u u^T).
+  void operator()(const AttractionForce& law, double mass) const {
+    Coupling c{.arms = {{}, ends[1].pose.rotation * law.centre}};
+    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
+    const double distance = std::sqrt(length_squared(way));
+    if (distance > 0) {
+      const double pull = law.strength * mass * whole_power(distance, -law.exponent - 1);
+      const Vec2d u = (1 / distance) * way;
+      c.force = pull * way;
+      c.by_way = pull * (outer(perpendicular(u), perpendicular(u)) + -law.exponent * outer(u, u));
+    }
+    couple(c);
+  }
+
+  Vec2d place(int end, Vec2d arm) const { return ends[end].pose.position + arm; }
+  Vec2d velocity(int end, Vec2d arm) const {
+    return ends[end].twist.velocity + cross(ends[end].twist.angular_velocity, arm);
+  }
+
+  /// d changes by the ends' moves and by z x r as they turn, w by their velocities and, as they turn, by
+  /// z x (omega z x r) = -omega r. Torques r x f also change with r: by (z x r) x f = -r . f.
+  void couple(const Coupling& c) const {
+    for (const int on : {0, 1}) {
+      for (const int by : {0, 1}) {
+        if (ends[on].body == kFixedFrame || ends[by].body == kFixedFrame) continue;
+        ForceBlock& b = block(ends[on].body, ends[by].body);
+        const double sign = on == by ? -1 : 1;  // of dd/dx times that of the force
+        const Vec2d arm = c.arms[by], lever = perpendicular(arm);
+        const auto column = [&](double(&block)[3][3], int i, Vec2d change) {
+          set_column(block, i, sign * change, sign * cross(c.arms[on], change));
+        };
+        column(b.position, 0, c.by_way.x);
+        column(b.position, 1, c.by_way.y);
+        column(b.position, 2, c.by_way * lever - ends[by].twist.angular_velocity * (c.by_rate * arm));
+        column(b.velocity, 0, c.by_rate.x);
+        column(b.velocity, 1, c.by_rate.y);
+        column(b.velocity, 2, c.by_rate * lever);
+        if (on == by) b.position[2][2] -= (on == 0 ? 1 : -1) * dot(arm, c.force);
+      }
+    }
+  }
 };
 
 }  // namespace
 
 ForceJacobian::ForceJacobian(const Scene& scene) {
   for (const ForceLaw& law : scene.forces) {
-    laws_.push_back(
-        {law, *find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law))});
+    Law entry{law};
+    const auto names = ends_of(law);
+    for (const int end : {0, 1}) {
+      if (const auto body = find_body(scene, names[end])) entry.bodies[end] = static_cast<int>(*body);
+    }
+    if (entry.bodies[0] != kFixedFrame) entry.mass = scene.bodies[entry.bodies[0]].mass;
+    laws_.push_back(entry);
   }
 }
 
@@ -73,7 +169,20 @@ void ForceJacobian::evaluate(double time, std::span<const Pose<double>> poses,
                              std::span<const Twist<double>> twists, std::vector<ForceBlock>& out) const {
   out.clear();
   for (const Law& law : laws_) {
-    std::visit(Derivative{time, {law.body, poses[law.body], twists[law.body]}, out}, law.law);
+    Derivative derivative{time, {}, out};
+    for (const int end : {0, 1}) {
+      const int body = law.bodies[end];
+      if (body != kFixedFrame) derivative.ends[end] = {body, poses[body], twists[body]};
+    }
+    std::visit(
+        [&](const auto& l) {
+          if constexpr (requires { derivative(l, law.mass); }) {
+            derivative(l, law.mass);
+          } else {
+            derivative(l);
+          }
+        },
+        law.law);
   }
 }
 

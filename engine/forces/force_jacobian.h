@@ -30,7 +30,8 @@ class ForceJacobian {
  private:
   struct Law {
     ForceLaw law;
-    std::size_t body = 0;
+    int bodies[2] = {kFixedFrame, kFixedFrame};
+    double mass = 0;  ///< kg, of the first body
   };
   std::vector<Law> laws_;
 };

@@ -18,9 +18,11 @@ constexpr double kRedundant = 1e-12;
 Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
   Scene part = scene;
   std::erase_if(part.forces, [&](const ForceLaw& law) {
-    const auto body =
-        find_body(scene, std::visit([](const auto& l) -> std::string_view { return l.body; }, law));
-    return !std::binary_search(bodies.begin(), bodies.end(), *body);
+    const auto ends = ends_of(law);
+    return std::none_of(ends.begin(), ends.end(), [&](std::string_view name) {
+      const auto body = find_body(scene, name);
+      return body && std::binary_search(bodies.begin(), bodies.end(), *body);
+    });
   });
   return part;
 }

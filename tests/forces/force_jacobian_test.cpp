@@ -97,6 +97,12 @@ TEST(ForceJacobian, IsTheDerivativeOfEveryLaw) {
   expect_derivatives(two_bodies("force in the body", PointForce{"a", {1, 3}, {0.5, 0.2}, Frame::Body, 0, 1}));
   expect_derivatives(
       two_bodies("force in the world", PointForce{"b", {1, 3}, {0.5, 0.2}, Frame::World, 0, 1}));
+  expect_derivatives(two_bodies("spring", SpringForce{"a", "b", {0.5, 0.2}, {-0.1, 0.3}, 0.7, 3, 1.4}));
+  expect_derivatives(
+      two_bodies("spring to the world", SpringForce{"world", "b", {0.5, 0.2}, {-0.1, 0.3}, 0.7, 3, 1.4}));
+  expect_derivatives(two_bodies("attraction", AttractionForce{"a", "b", {0.5, 0.2}, 3, 2}));
+  expect_derivatives(two_bodies("attraction to a point", AttractionForce{"b", "world", {0.5, 0.2}, 3, -2}));
+  expect_derivatives(two_bodies("sinusoidal force", SinusoidalForce{"a", {1, 3}, {0.5, 0.2}, 4, 0.7}));
 }
 
 }  // namespace
