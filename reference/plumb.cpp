@@ -139,7 +139,7 @@ class PreciseBackend final : public PlumbBackend {
   using PlumbBackend::PlumbBackend;
 
   std::vector<Option> options() const override {
-    return {{"method", std::string(name_of(kPrecise.method)), "automatic, explicit or implicit"}};
+    return {{"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"}};
   }
 
   Method method(const StepSettings& settings) const override {
@@ -165,9 +165,9 @@ class PreciseBackend final : public PlumbBackend {
     check_steps(name_, settings, Stepping::Adaptive);
     const OptionReader given(name_, settings, options());
     Precise out{.tolerance = settings.tolerance.value_or(kPrecise.tolerance), .max_dt = settings.dt};
-    out.method = given.choice<MotionMethod>(
-        "method",
-        {named(MotionMethod::Automatic), named(MotionMethod::Explicit), named(MotionMethod::Implicit)});
+    out.method = given.choice<MotionMethod>("method",
+                                            {named(MotionMethod::Automatic), named(MotionMethod::Explicit),
+                                             named(MotionMethod::Implicit), named(MotionMethod::Symplectic)});
     plumb::validate(Accuracy(out));
     return out;
   }

@@ -53,6 +53,8 @@ std::string_view name_of(MotionMethod method) {
       return "explicit";
     case MotionMethod::Implicit:
       return "implicit";
+    case MotionMethod::Symplectic:
+      return "symplectic";
   }
   return "unknown";
 }
@@ -61,7 +63,7 @@ void validate(const Accuracy& accuracy) {
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     require_positive(precise->tolerance, "precise", "tolerance", "");
     require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
-    require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Implicit), "method",
+    require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Symplectic), "method",
                   "precise");
     return;
   }

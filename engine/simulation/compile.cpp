@@ -48,7 +48,11 @@ Simulation compile(const Scene& scene, const Accuracy& accuracy, CompileOptions 
 }
 
 std::string unsupported(const Scene& scene, const Accuracy& accuracy) {
-  if (std::holds_alternative<Precise>(accuracy)) return precise_unsupported(scene);
+  if (const auto* precise = std::get_if<Precise>(&accuracy)) {
+    const std::string reason = precise_unsupported(scene);
+    const bool symplectic = precise->method == MotionMethod::Symplectic;
+    return reason.empty() && symplectic ? symplectic_unsupported(scene) : reason;
+  }
   return realtime_unsupported(scene, std::get<Realtime>(accuracy));
 }
 

@@ -29,4 +29,8 @@ std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& p
 /// Empty, or why `Precise` cannot run `scene` (a valid one).
 std::string precise_unsupported(const Scene& scene);
 
+/// Empty, or why `scene`, which Precise supports, is not for its symplectic method: forces that depend on
+/// velocities, shapes that may touch.
+std::string symplectic_unsupported(const Scene& scene);
+
 }  // namespace plumb

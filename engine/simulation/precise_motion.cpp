@@ -176,7 +176,8 @@ double EquationsOfMotion::row_speed(const Row<double>& row, std::span<const Twis
   return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
 }
 
-void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
+void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y,
+                                          std::span<Twist<double>> out) {
   ++evaluations_;
   place(time, y);
   for (const std::size_t body : bodies_) wrenches_[body] = {};
@@ -185,9 +186,13 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
     forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
   }
   for (const std::size_t body : bodies_) {
-    accelerations_[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
-                            inverse_inertia_[body] * wrenches_[body].torque};
+    out[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
+                 inverse_inertia_[body] * wrenches_[body].torque};
   }
+}
+
+void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
+  accelerate_freely(time, y, accelerations_);
   if (has_joints_) {
     const Clock clock(cost.on, cost.joints);
     linearise();
@@ -213,11 +218,42 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   close_gaps(time, y);
   // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
   system_.factor(rows_);
+  speed_response(y.value(), accelerations_);
+  kick(accelerations_, 1, y);
+}
+
+void EquationsOfMotion::hold(double time, std::span<const double> y) {
+  if (!has_joints_) return;
+  place(time, y);
+  linearise();
+}
+
+double EquationsOfMotion::gap_response(double time, std::span<const double> y, std::span<Twist<double>> out) {
+  std::fill(out.begin(), out.end(), Twist<double>{});
+  if (!has_joints_) return 0;
+  place(time, y);
+  rows_elsewhere_.resize(rows_.size());
+  joints_.rows(poses_, twists_, rows_elsewhere_);
+  double largest = 0;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    right_side_[r] = -rows_elsewhere_[r].residual;
+    largest = std::max(largest, std::abs(right_side_[r]));
+  }
+  solve_joints();
+  pull(out);
+  return largest;
+}
+
+void EquationsOfMotion::speed_response(std::span<const double> y, std::span<Twist<double>> out) {
+  std::fill(out.begin(), out.end(), Twist<double>{});
+  if (!has_joints_) return;
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const BodyState now = state(y, slot);
+    twists_[bodies_[slot]] = {now.velocity, now.angular_velocity};
+  }
   for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
   solve_joints();
-  std::fill(accelerations_.begin(), accelerations_.end(), Twist<double>{});
-  pull(accelerations_);
-  kick(accelerations_, 1, y);
+  pull(out);
 }
 
 /// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.

@@ -41,6 +41,19 @@ class EquationsOfMotion final : public Flow {
   /// velocities likewise until they keep them closed. Throws `Error` (Run) where joints cannot be closed.
   void project(double time, Compensated& y);
 
+  /// The parts of `rate` and `project`, for methods that hold joints in their own way; arrays by body.
+  /// Accelerations by forces alone:
+  void accelerate_freely(double time, std::span<const double> y, std::span<Twist<double>> out);
+  /// Takes the joints' Jacobian J and factorises A = J M^-1 J^T there.
+  void hold(double time, std::span<const double> y);
+  /// -M^-1 J^T A^-1 C(y), with J and A of `hold`; returns the largest gap, m.
+  double gap_response(double time, std::span<const double> y, std::span<Twist<double>> out);
+  /// -M^-1 J^T A^-1 J v with the velocities in y, at the place of `hold`.
+  void speed_response(std::span<const double> y, std::span<Twist<double>> out);
+  /// m: what gaps cannot be less than, as differences of the positions of the last evaluation.
+  double rounding_of_gaps() const;
+  std::size_t body_count() const { return poses_.size(); }
+
   /// The change of every integrated body's motion, and of the bodies of `contact`, by a unit impulse along
   /// that row, joints included; indexed by body. `y` is the state at `time`.
   void respond(double time, std::span<const double> y, const Row<double>& contact,
@@ -75,7 +88,6 @@ class EquationsOfMotion final : public Flow {
   void place(double time, std::span<const double> y);
   void linearise();
   void close_gaps(double time, Compensated& y);
-  double rounding_of_gaps() const;
   void solve_joints();
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
@@ -87,7 +99,7 @@ class EquationsOfMotion final : public Flow {
   Forces<double> forces_;
   Joints<double> joints_;
   std::vector<std::string> joint_of_row_;
-  std::vector<Row<double>> rows_;
+  std::vector<Row<double>> rows_, rows_elsewhere_;
   // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
   // integrated ones alone: joints do not move what flies.
   std::vector<double> inverse_mass_, inverse_inertia_, joint_inverse_mass_, joint_inverse_inertia_;

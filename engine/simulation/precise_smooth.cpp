@@ -39,6 +39,7 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       explicit_(equations.dimension()),
       implicit_(equations.dimension()),
       stiff_motion_(scene, parts, equations),
+      symplectic_(equations),
       stiff_(precise.method == MotionMethod::Implicit),
       y0_(equations.dimension()),
       y_(equations.dimension()),
@@ -68,6 +69,7 @@ double SmoothMotion::step(double limit) {
   start_ = time_;
   y0_ = y_;
   set_error_scale();
+  if (method_ == MotionMethod::Symplectic) return symplectic_step(limit);
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
@@ -84,6 +86,45 @@ double SmoothMotion::step(double limit) {
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
+}
+
+/// Fixed steps, shorter only where they would go beyond `limit`.
+double SmoothMotion::symplectic_step(double limit) {
+  if (proposed_step_ == 0) proposed_step_ = longest_symplectic_step();
+  const double end = std::min(start_ + proposed_step_, limit);
+  symplectic_.step(start_, end - start_, y_);
+  time_ = end;
+  rate_known_ = false;
+  return end;
+}
+
+/// A step that meets the tolerance from here on: its error is the difference to two steps of half its length.
+double SmoothMotion::longest_symplectic_step() {
+  constexpr double kFewest = 1e-12;
+  const auto fits = [&](double h) {
+    Compensated whole = y0_, halves = y0_;
+    symplectic_.step(start_, h, whole);
+    symplectic_.step(start_, 0.5 * h, halves);
+    symplectic_.step(start_ + 0.5 * h, 0.5 * h, halves);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (!(std::abs(whole[i] - halves[i]) <= error_scale_[i])) return false;
+    }
+    return true;
+  };
+  const auto meets = [&](double h) {
+    try {
+      return fits(h);
+    } catch (const Error&) {  // joints that do not close over so long a step
+      return false;
+    }
+  };
+  // Few bits, so that times are sums without rounding.
+  double h = static_cast<float>(first_step());
+  const double least = kFewest * h;
+  while (!meets(h) && h > least) h *= 0.5;
+  if (h <= least) blame_fastest();
+  while (2 * h <= longest_step_ && meets(1.25 * h)) h = static_cast<float>(1.25 * h);
+  return h;
 }
 
 /// The error of a step to `end`, 1 at most when it may be accepted. `again`: there was none before, or it
@@ -219,6 +260,10 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
   }
   out = y0_;
   if (time == start_) return;
+  if (method_ == MotionMethod::Symplectic) {
+    symplectic_.step(start_, time - start_, out);
+    return;
+  }
   const StepPolynomial& path = polynomial();
   const double s = (time - start_) / (time_ - start_);
   for (std::size_t i = 0; i < out.size(); ++i) out.add(i, path.at(s, i));
@@ -305,7 +350,8 @@ void SmoothMotion::blame_fastest() const {
 }
 
 void SmoothMotion::save(double sampled, SnapshotWriter& out) {
-  const bool with_polynomial = sampled < time_ && sampled > start_ && y_.size() > 0;
+  const bool within = sampled < time_ && sampled > start_ && y_.size() > 0;
+  const bool with_polynomial = within && method_ != MotionMethod::Symplectic;
   if (with_polynomial) polynomial();
   const auto put = [&](std::span<const double> numbers) {
     for (const double number : numbers) out.put(number);

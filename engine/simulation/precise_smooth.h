@@ -16,6 +16,7 @@
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_stiff.h"
+#include "engine/simulation/precise_symplectic.h"
 #include "engine/simulation/snapshot.h"
 
 namespace plumb::precise {
@@ -77,6 +78,8 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
+  double symplectic_step(double limit);
+  double longest_symplectic_step();
   double try_step(double end, bool again);
   void accept(double end, double error);
   void take_increment(double end);
@@ -99,6 +102,7 @@ class SmoothMotion {
   Dop853 explicit_;
   Radau implicit_;
   StiffMotion stiff_motion_;
+  SymplecticMotion symplectic_;
   StepControl control_;
   bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
   int signs_of_stiffness_ = 0, steps_without_ = 0;
