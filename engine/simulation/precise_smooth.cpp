@@ -21,7 +21,9 @@ constexpr double kLocalShare = 1e-3;
 constexpr double kLeastTolerance = 1e-15;
 /// A step is at most this many times as long as the scene's accelerations take over its length: where nothing
 /// moves, nothing else would bound it.
-constexpr double kLongestStep = 100;
+constexpr double kLongestStep = 1e6;
+/// After a jump, a step is at most this many times as long as a first step would be.
+constexpr double kAfterJump = 1000;
 /// The error of a step whose stages were not found: the next try is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
@@ -70,6 +72,8 @@ double SmoothMotion::step(double limit) {
   y0_ = y_;
   set_error_scale();
   if (method_ == MotionMethod::Symplectic) return symplectic_step(limit);
+  if (jumped_) proposed_step_ = std::min(proposed_step_, kAfterJump * first_step());
+  jumped_ = false;
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
@@ -297,6 +301,7 @@ void SmoothMotion::restart() {
   start_ = time_;
   y0_ = y_;
   polynomial_known_ = rate_known_ = false;
+  jumped_ = true;
   implicit_.forget();
 }
 
@@ -359,7 +364,7 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
   put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step()});
   for (const std::int64_t number :
        {rejected_, implicit_steps_, std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_},
-        std::int64_t{stiff_}, std::int64_t{last_implicit_}, std::int64_t{rate_known_},
+        std::int64_t{stiff_}, std::int64_t{last_implicit_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
         std::int64_t{with_polynomial ? polynomial_.degree() : 0}}) {
     out.put(number);
   }
@@ -385,6 +390,7 @@ void SmoothMotion::restore(SnapshotReader& in) {
   steps_without_ = static_cast<int>(integer());
   stiff_ = integer() != 0;
   last_implicit_ = integer() != 0;
+  jumped_ = integer() != 0;
   rate_known_ = integer() != 0;
   const std::int64_t degree = integer();
   in.expect(degree >= 0 && degree <= StepPolynomial::kMostTerms);

@@ -105,6 +105,7 @@ class SmoothMotion {
   SymplecticMotion symplectic_;
   StepControl control_;
   bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
+  bool jumped_ = false;                         // since the last step
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;  // where the last step began and ended
