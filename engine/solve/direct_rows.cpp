@@ -119,7 +119,7 @@ void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
 }
 
 template <class Real>
-bool DirectRows<Real>::solve(BodyMotion<Real>* motion) {
+bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
   x_.resize(rows.size());
   for (int attempt = 0; attempt < kTries; ++attempt) {
     for (int i = 0; i < matrix_.size(); ++i) {
@@ -150,6 +150,21 @@ bool DirectRows<Real>::solve(BodyMotion<Real>* motion) {
     }
     factorise(motion);
   }
+  return true;
+}
+
+template <class Real>
+void DirectRows<Real>::correct() {
+  x_.resize(rows.size());
+  for (int i = 0; i < matrix_.size(); ++i) {
+    const DirectRow<Real>& row = rows[sequence_[i]];
+    x_[i] = row.active ? -double(row.gap) : 0;
+  }
+  matrix_.solve(x_.data());
+}
+
+template <class Real>
+void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
   for (int i = 0; i < matrix_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
     if (!row.active) continue;
@@ -158,7 +173,6 @@ bool DirectRows<Real>::solve(BodyMotion<Real>* motion) {
     motion[row.b].apply(impulse * row.linear_b, impulse * row.angular_b);
     *row.impulse += impulse;
   }
-  return true;
 }
 
 template class DirectRows<float>;

@@ -14,10 +14,12 @@ struct DirectRow {
   Vec2<Real> linear_a{}, linear_b{};  ///< J
   Real angular_a = 0, angular_b = 0;
   Real bias = 0;            ///< m/s: J v + bias = 0 is asked for
+  Real gap = 0;             ///< m or rad: what `correct` makes 0
   Real* impulse = nullptr;  ///< what is kept of it from substep to substep
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part: a one-sided row that would have to pull does not
   int block = 0;            ///< the constraint that it belongs to
+  Real turning_a = 0, turning_b = 0, sliding = 0;  ///< see RigidRow
 };
 
 /// The rows of a few constraints that hang together, solved all at once: J M^-1 J^T x = -(J v + bias), by a
@@ -34,9 +36,15 @@ class DirectRows {
   double order(const BodyMotion<Real>* motion);
   /// Factorises for the bodies' masses and the rows' Jacobians as they are.
   void factorise(const BodyMotion<Real>* motion);
-  /// Applies the impulses; false, and no more than pulls are taken out, when no set of pressing rows was
-  /// found in a few tries.
-  bool solve(BodyMotion<Real>* motion);
+  /// Finds the impulses that are missing; false, and no more than pulls are taken out, when no set of
+  /// pressing rows was found in a few tries.
+  bool find(BodyMotion<Real>* motion);
+  /// What `find` or `correct` found for a row.
+  double found(int row) const { return x_[static_cast<std::size_t>(place_[row])]; }
+  /// Finds impulses that move bodies instead of giving them a velocity, such that all gaps close.
+  void correct();
+  /// Applies what `find` found.
+  void apply(BodyMotion<Real>* motion);
 
  private:
   std::vector<int> sequence_;  // place -> row

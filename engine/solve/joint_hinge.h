@@ -18,7 +18,7 @@ struct HingeConstraint {
   Vec2<Real> offset{};  ///< m, at the step's start
   Vec2<Real> impulse{};
   Vec2<Real> arm_a{}, arm_b{};
-  Vec2<Real> bias{};  ///< m/s
+  Vec2<Real> gap{};  ///< m, anchor b less anchor a
   Symmetric2<Real> mass{};
 
   using Definition = RevoluteDefinition;
@@ -49,17 +49,18 @@ struct HingeConstraint {
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
-    const Vec2<Real> delta = -(step.softness.mass_scale * (mass * (v.at(arm_a, arm_b) + bias)) +
-                               step.softness.impulse_scale * impulse);
+    const Vec2<Real> delta =
+        -(step.softness.mass_scale * (mass * (v.at(arm_a, arm_b) + (share * step.softness.bias_rate) * gap)) +
+          step.softness.impulse_scale * impulse);
     impulse += delta;
     v.apply(delta, arm_a, arm_b);
     v.store(motion_a, motion_b);
   }
 
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
-    evaluate(bodies, step, motion_a, motion_b, v);
+    evaluate(bodies, motion_a, motion_b, v);
     const Vec2<Real> delta = -(mass * v.at(arm_a, arm_b));
     impulse += delta;
     v.apply(delta, arm_a, arm_b);
@@ -70,22 +71,21 @@ struct HingeConstraint {
     const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     return point_mobility(JointVelocities<Real>(motion_a, motion_b), arm_a, arm_b);
   }
-  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
     const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
-    evaluate(bodies, step, motion_a, motion_b, JointVelocities<Real>(motion_a, motion_b));
+    evaluate(bodies, motion_a, motion_b, JointVelocities<Real>(motion_a, motion_b));
   }
 
  private:
-  [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
-                                       const BodyMotion<Real>& motion_a, const BodyMotion<Real>& motion_b,
-                                       const JointVelocities<Real>& v) {
+  [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const BodyMotion<Real>& motion_a,
+                                       const BodyMotion<Real>& motion_b, const JointVelocities<Real>& v) {
     const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
                                .rotation_a = bodies.rotation[a],
                                .rotation_b = bodies.rotation[b]};
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
     arm_a = point.arm_a;
     arm_b = point.arm_b;
-    bias = (share * step.softness.bias_rate) * point.gap;
+    gap = point.gap;
     mass = point_mass(v, arm_a, arm_b, share);
   }
 };

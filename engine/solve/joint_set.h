@@ -28,12 +28,14 @@ struct JointError {
   Real angular = 0;  ///< rad
 };
 
-/// One rigid row of a joint, as a direct solution needs it: J v + bias = 0 while positions are pulled back.
+/// One rigid row of a joint, as a direct solution needs it.
 template <class Real>
 struct RigidRow {
   JointRow<Real> row{};
-  Real bias = 0;            ///< m/s or rad/s
+  Real gap = 0;             ///< m or rad, what is to be 0
   Real* impulse = nullptr;  ///< its accumulated impulse, in the joint: valid until joints come or go
+  Real turning_a = 0, turning_b = 0;  ///< m: a pull's torque back per rad that the body turns, by the impulse
+  Real sliding = 0;  ///< 1/m: a pull's force back per m that either body goes aside, by the impulse
 };
 inline constexpr int kMostRigidRows = 3;
 
@@ -93,7 +95,7 @@ class JointSet {
 
   /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or
   /// `relax`); returns their number.
-  int rigid_rows(int joint, const JointStep<Real>& step, RigidRow<Real> (&rows)[kMostRigidRows]);
+  int rigid_rows(int joint, RigidRow<Real> (&rows)[kMostRigidRows]);
 
   /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
   Real force(int joint, Real inverse_h) const;

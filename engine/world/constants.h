@@ -27,7 +27,15 @@ inline constexpr double kDirectCost = 20000;
 /// lightest: sweeps hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;
 
-/// The same for joints.
+/// Gaps in such islands are pulled together while no body would turn by more than this for it in a substep,
+/// rad: rows that turn farther do not give back what the pull put in. Beyond, bodies are moved by a share of
+/// the gap, and turn by no more than about kLinkTurn, rad.
+inline constexpr double kLinkPull = 0.03;
+inline constexpr double kLinkShare = 0.25;
+inline constexpr double kLinkTurn = 0.125;
+
+/// Natural frequency of the spring that stands for a joint, as a share of the substep's rate, and its
+/// damping.
 inline constexpr double kJointFrequencyShare = 0.25;
 inline constexpr double kJointDampingRatio = 2;
 

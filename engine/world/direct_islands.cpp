@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "engine/world/constants.h"
+#include "engine/world/link_gaps.h"
+#include "engine/world/link_inertia.h"
 #include "engine/world/union_find.h"
 
 namespace plumb {
@@ -88,17 +90,20 @@ template <class Real>
 void put_row(const RigidRow<Real>& from, DirectRow<Real>& row) {
   row.linear_a = from.row.linear_a, row.linear_b = from.row.linear_b;
   row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+  row.gap = from.gap;
   row.impulse = from.impulse;
+  row.turning_a = from.turning_a, row.turning_b = from.turning_b, row.sliding = from.sliding;
 }
 
 template <class Real>
-void add_rows(WorldData<Real>& w, const JointStep<Real>& step, DirectIsland<Real>& island) {
+void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
   std::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
+  find_links(w, island);
   int block = 0;
   for (const int joint : island.joints) {
     RigidRow<Real> rigid[kMostRigidRows];
-    const int count = w.joint_set.rigid_rows(joint, step, rigid);
+    const int count = w.joint_set.rigid_rows(joint, rigid);
     const auto [a, b] = w.joint_set.bodies(joint);
     for (int i = 0; i < count; ++i) {
       DirectRow<Real> row;
@@ -130,15 +135,15 @@ void add_rows(WorldData<Real>& w, const JointStep<Real>& step, DirectIsland<Real
 
 // Joints turn with their bodies: their rows are those of the last evaluation.
 template <class Real>
-void refresh_joints(WorldData<Real>& w, const JointStep<Real>& step, DirectIsland<Real>& island, bool push) {
+void refresh_joints(WorldData<Real>& w, DirectIsland<Real>& island) {
   std::size_t next = 0;
   for (const int joint : island.joints) {
     RigidRow<Real> rigid[kMostRigidRows];
-    const int count = w.joint_set.rigid_rows(joint, step, rigid);
+    const int count = w.joint_set.rigid_rows(joint, rigid);
     for (int i = 0; i < count; ++i) {
       DirectRow<Real>& row = island.system.rows[next++];
       put_row(rigid[i], row);
-      row.bias = push ? rigid[i].bias : Real(0);
+      row.bias = 0;
     }
   }
 }
@@ -173,11 +178,12 @@ void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   }
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
-    add_rows(w, joints, island);
+    add_rows(w, island);
     if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
-      island.contacts.clear(), island.joints.clear(), island.system.rows.clear();
+      island.contacts.clear(), island.joints.clear(), island.system.rows.clear(), island.links.clear();
       continue;
     }
+    load_links(w, island, joints.h);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.factorise(w.motion.data());
   }
@@ -188,7 +194,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
                           bool push) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
-    refresh_joints(w, joints, island, push);
+    refresh_joints(w, island);
     std::size_t next = static_cast<std::size_t>(island.joint_rows);
     for (ContactConstraint<Real>* c : island.contacts) {
       for (int k = 0; k < c->count; ++k) {
@@ -200,8 +206,19 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
         row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
       }
     }
-    if (!push && !island.joints.empty()) island.system.factorise(w.motion.data());
-    island.system.solve(w.motion.data());
+    if (push && island.joint_rows > 0) pull_gaps(w, island, joints);
+    if (!push && !island.joints.empty()) {
+      load_links(w, island, joints.h);
+      damp_links(w, island);
+      island.system.factorise(w.motion.data());
+      close_gaps(w, island);
+    }
+    bool found = island.system.find(w.motion.data());
+    if (push && found && add_missing_loads(w, island, joints.h)) {
+      island.system.factorise(w.motion.data());
+      found = island.system.find(w.motion.data());
+    }
+    if (found) island.system.apply(w.motion.data());
   }
 }
 
@@ -209,6 +226,7 @@ template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
+    restore_links(w, w.scratch.direct[i]);
     w.scratch.island_place[w.scratch.direct[i].root] = kNone;
   }
 }

@@ -138,14 +138,27 @@ struct FastBody {
   bool covered = false;
 };
 
+/// A body that joints of a direct island act on.
+template <class Real>
+struct LinkBody {
+  int body = kNone;
+  Real inverse_mass = 0, inverse_inertia = 0;  ///< its own
+  Real turning = 0;    ///< N m s: the joints' torque back per rad that it turns, times the substep
+  Real sliding = 0;    ///< N s/m: their force back per m that it goes aside, likewise
+  Vec2<Real> shift{};  ///< m, that closes gaps
+  Real turn = 0;       ///< rad, likewise
+};
+
 /// A small island whose constraints are solved all at once.
 template <class Real>
 struct DirectIsland {
   std::vector<ContactConstraint<Real>*> contacts;
   std::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
+  std::vector<LinkBody<Real>> links;
   int root = kNone;    ///< the body that stands for it
   int joint_rows = 0;  ///< of the system; those of contacts follow
+  bool jerks = false;  ///< gaps are too wide for velocities to close them
 };
 
 /// What a step makes anew: kept between steps for its room alone, and the islands while no tie changes.
@@ -157,6 +170,7 @@ struct Scratch {
   std::vector<ContactConstraint<Real>> begun_contacts;
   std::vector<Kick<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<int> island_of, island_size, island_place;
+  std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
