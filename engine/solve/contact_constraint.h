@@ -26,9 +26,11 @@ struct ContactConstraint {
   Vec2<Real> normal{};                    ///< unit, from a to b
   Real arm_a[2] = {}, arm_tangent_a = 0;  ///< m, r x n of each point, r x t half-way between them
   Real arm_b[2] = {}, arm_tangent_b = 0;
-  Real separation[2] = {};      ///< m, at the step's start
-  Real normal_impulse[2] = {};  ///< N s, of the last substep
-  Real tangent_impulse = 0;     ///< N s
+  Real separation[2] = {};        ///< m, at the step's start
+  Real now[2] = {};               ///< m, the separations as the substeps carry them on
+  Real normal_impulse[2] = {};    ///< N s, of the last substep
+  Real expected_impulse[2] = {};  ///< N s, most of what the normal impulses have been for some time
+  Real tangent_impulse = 0;       ///< N s
   /// kg: each point's effective mass alone, and the inverse of both points' K = J M^-1 J^T. With one point
   /// the inverse is its mass, and the rest is 0.
   Real mass[2] = {}, inverse_pp = 0, inverse_pq = 0, inverse_qq = 0;

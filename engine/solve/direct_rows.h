@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory_resource>
 #include <vector>
 
 #include "engine/solve/body_motion.h"
@@ -30,21 +29,7 @@ struct DirectRow {
 template <class Real>
 class DirectRows {
  public:
-  explicit DirectRows(std::pmr::memory_resource* room = std::pmr::get_default_resource())
-      : rows(room),
-        sequence_(room),
-        place_(room),
-        first_(room),
-        neighbours_(room),
-        ends_(room),
-        blocks_(room),
-        block_first_(room),
-        queue_(room),
-        degree_(room),
-        x_(room),
-        matrix_(room) {}
-
-  std::pmr::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
+  std::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
 
   /// Orders the rows (Cuthill and McKee, 1969, reversed) and says what factorising them would cost, in
   /// multiplications.
@@ -62,13 +47,13 @@ class DirectRows {
   void apply(BodyMotion<Real>* motion);
 
  private:
-  std::pmr::vector<int> sequence_;  // place -> row
-  std::pmr::vector<int> place_;     // row -> place
-  std::pmr::vector<int> first_;
-  std::pmr::vector<std::pmr::vector<int>> neighbours_;  // of blocks
-  std::pmr::vector<std::pair<int, int>> ends_;          // body, block
-  std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
-  std::pmr::vector<double> x_;
+  std::vector<int> sequence_;  // place -> row
+  std::vector<int> place_;     // row -> place
+  std::vector<int> first_;
+  std::vector<std::vector<int>> neighbours_;  // of blocks
+  std::vector<std::pair<int, int>> ends_;     // body, block
+  std::vector<int> blocks_, block_first_, queue_, degree_;
+  std::vector<double> x_;
   EnvelopeMatrix matrix_;
 };
 

@@ -8,10 +8,10 @@ namespace plumb {
 /// What the passes over contacts need besides the constraints.
 template <class Real>
 struct ContactStep {
-  Real inverse_h = 0;            ///< 1/s, of the substep
-  Softness<Real> softness[3]{};  ///< by ContactHardness
-  Real warm_start = 1;           ///< this substep over the last one: impulses grow with the time they act in
-  Real bounce_threshold = 0;     ///< m/s; slower impacts do not bounce
+  Real h = 0, inverse_h = 0;        ///< s, 1/s, of the substep
+  Softness<Real> softness[3][2]{};  ///< by ContactHardness; overlaps, and gaps, which are not softened
+  Real warm_start = 1;        ///< this substep over the last one: impulses grow with the time they act in
+  Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
 };
 
 /// Applies the impulses of the substep before: what was needed then is nearly what is needed now.
@@ -26,10 +26,5 @@ void solve_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const C
 /// Normal impulses without the push, friction and rolling resistance: afterwards the velocities fit.
 template <class Real>
 void relax_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step);
-
-/// Newton's law: a point that came closer faster than the threshold and was pressed leaves with restitution
-/// times that speed.
-template <class Real>
-void apply_restitution(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step);
 
 }  // namespace plumb

@@ -79,7 +79,7 @@ DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
   int& place = w.scratch.island_place[root];
   if (place == kNone) {
     place = w.scratch.direct_count++;
-    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back(&w.scratch.room);
+    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back();
     w.scratch.direct[place].contacts.clear(), w.scratch.direct[place].joints.clear();
     w.scratch.direct[place].root = root;
   }
@@ -97,7 +97,7 @@ void put_row(const RigidRow<Real>& from, DirectRow<Real>& row) {
 
 template <class Real>
 void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
-  std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
+  std::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
   find_links(w, island);
   int block = 0;
@@ -202,7 +202,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
           continue;
         DirectRow<Real>& row = island.system.rows[next++];
         const Real s = separation_now(w.motion.data(), row, c->separation[k]);
-        const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)].bias_rate;
+        const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)][0].bias_rate;
         row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
       }
     }

@@ -61,39 +61,14 @@ void fly(WorldData<Real>& w, int body, double dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
-// Whether gravity alone moves a body in free flight.
-template <class Real>
-bool falls_only(const BodyRecord<Real>& record) {
-  return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
-}
-
-// The same for a body that only gravity moves, by `gain` of its velocity.
-template <class Real>
-void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
-  BodyMotion<Real>& motion = w.motion[body];
-  const Vec2<Real> before = motion.velocity;
-  motion.velocity += gain;
-  motion.moved = (Real(0.5) * dt) * (before + motion.velocity);
-  motion.turned = Real(0.5) * dt * (motion.angular_velocity + motion.angular_velocity);
-  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
-}
-
 }  // namespace
 
 template <class Real>
 void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight) {
   w.scratch.kicks.clear();
-  const double dt = h * substeps;
-  const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
-  const bool loaded = w.loads.used();
   for (const int body : w.awake) {
-    const BodyRecord<Real>& record = w.bodies[body];
-    if (flight == FreeFlight::Exact && record.constraints == 0) {
-      if (!loaded && falls_only(record)) {
-        fall(w, body, gain, static_cast<Real>(dt));
-      } else {
-        fly(w, body, dt);
-      }
+    if (flight == FreeFlight::Exact && w.bodies[body].constraints == 0) {
+      fly(w, body, h * substeps);
       continue;
     }
     w.motion[body].moved = {}, w.motion[body].turned = 0;
@@ -103,7 +78,23 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for (const Kick<Real>& kick : w.scratch.kicks) apply(kick, w.motion[kick.body]);
+  for (Kick<Real>& kick : w.scratch.kicks) {
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    apply(kick, motion);
+    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+  }
+}
+
+template <class Real>
+void repeat_velocities(WorldData<Real>& w) {
+  for (Kick<Real>& kick : w.scratch.kicks) {
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    const Vec2<Real> gained = motion.velocity - kick.velocity_before;
+    const Real spin_gained = motion.angular_velocity - kick.spin_before;
+    apply(kick, motion);
+    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+    motion.velocity += gained, motion.angular_velocity += spin_gained;
+  }
 }
 
 template <class Real>
@@ -123,6 +114,7 @@ void integrate_positions(WorldData<Real>& w, Real h) {
 #define PLUMB_FOR(Real)                                                   \
   template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
   template void integrate_velocities(WorldData<Real>&);                   \
+  template void repeat_velocities(WorldData<Real>&);                      \
   template void integrate_positions(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

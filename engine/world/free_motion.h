@@ -21,6 +21,11 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
 template <class Real>
 void integrate_velocities(WorldData<Real>& w);
 
+/// The same, and all that constraints gave each body in the substep before once more: where normals and arms
+/// stay what they are, that is a warm start of them all, for the price of the bodies.
+template <class Real>
+void repeat_velocities(WorldData<Real>& w);
+
 /// x += h v.
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h);

@@ -95,6 +95,7 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   const Rotation<Real> q = w.rotation[a];
   const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
   const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
+  const Real expected[2] = {c.expected_impulse[0], c.expected_impulse[1]};
   const std::uint16_t features[2] = {c.features[0], c.features[1]};
   const int old_count = c.count;
   c.normal = q * manifold.normal;
@@ -102,12 +103,14 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   Vec2<Real> arms_a[2];
   bool kept = false;
   for (int i = 0; i < 2; ++i) {
-    c.normal_impulse[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    c.normal_impulse[i] = c.expected_impulse[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
     c.features[i] = 0;
     if (i >= manifold.count) continue;
     const ContactManifoldPoint<Real>& from = manifold.points[i];
     for (int j = 0; j < old_count; ++j) {
-      if (features[j] == from.feature) c.normal_impulse[i] = old[j], kept = true;
+      if (features[j] != from.feature) continue;
+      c.normal_impulse[i] = old[j], c.expected_impulse[i] = expected[j];
+      kept = true;
     }
     arms_a[i] = q * from.point;
     c.separation[i] = from.separation;
@@ -151,8 +154,14 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
 }
 
 template <class Real>
-void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c) {
+void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c) {
+  for (int i = 0; i < 2; ++i) {
+    const Real load = Real(tuning::kExpectedShare) * c.normal_impulse[i];
+    c.expected_impulse[i] += Real(tuning::kExpectedRate) * (load - c.expected_impulse[i]);
+  }
+  c.now[0] = c.separation[0], c.now[1] = c.separation[1];
   if (!c.bounces) return;
+  w.scratch.may_bounce = w.scratch.may_bounce || c.restitution > 0;
   c.peak_impulse[0] = c.peak_impulse[1] = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
@@ -164,7 +173,10 @@ void begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c) {
 template <class Real>
 bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
-  const auto touch = [&](int i) { return c.separation[i] <= near_enough || c.normal_impulse[i] > 0; };
+  // What struck and bounced off within a step has touched as well.
+  const auto touch = [&](int i) {
+    return c.separation[i] <= near_enough || c.normal_impulse[i] > 0 || (c.bounces && c.peak_impulse[i] > 0);
+  };
   return touch(0) || (c.count == 2 && touch(1));
 }
 
@@ -176,6 +188,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   &changed = w.scratch.touch_changes;
   lost.clear(), ended.clear(), changed.clear();
   w.scratch.begun_contacts.clear();
+  w.scratch.may_bounce = false;
 
   const auto new_manifold = [&](const ContactRecord& contact) {
     const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];

@@ -24,10 +24,11 @@ template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
   const Vec2d gravity = w.settings.gravity;
-  ContactStep<Real> contacts{.inverse_h = static_cast<Real>(1 / h),
-                             .softness = {contact_softness<Real>(tuning::kContactFrequencyShare, h),
-                                          contact_softness<Real>(tuning::kStiffFrequencyShare, h),
-                                          Softness<Real>{static_cast<Real>(tuning::kPushShare / h), 1, 0}},
+  ContactStep<Real> contacts{.h = static_cast<Real>(h),
+                             .inverse_h = static_cast<Real>(1 / h),
+                             .softness = {{contact_softness<Real>(tuning::kContactFrequencyShare, h)},
+                                          {contact_softness<Real>(tuning::kStiffFrequencyShare, h)},
+                                          {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
                              .warm_start = warm_start,
                              .bounce_threshold = static_cast<Real>(tuning::kRestingSteps * h * substeps *
                                                                    std::sqrt(length_squared(gravity)))};
@@ -42,20 +43,28 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   prepare_kicks(w, h, substeps, FreeFlight::Exact);
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w, joints);
+  w.scratch.bounces.clear();
+  if (w.scratch.may_bounce) find_bounces(w.graph, w.scratch.bounces);
+  bool strikes = false;
   for (int substep = 0; substep < substeps; ++substep) {
-    integrate_velocities(w);
+    // Blows are not repeated.
+    const bool repeat = substep > 0 && !jointed && !strikes;
+    note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    repeat ? repeat_velocities(w) : integrate_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
-    warm_start_contacts(bodies.motion, w.graph, contacts);
+    if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
+    strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, joints, true);
     solve_contacts(bodies.motion, w.graph, contacts);
+    if (strikes) bounce_positions(bodies.motion, w.scratch.bounces, contacts);
     integrate_positions(w, static_cast<Real>(h));
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, joints, false);
     relax_contacts(bodies.motion, w.graph, contacts);
+    bounce_velocities(bodies.motion, w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }
-  apply_restitution(bodies.motion, w.graph, contacts);
   finish_direct_islands(w);
 }
 

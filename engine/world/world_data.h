@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory_resource>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "engine/collide/pair_set.h"
 #include "engine/geometry/convex_mass.h"
 #include "engine/solve/body_motion.h"
+#include "engine/solve/bounces.h"
 #include "engine/solve/contact_graph.h"
 #include "engine/solve/direct_rows.h"
 #include "engine/solve/joint_set.h"
@@ -69,8 +69,6 @@ struct ShapeForm {
   bool chain = false, sensor = false;
   Real radius = 0;  ///< m, of rounding
   Real extent = 0;  ///< m, half the size of the shape
-  /// Corners in the pool.
-  int stored() const { return count + (chain ? 2 : 0); }
 };
 
 template <class Real>
@@ -83,7 +81,8 @@ struct ShapeRecord {
   bool hit_events = false, pre_solve = false;
   Filter filter{};
   float friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
-  Real density = 0;  ///< kg/m^2
+  double density = 0;
+  std::uint64_t user_data = 0;
 };
 
 enum class ContactHome : std::uint8_t {
@@ -131,6 +130,8 @@ struct Kick {
   Real spin = 0;                 ///< rad/s
   Real keep = 1, keep_spin = 1;  ///< what damping leaves
   bool locked_x = false, locked_y = false;
+  Vec2<Real> velocity_before{};  ///< m/s, after the kick, before contacts press in this substep
+  Real spin_before = 0;          ///< rad/s
 };
 
 /// A body that moved far in a step. `covered`: its stored boxes held it all the way, so that it can only have
@@ -154,13 +155,10 @@ struct LinkBody {
 /// A small island whose constraints are solved all at once.
 template <class Real>
 struct DirectIsland {
-  explicit DirectIsland(std::pmr::memory_resource* room)
-      : contacts(room), joints(room), system(room), links(room) {}
-
-  std::pmr::vector<ContactConstraint<Real>*> contacts;
-  std::pmr::vector<int> joints;  ///< slots in the joint set
+  std::vector<ContactConstraint<Real>*> contacts;
+  std::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
-  std::pmr::vector<LinkBody<Real>> links;
+  std::vector<LinkBody<Real>> links;
   int root = kNone;    ///< the body that stands for it
   int joint_rows = 0;  ///< of the system; those of contacts follow
   bool jerks = false;  ///< gaps are too wide for velocities to close them
@@ -177,10 +175,10 @@ struct Scratch {
   std::vector<int> island_of, island_size, island_place;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
-  /// What small islands are made of: what one of them gives up when it grows, another one takes.
-  std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
+  bool may_bounce = false;  ///< some contact of the graph has restitution
+  std::vector<Bounce<Real>> bounces;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;
   std::vector<double> fractions;
@@ -212,7 +210,6 @@ struct WorldData {
   std::vector<ShapeForm<Real>> forms;
   std::vector<Aabb<Real>> boxes;  ///< tight
   CornerPool<Real> corners;
-  UsedList<std::uint64_t> shape_data;  ///< the user's
   Slots<ChainRecord> chains;
   std::vector<int> moved_shapes;
   DynamicTree<Real> still_tree, moving_tree;  ///< static; kinematic and dynamic

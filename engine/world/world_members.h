@@ -29,17 +29,17 @@ PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, invers
 
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
 PLUMB_REAL_MEMBERS(ShapeRecord, body, next, proxy, chain, moved, hit_events, pre_solve, filter, friction,
-                   restitution, rolling_resistance, surface_speed, density)
+                   restitution, rolling_resistance, surface_speed, density, user_data)
 PLUMB_MEMBERS(ChainRecord, body, shapes)
 PLUMB_MEMBERS(SensorRecord, shape, visitors)
 
 PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
               pre_solve, hit_events, index)
 PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
-                   separation, normal_impulse, tangent_impulse, mass, inverse_pp, inverse_pq, inverse_qq,
-                   between, tangent_mass, friction, push_speed, surface_speed, hardness, count, touching,
-                   bounces, restitution, rolling_arm, rolling_impulse, peak_impulse, approach, travel_left,
-                   contact, features)
+                   separation, now, normal_impulse, expected_impulse, tangent_impulse, mass, inverse_pp,
+                   inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
+                   hardness, count, touching, bounces, restitution, rolling_arm, rolling_impulse,
+                   peak_impulse, approach, travel_left, contact, features)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               user_data)
 
@@ -55,13 +55,13 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains, moved_shapes,
-         still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable,
-         events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
+         extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree,
+         moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events,
+         pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
-                  moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
-                  joint_set, sensors, breakable, events, pending, reports_hits);
+                  position, extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes,
+                  still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors,
+                  breakable, events, pending, reports_hits);
 }
 
 }  // namespace plumb

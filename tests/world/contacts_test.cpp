@@ -13,10 +13,11 @@ TEST(Materials, FrictionSlowsAtMuG) {
   const BodyId box =
       add_body(world, {0, 0.25}, {.geometry = Box{4, 0.5}, .material = {.friction = 0.4}}, {8, 0});
   run(world, 60);
-  // A wide, flat box: it does not tip. One substep passes before the contact presses.
-  EXPECT_NEAR(world.velocity(box).x, 8 - 0.4 * kGravity, 0.4 * kGravity / 60);
+  // A wide, flat box: it does not tip. Each of 240 substeps rounds to half an ulp of 8: 240 * 2.4e-7 m/s.
+  EXPECT_NEAR(world.velocity(box).x, 8 - 0.4 * kGravity, 6e-5);
   run(world, 90);
-  EXPECT_NEAR(world.velocity(box).x, 0, 1e-6);
+  // What is left is the rounding of a substep's friction: 2^-24 mu g h.
+  EXPECT_NEAR(world.velocity(box).x, 0, 0x1p-24 * 0.4 * kGravity / 240);
 }
 
 TEST(Materials, CombineRulesAreTheWorlds) {
@@ -30,7 +31,8 @@ TEST(Materials, CombineRulesAreTheWorlds) {
     const BodyId box =
         add_body(world, {0, 0.25}, {.geometry = Box{4, 0.5}, .material = {.friction = 0.8}}, {10, 0});
     run(world, 30);
-    EXPECT_NEAR(world.velocity(box).x, 10 - friction * kGravity / 2, friction * kGravity / 60);
+    // 120 substeps, half an ulp of 10 each.
+    EXPECT_NEAR(world.velocity(box).x, 10 - friction * kGravity / 2, 120 * 0x1p-21);
   }
 }
 
@@ -68,15 +70,17 @@ TEST(Materials, RollingResistanceSlowsAWheel) {
       world.create_body(body, ShapeDefinition{.geometry = Circle{r}, .material = {.rolling_resistance = c}});
   run(world, 60);
   // Torque c r m g against rolling: a = -(2/3) c g for a disc that does not slip.
-  EXPECT_NEAR(world.velocity(wheel).x, v - 2.0 / 3 * c * kGravity, 1e-3);
+  // 240 substeps round it to half an ulp of 5: 6e-5.
+  EXPECT_NEAR(world.velocity(wheel).x, v - 2.0 / 3 * c * kGravity, 240 * 0x1p-22);
 }
 
 TEST(Materials, ConveyorsCarry) {
   World world(without_sleep());
   add_ground(world, {.surface_speed = 2});
   const BodyId box = add_box(world, {0, 0.5});
-  run(world, 120);
-  EXPECT_NEAR(world.velocity(box).x, 2, 3e-4);
+  run(world, 240);
+  // Friction asks for the belt's speed itself: an ulp of 2 is left when the box has stopped rocking.
+  EXPECT_NEAR(world.velocity(box).x, 2, 0x1p-22);
 }
 
 TEST(Materials, CanChangeWhileTheWorldRuns) {
@@ -217,9 +221,9 @@ TEST(Contacts, AreReadWithTheirForces) {
   EXPECT_EQ(world.contacts(ground).size(), 1u);
   ASSERT_EQ(contacts[0].count, 2);
   const double h = 1.0 / 240;
-  EXPECT_NEAR((contacts[0].impulses[0] + contacts[0].impulses[1]) / h, 6 * kGravity, 1e-3 * 6 * kGravity);
-  EXPECT_NEAR(std::abs(contacts[0].points[0].x - contacts[0].points[1].x), 1, 1e-3);
-  EXPECT_NEAR(contacts[0].points[0].y, 0, 1e-3);
+  EXPECT_NEAR((contacts[0].impulses[0] + contacts[0].impulses[1]) / h, 6 * kGravity, 0x1p-22 * 6 * kGravity);
+  EXPECT_NEAR(std::abs(contacts[0].points[0].x - contacts[0].points[1].x), 1, 0x1p-22);
+  EXPECT_NEAR(contacts[0].points[0].y, 0, 0x1p-22);
 }
 
 }  // namespace
