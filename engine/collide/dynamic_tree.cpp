@@ -93,6 +93,7 @@ void DynamicTree<Real>::clear() {
   free_proxies_.clear();
   size_ = 0;
   enlargements_ = marks_ = 0;
+  usual_ = 0;
 }
 
 template <class Real>

@@ -47,8 +47,9 @@ class DynamicTree {
   /// To be called after the enlarging of each step. Builds the marked part of the tree anew, from the root
   /// down to leaves and subtrees without a mark, split at the middle of the centres; its boxes are exact
   /// again. Puts that off until as many boxes were enlarged as nodes are marked: by then the tree is at most
-  /// a few per cent worse, and the cost is shared by several steps. Returns how many leaves and subtrees were
-  /// arranged.
+  /// a few per cent worse, and the cost is shared by several steps. Where most of the tree is marked and its
+  /// boxes, made exact where they are, are hardly larger than after the last building (what moves together
+  /// keeps its neighbours), that is all. Returns how many leaves and subtrees were arranged.
   int rebuild();
   /// The same for the whole tree and at once; lays the nodes out in the order of a query. For use after
   /// loading many boxes.
@@ -127,6 +128,7 @@ class DynamicTree {
   Node take_leaf(int proxy);
   bool rotate(int slot);
 
+  bool refit();
   void gather(bool everything);
   void build(int slot, Item* items, int count, int budget);
   int build_gathered();
@@ -148,12 +150,14 @@ class DynamicTree {
   std::vector<int> free_pairs_, free_proxies_;
   int size_ = 0;
   std::int64_t enlargements_ = 0, marks_ = 0;  // since the last rebuild
+  double usual_ = 0;                           // mean half perimeter of inner nodes when most were built
 
   // Scratch of rebuild().
   std::vector<int> loose_pairs_;
   std::vector<Node> held_;
   std::vector<Item> items_;
   int next_loose_ = 0;
+  double built_ = 0;  // half perimeters of what is being built
 };
 
 }  // namespace plumb

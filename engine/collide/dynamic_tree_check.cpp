@@ -114,6 +114,7 @@ void DynamicTree<Real>::save(std::vector<std::byte>& out) const {
   writer.value(std::int32_t{size_});
   writer.value(enlargements_);
   writer.value(marks_);
+  writer.value(usual_);
   writer.values(pairs_);
   writer.values(slots_);
   writer.values(free_pairs_);
@@ -127,6 +128,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   copy.size_ = reader.value<std::int32_t>("tree of boxes");
   copy.enlargements_ = reader.value<std::int64_t>("tree of boxes");
   copy.marks_ = reader.value<std::int64_t>("tree of boxes");
+  copy.usual_ = reader.value<double>("tree of boxes");
   reader.values(copy.pairs_, "nodes of a tree of boxes");
   reader.values(copy.slots_, "leaves of a tree of boxes");
   reader.values(copy.free_pairs_, "free nodes of a tree of boxes");
@@ -136,6 +138,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   size_ = copy.size_;
   enlargements_ = copy.enlargements_;
   marks_ = copy.marks_;
+  usual_ = copy.usual_;
   pairs_.assign(copy.pairs_.begin(), copy.pairs_.end());
   slots_.assign(copy.slots_.begin(), copy.slots_.end());
   free_pairs_.assign(copy.free_pairs_.begin(), copy.free_pairs_.end());

@@ -5,6 +5,10 @@
 namespace plumb {
 namespace {
 
+/// Inner boxes whose perimeters are on average this much larger than after building are not worth a query's
+/// time.
+constexpr double kWorn = 1.1;
+
 /// Half the centre: it does not overflow, and neither do differences of two. 0 where there is none, between
 /// infinite sides: everything here can be put in order.
 template <class Real>
@@ -66,6 +70,32 @@ int split(Item* items, int count, int budget) {
 
 }  // namespace
 
+/// Makes the boxes of the marked inner nodes exact, from below. False when that is not enough.
+template <class Real>
+bool DynamicTree<Real>::refit() {
+  if (2 * marks_ < size_ || !(usual_ > 0)) return false;
+  std::vector<int>& marked = loose_pairs_;  // slots, those above first
+  marked.clear();
+  marked.reserve(pairs_.capacity());
+  const auto take = [&](int slot) {
+    if (node(slot).marked()) marked.push_back(slot);
+  };
+  take(kRoot);
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    const int below = first(node(marked[i]).link);
+    take(below), take(below + 1);
+  }
+  double sum = 0;
+  for (std::size_t i = marked.size(); i-- > 0;) {
+    update(marked[i]);
+    sum += static_cast<double>(node(marked[i]).box.half_perimeter());
+  }
+  if (!(sum <= kWorn * usual_ * static_cast<double>(marked.size()))) return false;
+  for (const int slot : marked) node(slot).tag = 0;
+  enlargements_ = marks_ = 0;
+  return true;
+}
+
 /// Takes the marked inner nodes apart (or all): their pairs become loose, what hangs below is held.
 template <class Real>
 void DynamicTree<Real>::gather(bool everything) {
@@ -101,6 +131,7 @@ void DynamicTree<Real>::build(int slot, Item* items, int count, int budget) {
   build(first(pair), items, half, budget - 1);
   build(first(pair) + 1, items + half, count - half, budget - 1);
   update(slot);
+  built_ += static_cast<double>(node(slot).box.half_perimeter());
 }
 
 template <class Real>
@@ -109,14 +140,17 @@ int DynamicTree<Real>::build_gathered() {
   items_.resize(held_.size());
   for (int i = 0; i < count; ++i) items_[i] = {half_center(held_[i].box), i};
   next_loose_ = 0;
+  built_ = 0;
   enlargements_ = marks_ = 0;
   build(kRoot, items_.data(), count, 2 * std::bit_width(static_cast<unsigned>(count)));
+  if (2 * next_loose_ >= size_) usual_ = built_ / next_loose_;
   return count;
 }
 
 template <class Real>
 int DynamicTree<Real>::rebuild() {
   if (size_ == 0 || !node(kRoot).marked() || enlargements_ < marks_) return 0;
+  if (refit()) return 0;
   gather(false);
   return build_gathered();
 }

@@ -48,8 +48,9 @@ double Dop853::error(double h, std::span<const double> scale) const {
     largest5 = std::max(largest5, std::abs(e5) / scale[i]);
     largest3 = std::max(largest3, std::abs(e3) / scale[i]);
   }
-  const double size = std::sqrt(largest5 * largest5 + 0.01 * largest3 * largest3);
-  return size == 0 ? 0 : std::abs(h) * largest5 * (largest5 / size);
+  // e5^2 / sqrt(e5^2 + e3^2/100), written so that no square overflows.
+  const double ratio = largest5 > 0 ? largest3 / largest5 : 0;
+  return std::abs(h) * largest5 / (ratio < 1e100 ? std::sqrt(1 + 0.01 * ratio * ratio) : 0.1 * ratio);
 }
 
 double Dop853::stiffness(double h, std::span<const double> y_end, std::span<const double> scale) const {

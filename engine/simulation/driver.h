@@ -17,6 +17,9 @@ struct Statistics {
   std::int64_t impacts = 0;      ///< velocity jumps that were resolved
   std::int64_t evaluations = 0;  ///< evaluations of the accelerations
   std::int64_t implicit = 0;     ///< Precise: accepted steps by the implicit method
+  std::int64_t leaps = 0;        ///< Precise: steps carried over a singular place of a mechanism
+  std::int64_t redundant_joints =
+      0;  ///< Precise: joints with rows that follow from others, named in the plan
 };
 
 /// A way of moving compiled bodies forward in time. One virtual call a step, none a body.

@@ -74,6 +74,16 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
     at_rest_.push_back(body.type == BodyType::Static);
     locked_.push_back(body.fixed_rotation);
   }
+  name_redundant_joints();
+}
+
+void PreciseDriver::name_redundant_joints() {
+  std::string names;
+  for (const std::string& joint : smooth_.redundant_joints())
+    names += (names.empty() ? "'" : ", '") + joint + "'";
+  if (!names.empty())
+    plan_.stages[kJointAccelerations].why +=
+        "; redundant where they start, and without force of their own: " + names;
 }
 
 /// Once, and after bodies were moved from outside: closes joints and their velocities.

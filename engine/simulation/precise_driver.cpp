@@ -46,6 +46,8 @@ Statistics PreciseDriver::statistics() const {
   all.evaluations = equations_.evaluations();
   all.rejected = smooth_.rejected();
   all.implicit = smooth_.implicit_steps();
+  all.leaps = smooth_.leaps();
+  all.redundant_joints = static_cast<std::int64_t>(smooth_.redundant_joints().size());
   return all;
 }
 

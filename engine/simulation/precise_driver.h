@@ -49,6 +49,7 @@ class PreciseDriver final : public Driver {
   // What those are made of.
   void motions(double time, std::span<const double> y, std::span<const double> rate,
                std::span<Motion> out) const;
+  void name_redundant_joints();
   void strike(const Impact& impact);
   std::size_t slot_of(std::size_t body) const;
   void take(std::span<const std::byte> snapshot);

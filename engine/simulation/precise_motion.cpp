@@ -144,7 +144,21 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
 
 void EquationsOfMotion::linearise() {
   joints_.rows(poses_, twists_, rows_);
-  system_.factor(rows_);
+  dependent_rows_ = std::max(dependent_rows_, system_.factor(rows_));
+  weakest_ = std::min(weakest_, system_.weakest());
+}
+
+std::vector<std::string> EquationsOfMotion::redundant_joints(double time, std::span<const double> y) {
+  std::vector<std::string> names;
+  if (!has_joints_) return names;
+  place(time, y);
+  linearise();
+  const std::vector<char> dependent = system_.dependent();
+  for (std::size_t row = 0; row < dependent.size(); ++row) {
+    if (dependent[row] && (names.empty() || names.back() != joint_of_row_[row]))
+      names.push_back(joint_of_row_[row]);
+  }
+  return names;
 }
 
 /// multipliers = A^-1 right_side.

@@ -54,6 +54,14 @@ class EquationsOfMotion final : public Flow {
   double rounding_of_gaps() const;
   std::size_t body_count() const { return poses_.size(); }
 
+  /// The least `JointSystem::weakest`, and the most dependent rows, in evaluations since `forget_rank`.
+  double weakest() const { return weakest_; }
+  int dependent_rows() const { return dependent_rows_; }
+  void forget_rank() { weakest_ = 1, dependent_rows_ = 0; }
+  /// Joints some of whose rows follow from others in state y: they may be left out, or carry no force of
+  /// their own.
+  std::vector<std::string> redundant_joints(double time, std::span<const double> y);
+
   /// The change of every integrated body's motion, and of the bodies of `contact`, by a unit impulse along
   /// that row, joints included; indexed by body. `y` is the state at `time`.
   void respond(double time, std::span<const double> y, const Row<double>& contact,
@@ -109,6 +117,8 @@ class EquationsOfMotion final : public Flow {
   JointSystem<double> system_;
   std::vector<double> right_side_, multipliers_;
   bool has_forces_, has_joints_, wide_mass_ratio_ = false;
+  double weakest_ = 1;
+  int dependent_rows_ = 0;
   double window_start_ = 0, window_end_ = 0;
   double length_ = 1;
   std::int64_t evaluations_ = 0;

@@ -24,6 +24,11 @@ constexpr double kLeastTolerance = 1e-15;
 constexpr double kLongestStep = 1e6;
 /// After a jump, a step is at most this many times as long as a first step would be.
 constexpr double kAfterJump = 1000;
+/// A leap carries on a step of at least this share of the time that the scene's accelerations take over its
+/// length: where steps have shrunk to less, the motion does not pass through.
+constexpr double kShortestLeap = 1e-4;
+/// How far the weakest row falls within a step that meets a singular place.
+constexpr double kSingular = 0.03;
 /// The error of a step whose stages were not found: the next try is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
@@ -45,6 +50,7 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       stiff_(precise.method == MotionMethod::Implicit),
       y0_(equations.dimension()),
       y_(equations.dimension()),
+      y_before_(equations.dimension()),
       polynomial_(equations.dimension()),
       error_scale_(equations.dimension()) {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
@@ -53,6 +59,7 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
     EquationsOfMotion::set_state(y_, slot, initial_state(body));
   }
   y0_ = y_;
+  redundant_joints_ = equations_.redundant_joints(0, y_.value());
 }
 
 double SmoothMotion::step(double limit) {
@@ -66,8 +73,12 @@ double SmoothMotion::step(double limit) {
   if (rate_known_ && !switched) {
     explicit_.advance();
   } else {
+    equations_.forget_rank();
     equations_.rate(time_, y_.value(), explicit_.first_rate());
+    rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   }
+  before_ = last_implicit_ ? time_ : start_;
+  y_before_ = y0_;
   start_ = time_;
   y0_ = y_;
   set_error_scale();
@@ -77,8 +88,10 @@ double SmoothMotion::step(double limit) {
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
+  const double weak = kSingular * rank_at_start_.weakest;
   for (;;) {
     const double end = end_of_step(limit), h = end - start_;
+    equations_.forget_rank();
     if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) blame_fastest();
     const double error = try_step(end, again);
     if (error <= 1) {
@@ -87,9 +100,60 @@ double SmoothMotion::step(double limit) {
     }
     again = true;
     ++rejected_;
+    const bool singular =
+        equations_.weakest() < weak || equations_.dependent_rows() > rank_at_start_.dependent;
+    if (singular && !stiff_ && leap(limit)) return time_;
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
+}
+
+/// Over a place where the mechanism is singular: rates there are lost to rounding, but the motion is smooth.
+/// The polynomial of the step before is carried on for a share of its length, and joints are closed there.
+/// Its last term is taken for the error, which is to meet the tolerance itself.
+bool SmoothMotion::leap(double limit) {
+  constexpr double kShares[] = {1, 0.5, 0.25};
+  const double h = start_ - before_;
+  if (!(h > kShortestLeap * scales_.length / scales_.speed)) return false;
+  std::vector<double> rate(rate_at_start().begin(), rate_at_start().end());
+  equations_.rate(before_, y_before_.value(), explicit_.first_rate());
+  explicit_.step(equations_, before_, h, y_before_.value());
+  std::copy(rate.begin(), rate.end(), explicit_.last_rate().begin());
+  StepPolynomial path(y_.size());
+  explicit_.polynomial(equations_, before_, h, y_before_.value(), path);
+  std::copy(rate.begin(), rate.end(), explicit_.first_rate().begin());
+  for (const double share : kShares) {
+    const double end = start_ + share * h;
+    if (end > limit) continue;
+    double error = 0, product = 1;
+    for (const double node : path.nodes()) product *= 1 + share - node;
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      error = std::max(error, std::abs(product * path.term(path.degree())[i]) / error_scale_[i]);
+    }
+    if (!(error * kLocalShare <= 1)) continue;
+    polynomial_.carry_on(path, share);
+    y_ = y0_;
+    for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, polynomial_.at(1, i));
+    equations_.forget_rank();
+    try {
+      project(end, y_);
+    } catch (const Error&) {  // not from so far
+      continue;
+    }
+    time_ = end;
+    rate_known_ = false;
+    rate_at_end();
+    if (equations_.weakest() < kSingular * rank_at_start_.weakest) continue;
+    polynomial_known_ = true;
+    proposed_step_ = share * h;
+    rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
+    ++leaps_;
+    return true;
+  }
+  y_ = y0_;
+  time_ = start_;
+  rate_known_ = polynomial_known_ = false;
+  return false;
 }
 
 /// Fixed steps, shorter only where they would go beyond `limit`.
@@ -153,6 +217,9 @@ void SmoothMotion::accept(double end, double error) {
   last_implicit_ = stiff_;
   implicit_steps_ += stiff_ ? 1 : 0;
   take_increment(end);
+  equations_.forget_rank();
+  rate_at_end();
+  rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   if (method_ == MotionMethod::Automatic) watch_stiffness();
 }
 
@@ -361,10 +428,12 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
   const auto put = [&](std::span<const double> numbers) {
     for (const double number : numbers) out.put(number);
   };
-  put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step()});
+  put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step(),
+                 rank_at_start_.weakest});
   for (const std::int64_t number :
-       {rejected_, implicit_steps_, std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_},
-        std::int64_t{stiff_}, std::int64_t{last_implicit_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
+       {rejected_, implicit_steps_, leaps_, std::int64_t{rank_at_start_.dependent},
+        std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_}, std::int64_t{stiff_},
+        std::int64_t{last_implicit_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
         std::int64_t{with_polynomial ? polynomial_.degree() : 0}}) {
     out.put(number);
   }
@@ -382,10 +451,13 @@ void SmoothMotion::restore(SnapshotReader& in) {
   };
   const auto integer = [&] { return in.get<std::int64_t>(); };
   double previous = 0, last_step = 0;
-  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step}) *number = in.get<double>();
+  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.weakest})
+    *number = in.get<double>();
   control_.reset(previous);
   rejected_ = integer();
   implicit_steps_ = integer();
+  leaps_ = integer();
+  rank_at_start_.dependent = static_cast<int>(integer());
   signs_of_stiffness_ = static_cast<int>(integer());
   steps_without_ = static_cast<int>(integer());
   stiff_ = integer() != 0;

@@ -67,6 +67,10 @@ class SmoothMotion {
 
   std::int64_t rejected() const { return rejected_; }
   std::int64_t implicit_steps() const { return implicit_steps_; }
+  /// Steps that were carried over a singular place of the mechanism.
+  std::int64_t leaps() const { return leaps_; }
+  /// Joints some of whose rows follow from others at the start.
+  const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
 
   /// Throws `Error` (Run) that names the body whose motion changes fastest.
   [[noreturn]] void blame_fastest() const;
@@ -78,6 +82,7 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
+  bool leap(double limit);
   double symplectic_step(double limit);
   double longest_symplectic_step();
   double try_step(double end, bool again);
@@ -97,6 +102,7 @@ class SmoothMotion {
   const std::vector<std::size_t> bodies_;
   const std::vector<double> switches_;
   std::vector<std::string> names_;  // by slot
+  std::vector<std::string> redundant_joints_;
   EquationsOfMotion& equations_;
   const MotionMethod method_;
   Dop853 explicit_;
@@ -109,11 +115,18 @@ class SmoothMotion {
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;  // where the last step began and ended
+  double before_ = 0;   // s: where the step before that began, with what state; its own start: there is none
+  Compensated y_before_;
   StepPolynomial polynomial_;
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
   std::vector<double> error_scale_;
   double proposed_step_ = 0;  // s; 0: none yet
-  std::int64_t rejected_ = 0, implicit_steps_ = 0;
+  struct Rank {
+    double weakest = 1;
+    int dependent = 0;
+  };
+  Rank rank_at_start_;  // of the joints' rows, where the next step begins
+  std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 
 }  // namespace plumb::precise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory_resource>
 #include <vector>
 
 #include "engine/solve/body_motion.h"
@@ -29,7 +30,21 @@ struct DirectRow {
 template <class Real>
 class DirectRows {
  public:
-  std::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
+  explicit DirectRows(std::pmr::memory_resource* room = std::pmr::get_default_resource())
+      : rows(room),
+        sequence_(room),
+        place_(room),
+        first_(room),
+        neighbours_(room),
+        ends_(room),
+        blocks_(room),
+        block_first_(room),
+        queue_(room),
+        degree_(room),
+        x_(room),
+        matrix_(room) {}
+
+  std::pmr::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
 
   /// Orders the rows (Cuthill and McKee, 1969, reversed) and says what factorising them would cost, in
   /// multiplications.
@@ -47,13 +62,13 @@ class DirectRows {
   void apply(BodyMotion<Real>* motion);
 
  private:
-  std::vector<int> sequence_;  // place -> row
-  std::vector<int> place_;     // row -> place
-  std::vector<int> first_;
-  std::vector<std::vector<int>> neighbours_;  // of blocks
-  std::vector<std::pair<int, int>> ends_;     // body, block
-  std::vector<int> blocks_, block_first_, queue_, degree_;
-  std::vector<double> x_;
+  std::pmr::vector<int> sequence_;  // place -> row
+  std::pmr::vector<int> place_;     // row -> place
+  std::pmr::vector<int> first_;
+  std::pmr::vector<std::pmr::vector<int>> neighbours_;  // of blocks
+  std::pmr::vector<std::pair<int, int>> ends_;          // body, block
+  std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
+  std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
 };
 

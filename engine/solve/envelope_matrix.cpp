@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-void EnvelopeMatrix::reset(const std::vector<int>& first) {
+void EnvelopeMatrix::reset(std::span<const int> first) {
   first_.assign(first.begin(), first.end());
   start_.resize(first.size());
   int next = 0;
@@ -54,7 +54,7 @@ void EnvelopeMatrix::solve(double* x) const {
   }
 }
 
-double EnvelopeMatrix::cost(const std::vector<int>& first) {
+double EnvelopeMatrix::cost(std::span<const int> first) {
   double sum = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const double width = static_cast<double>(i) - first[i];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace plumb {
@@ -10,8 +12,11 @@ namespace plumb {
 /// a tower the cost is linear.
 class EnvelopeMatrix {
  public:
+  explicit EnvelopeMatrix(std::pmr::memory_resource* room = std::pmr::get_default_resource())
+      : first_(room), start_(room), values_(room), inverse_pivots_(room), pivots_(room) {}
+
   /// Rows 0 .. first.size() - 1, row i from column first[i] <= i; all zero. Allocates only when it grows.
-  void reset(const std::vector<int>& first);
+  void reset(std::span<const int> first);
 
   int size() const { return static_cast<int>(first_.size()); }
   int first(int row) const { return first_[row]; }
@@ -24,11 +29,11 @@ class EnvelopeMatrix {
   void solve(double* x) const;
 
   /// Multiplications that `factorise` makes for such an envelope.
-  static double cost(const std::vector<int>& first);
+  static double cost(std::span<const int> first);
 
  private:
-  std::vector<int> first_, start_;
-  std::vector<double> values_, inverse_pivots_, pivots_;
+  std::pmr::vector<int> first_, start_;
+  std::pmr::vector<double> values_, inverse_pivots_, pivots_;
 };
 
 }  // namespace plumb

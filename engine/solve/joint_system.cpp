@@ -134,8 +134,9 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
-  constexpr Real kDependent = 64 * std::numeric_limits<Real>::epsilon();
+  constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
   int dependent = 0;
+  weakest_ = 1;
   take_jacobian(rows);
   std::copy(column_start_.begin(), column_start_.end() - 1, filled_.begin());
   for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -159,8 +160,16 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
     const bool independent = pivot > kDependent * own;
     inverse_diagonal_[k] = independent ? 1 / pivot : 0;
     dependent += independent ? 0 : 1;
+    if (independent && pivot < weakest_ * own) weakest_ = pivot / own;
   }
   return dependent;
+}
+
+template <class Real>
+std::vector<char> JointSystem<Real>::dependent() const {
+  std::vector<char> rows(order_.size(), 0);
+  for (std::size_t k = 0; k < order_.size(); ++k) rows[order_[k]] = inverse_diagonal_[k] == 0;
+  return rows;
 }
 
 template <class Real>

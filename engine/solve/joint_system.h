@@ -32,6 +32,12 @@ class JointSystem {
   /// mass does not swallow a heavy one's as it does in A itself: wide mass ratios get their digits back.
   void refine(std::span<const Row<Real>> rows, std::span<const Real> right_side, std::span<Real> x) const;
 
+  /// Of the last factorisation: the least share of a row that the others leave to it, dependent rows apart.
+  /// It goes to zero where the mechanism becomes singular.
+  Real weakest() const { return weakest_; }
+  /// Of the last factorisation: whether a row depends on others.
+  std::vector<char> dependent() const;
+
   std::size_t row_count() const { return order_.size(); }
   /// Entries of L below its diagonal: what factorisation and solution cost.
   std::size_t nonzeros() const { return row_of_.size(); }
@@ -66,7 +72,8 @@ class JointSystem {
   std::vector<Real> jacobian_, weighted_;
 
   std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
-  std::vector<std::size_t> filled_;     // while factorising: the end of what is known of a column
+  Real weakest_ = 1;
+  std::vector<std::size_t> filled_;  // while factorising: the end of what is known of a column
   mutable std::vector<Real> work_;
   mutable std::vector<Real> residual_;         // by row
   mutable std::vector<Twist<Real>> response_;  // by body: M^-1 J^T x

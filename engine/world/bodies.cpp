@@ -40,8 +40,13 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   const Vec2<Real> shift = centre - record.centre;
   if (shift == Vec2<Real>{}) return;
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    const ShapeForm<Real>& form = w.forms[shape];
-    for (int i = 0; i < form.count + (form.chain ? 2 : 0); ++i) w.corners[form.corner + i].point -= shift;
+    ShapeForm<Real>& form = w.forms[shape];
+    Corner<Real> moved[kMaxCorners + 2];
+    const auto corners = w.corners.run(form.corner, form.stored());
+    std::copy(corners.begin(), corners.end(), moved);
+    for (int i = 0; i < form.stored(); ++i) moved[i].point -= shift;
+    w.corners.remove(form.corner, form.stored());
+    form.corner = w.corners.add({moved, corners.size()});
   }
   const Vec2<Real> arm = w.rotation[body] * shift;
   w.motion[body].velocity += cross(w.motion[body].angular_velocity, arm);  // of the new centre
@@ -87,7 +92,8 @@ ConvexMass mass_of(const WorldData<Real>& w, int shape) {
     corners[i] = {convex.corners[i].point.template as<double>(),
                   convex.corners[i].normal.template as<double>()};
   }
-  return convex_mass({corners, convex.count, static_cast<double>(convex.radius)}, w.shapes[shape].density);
+  return convex_mass({corners, convex.count, static_cast<double>(convex.radius)},
+                     static_cast<double>(w.shapes[shape].density));
 }
 
 }  // namespace

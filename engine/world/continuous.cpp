@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/geometry/convex_bounds.h"
@@ -20,12 +21,17 @@ struct Core {
     for (int i = 0; i < shape.count; ++i) middle += shape.corners[i].point;
     middle *= Real(1) / static_cast<Real>(shape.count);
     for (int i = 0; i < shape.count; ++i) {
-      corners[i] = shape.corners[i];
-      corners[i].point = middle + Real(tuning::kCoreShare) * (corners[i].point - middle);
+      const Corner<Real>& from = shape.corners[i];
+      std::construct_at(corners + i,
+                        Corner<Real>{middle + Real(tuning::kCoreShare) * (from.point - middle), from.normal});
     }
     convex = {corners, shape.count, Real(tuning::kCoreShare) * shape.radius};
   }
-  Corner<Real> corners[kMaxCorners];
+  Core(const Core&) = delete;
+  Core& operator=(const Core&) = delete;
+  union {
+    Corner<Real> corners[kMaxCorners];  // the first `convex.count` alone are made
+  };
   Convex<Real> convex;
 };
 
@@ -57,16 +63,26 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
   return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
 }
 
+// A fast body's way, seen from where it started.
+template <class Real>
+struct Way {
+  Way(const WorldData<Real>& w, int body_)
+      : body(body_),
+        origin(w.position[body] - w.motion[body].moved.template as<double>()),
+        sweep(sweep_of(w, body, origin)) {}
+  int body;
+  Vec2d origin;
+  Sweep<Real> sweep;
+};
+
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, int shape, int other) {
-  const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
-  if (!pass_fast(w, body, other_body)) return 1;
-  const Vec2d origin = w.position[body] - w.motion[body].moved.template as<double>();  // where it started
-  const Sweep<Real> sweep = sweep_of(w, body, origin), other_sweep = sweep_of(w, other_body, origin);
+double fraction_of_impact(const WorldData<Real>& w, const Way<Real>& way, int shape, const Core<Real>& core,
+                          int other) {
+  const Sweep<Real> other_sweep = sweep_of(w, w.shapes[other].body, way.origin);
+  const Sweep<Real>& sweep = way.sweep;
   if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
-  const Core<Real> core(whole);
   using State = typename ImpactResult<Real>::State;
   const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
   const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
@@ -101,14 +117,16 @@ Aabb<Real> way_of(const WorldData<Real>& w, int body) {
 
 // Smallest fraction over all that the body meets, when all of that has a contact with it.
 template <class Real>
-double first_impact_of_pairs(const WorldData<Real>& w, int body) {
+double first_impact_of_pairs(const WorldData<Real>& w, const Way<Real>& way) {
   double first = 1;
+  const int body = way.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
     const bool is_a = (edge & 1) == 0;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    if (!w.forms[shape].chain) first = std::min(first, fraction_of_impact(w, shape, other));
+    if (w.forms[shape].chain || !pass_fast(w, body, w.shapes[other].body)) return;
+    first = std::min(first, fraction_of_impact(w, way, shape, Core<Real>(w.convex(shape)), other));
   });
   return first;
 }
@@ -117,15 +135,19 @@ double first_impact_of_pairs(const WorldData<Real>& w, int body) {
 template <class Real>
 double first_impact(const WorldData<Real>& w, const FastBody& fast) {
   const int body = fast.body;
-  if (fast.covered) return first_impact_of_pairs(w, body);
+  const Way<Real> way(w, body);
+  if (fast.covered) return first_impact_of_pairs(w, way);
   double first = 1;
   const Aabb<Real> swept = way_of(w, body);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
+    const Core<Real> core(w.convex(shape));
     const auto visit = [&](int other, int) {
-      if (!may_collide(w, shape, other) || was_solved(w, body, shape, other)) return true;
-      first = std::min(first, fraction_of_impact(w, shape, other));
+      if (!pass_fast(w, body, w.shapes[other].body) || !may_collide(w, shape, other) ||
+          was_solved(w, body, shape, other))
+        return true;
+      first = std::min(first, fraction_of_impact(w, way, shape, core, other));
       return true;
     };
     w.still_tree.query(swept, mask, visit);

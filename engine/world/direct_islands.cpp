@@ -79,7 +79,7 @@ DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
   int& place = w.scratch.island_place[root];
   if (place == kNone) {
     place = w.scratch.direct_count++;
-    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back();
+    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back(&w.scratch.room);
     w.scratch.direct[place].contacts.clear(), w.scratch.direct[place].joints.clear();
     w.scratch.direct[place].root = root;
   }
@@ -97,7 +97,7 @@ void put_row(const RigidRow<Real>& from, DirectRow<Real>& row) {
 
 template <class Real>
 void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
-  std::vector<DirectRow<Real>>& rows = island.system.rows;
+  std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
   find_links(w, island);
   int block = 0;

@@ -25,12 +25,30 @@ template <class Real>
 }
 
 template <class Real>
-void time_stillness(const WorldData<Real>& w, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
-                    Real extent, Real dt) {
+void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent, Real dt) {
   const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
   const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
   const bool is_still = record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
-  record.still_for = is_still && w.settings.sleeping ? record.still_for + dt : Real(0);
+  record.still_for = is_still ? record.still_for + dt : Real(0);
+}
+
+// Moves a body by what the solver found.
+template <class Real>
+void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion) {
+  const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
+                   motion.angular_velocity;
+  if (!(sum - sum == 0)) report_loss(w, body);
+  w.position[body] += motion.moved.template as<double>();
+  record.angle += static_cast<double>(motion.turned);
+  if (motion.turned == 0) return;
+  // One Newton step towards |q| = 1.
+  Rotation<Real>& q = w.rotation[body];
+  const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
+  q = {scale * q.c, scale * q.s};
+  if ((w.steps + body) % kRefresh == 0) {
+    const Rotation<double> exact = rotation_of(record.angle);
+    q = {static_cast<Real>(exact.c), static_cast<Real>(exact.s)};
+  }
 }
 
 }  // namespace
@@ -57,59 +75,68 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
   return box;
 }
 
+namespace {
+
+// A box that has left what is stored for it is stored anew.
 template <class Real>
-bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+void store_box(WorldData<Real>& w, int shape, Real dt) {
   ShapeRecord<Real>& record = w.shapes[shape];
   DynamicTree<Real>& tree = w.tree_of(w.bodies[record.body].type);
-  const Aabb<Real> before = w.boxes[shape];
-  w.boxes[shape] = box_of(w, shape);
-  const Aabb<Real>& stored = tree.box(record.proxy);
-  const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
-  if (stored.contains(w.boxes[shape])) return covered;
+  if (tree.box(record.proxy).contains(w.boxes[shape])) return;
   tree.enlarge(record.proxy, stored_box(w, shape, dt));
   w.enlarged[record.body] = 1;
   if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
+}
+
+}  // namespace
+
+template <class Real>
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+  const Aabb<Real> before = w.boxes[shape];
+  w.boxes[shape] = box_of(w, shape);
+  const ShapeRecord<Real>& record = w.shapes[shape];
+  const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
+  const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
+  store_box(w, shape, dt);
   return covered;
 }
 
 template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt) {
   w.scratch.fast_bodies.clear();
-  Load<Real>* const loads = w.loads.data();
+  Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
+  const bool sleeping = w.settings.sleeping;
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
-    BodyMotion<Real>& motion = w.motion[body];
-    const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
-                     motion.angular_velocity;
-    if (!(sum - sum == 0)) report_loss(w, body);
-    w.position[body] += motion.moved.template as<double>();
-    record.angle += static_cast<double>(motion.turned);
-    Rotation<Real>& q = w.rotation[body];
-    if (motion.turned != 0) {
-      // One Newton step towards |q| = 1.
-      const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
-      q = {scale * q.c, scale * q.s};
-      if ((w.steps + body) % kRefresh == 0) {
-        const Rotation<double> exact = rotation_of(record.angle);
-        q = {static_cast<Real>(exact.c), static_cast<Real>(exact.s)};
-      }
-    }
+    const BodyMotion<Real>& motion = w.motion[body];
+    move_body(w, body, record, motion);
     if (loads != nullptr) loads[body] = {};
     const Real extent = w.extents[body];
-    time_stillness(w, record, motion, extent, dt);
+    if (sleeping) {
+      time_stillness(record, motion, extent, dt);
+    } else {
+      record.still_for = 0;
+    }
     w.enlarged[body] = 0;
     if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
     const Real turned = std::abs(motion.turned) * extent;
-    bool covered = true;
-    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-      covered = refresh_box(w, shape, dt, turned) && covered;
-    }
-    // Whoever stays within its stored boxes, and has no pair, meets nothing.
     const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
-    const bool alone = covered && record.first_contact == kNone;
-    if (way > Real(tuning::kFastShare) * record.half_width && !alone)
-      w.scratch.fast_bodies.push_back({body, covered});
+    if (way > Real(tuning::kFastShare) * record.half_width) {
+      bool covered = true;
+      for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+        covered = refresh_box(w, shape, dt, turned) && covered;
+      }
+      // Whoever stays within its stored boxes, and has no pair, meets nothing.
+      const bool alone = covered && record.first_contact == kNone;
+      if (!alone) w.scratch.fast_bodies.push_back({body, covered});
+    } else {
+      const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
+      for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+        w.boxes[shape] = convex_bounds(w.convex(shape), pose);
+        store_box(w, shape, dt);
+      }
+    }
   }
   w.moving_tree.rebuild();
 }

@@ -61,14 +61,39 @@ void fly(WorldData<Real>& w, int body, double dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
+// Whether gravity alone moves a body in free flight.
+template <class Real>
+bool falls_only(const BodyRecord<Real>& record) {
+  return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
+}
+
+// The same for a body that only gravity moves, by `gain` of its velocity.
+template <class Real>
+void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const Vec2<Real> before = motion.velocity;
+  motion.velocity += gain;
+  motion.moved = (Real(0.5) * dt) * (before + motion.velocity);
+  motion.turned = Real(0.5) * dt * (motion.angular_velocity + motion.angular_velocity);
+  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+}
+
 }  // namespace
 
 template <class Real>
 void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight) {
   w.scratch.kicks.clear();
+  const double dt = h * substeps;
+  const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
+  const bool loaded = w.loads.used();
   for (const int body : w.awake) {
-    if (flight == FreeFlight::Exact && w.bodies[body].constraints == 0) {
-      fly(w, body, h * substeps);
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (flight == FreeFlight::Exact && record.constraints == 0) {
+      if (!loaded && falls_only(record)) {
+        fall(w, body, gain, static_cast<Real>(dt));
+      } else {
+        fly(w, body, dt);
+      }
       continue;
     }
     w.motion[body].moved = {}, w.motion[body].turned = 0;

@@ -32,9 +32,11 @@ struct MakeOutline {
 // The shape's corners in the frame of its body's centre of mass, and what follows from them.
 template <class Real>
 int insert(WorldData<Real>& w, int body, const Corners& corners, int count, const ShapeForm<Real>& form_like,
-           const ShapeRecord<Real>& record_like) {
+           const ShapeRecord<Real>& record_like, std::uint64_t user_data) {
   const int shape = w.shapes.add(record_like);
   make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
+  w.shape_data.renew(shape, w.shapes.size());
+  if (user_data != 0) w.shape_data.at(shape, w.shapes.size()) = user_data;
   ShapeForm<Real>& form = w.forms[shape];
   form = form_like;
   const Corners local = translated(corners, -w.bodies[body].centre.template as<double>());
@@ -94,11 +96,11 @@ int insert_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition
   ShapeRecord<Real> record;
   put_material(record, definition.material);
   record.filter = definition.filter;
-  record.density = definition.density;
+  record.density = static_cast<Real>(definition.density);
   record.hit_events = definition.hit_events, record.pre_solve = definition.pre_solve;
-  record.user_data = definition.user_data;
   w.reports_hits = w.reports_hits || definition.hit_events;
-  const int shape = insert(w, body, corners, static_cast<int>(corners.size()), form, record);
+  const int shape =
+      insert(w, body, corners, static_cast<int>(corners.size()), form, record, definition.user_data);
   if (definition.sensor) w.sensors.push_back({shape, {}});
   return shape;
 }
@@ -109,7 +111,7 @@ void take_out_shape(WorldData<Real>& w, int shape) {
   destroy_contacts_of(w, record.body, shape);
   if (record.proxy != kNone) leave_tree(w, shape);
   const ShapeForm<Real>& form = w.forms[shape];
-  w.corners.remove(form.corner, form.count + (form.chain ? 2 : 0));
+  w.corners.remove(form.corner, form.stored());
   if (is_sensor(w, shape)) {
     std::erase_if(w.sensors, [&](const SensorRecord& sensor) { return sensor.shape == shape; });
   }
@@ -175,10 +177,9 @@ int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition) {
     ShapeRecord<Real> record;
     put_material(record, definition.material);
     record.filter = definition.filter;
-    record.user_data = definition.user_data;
     record.chain = chain;
     // Four corners are stored, two of them are the segment's.
-    const int shape = insert(w, body, corners, 2, form, record);
+    const int shape = insert(w, body, corners, 2, form, record, definition.user_data);
     w.chains[chain].shapes.push_back(shape);
   }
   update_mass(w, body);

@@ -151,6 +151,14 @@ void add_pairs(WorldData<Real>& w) {
       [&](int, const ContactRecord& contact) { w.pairs.insert(contact.shape_a, contact.shape_b); });
 }
 
+template <class Real>
+void share_corners(WorldData<Real>& w) {
+  w.shapes.for_each([&](int shape, const ShapeRecord<Real>&) {
+    const ShapeForm<Real>& form = w.forms[shape];
+    ByteReader::require(w.corners.count_use(form.corner, form.stored()), "corners", "are stored twice");
+  });
+}
+
 }  // namespace
 
 template <class Real>
@@ -183,6 +191,7 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   check_state(fresh);
   fresh.graph.find_bodies([&](int body) { return fresh.gives_way(body); });
   add_pairs(fresh);
+  share_corners(fresh);
   // Nothing throws from here on. The hook and the room for a step's work stay.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {

@@ -127,7 +127,9 @@ class Check {
                 is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
-    require(w_.forms.size() == shapes && w_.boxes.size() == shapes, "shapes", "are not as many everywhere");
+    const std::size_t data = std::get<0>(w_.shape_data.parts()).size();
+    require(w_.forms.size() == shapes && w_.boxes.size() == shapes && (data == 0 || data == shapes), "shapes",
+            "are not as many everywhere");
   }
 
   // Each belongs to one body.
@@ -155,10 +157,11 @@ class Check {
     require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
   }
 
-  // Every corner belongs to one shape or to one free run.
+  // Every corner belongs to one run, and every run to shapes of as many corners or to the free ones.
   void corners() const {
     const auto [all, free] = w_.corners.parts();
     Marks taken(static_cast<int>(all.size()));
+    std::vector<int> run_at(all.size() + 1, 0);  // by its first corner: its length
     const auto take = [&](int first, int count) {
       for (int i = 0; i < count; ++i) require(taken.mark(first + i), "corners", "belong to two shapes");
     };
@@ -168,7 +171,9 @@ class Check {
       const bool few = form.count >= 1 && form.count <= kMaxCorners && (!form.chain || form.count == 2);
       require(few && form.corner >= 0 && form.corner <= static_cast<int>(all.size()), "corners",
               "of a shape are not there");
-      take(form.corner, form.count + (form.chain ? 2 : 0));
+      int& run = run_at[form.corner];
+      if (run == 0) take(form.corner, run = form.stored());
+      require(run == form.stored(), "corners", "are shared by unlike shapes");
     }
     for (std::size_t count = 0; count < free.size(); ++count) {
       require(count <= kMaxCorners + 2 || free[count].empty(), "corners", "are free in too long runs");

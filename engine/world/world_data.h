@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory_resource>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,8 @@ struct ShapeForm {
   bool chain = false, sensor = false;
   Real radius = 0;  ///< m, of rounding
   Real extent = 0;  ///< m, half the size of the shape
+  /// Corners in the pool.
+  int stored() const { return count + (chain ? 2 : 0); }
 };
 
 template <class Real>
@@ -81,8 +84,7 @@ struct ShapeRecord {
   bool hit_events = false, pre_solve = false;
   Filter filter{};
   float friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
-  double density = 0;
-  std::uint64_t user_data = 0;
+  Real density = 0;  ///< kg/m^2
 };
 
 enum class ContactHome : std::uint8_t {
@@ -155,10 +157,13 @@ struct LinkBody {
 /// A small island whose constraints are solved all at once.
 template <class Real>
 struct DirectIsland {
-  std::vector<ContactConstraint<Real>*> contacts;
-  std::vector<int> joints;  ///< slots in the joint set
+  explicit DirectIsland(std::pmr::memory_resource* room)
+      : contacts(room), joints(room), system(room), links(room) {}
+
+  std::pmr::vector<ContactConstraint<Real>*> contacts;
+  std::pmr::vector<int> joints;  ///< slots in the joint set
   DirectRows<Real> system;
-  std::vector<LinkBody<Real>> links;
+  std::pmr::vector<LinkBody<Real>> links;
   int root = kNone;    ///< the body that stands for it
   int joint_rows = 0;  ///< of the system; those of contacts follow
   bool jerks = false;  ///< gaps are too wide for velocities to close them
@@ -175,6 +180,8 @@ struct Scratch {
   std::vector<int> island_of, island_size, island_place;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
+  /// What small islands are made of: what one of them gives up when it grows, another one takes.
+  std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
   bool may_bounce = false;  ///< some contact of the graph has restitution
@@ -210,6 +217,7 @@ struct WorldData {
   std::vector<ShapeForm<Real>> forms;
   std::vector<Aabb<Real>> boxes;  ///< tight
   CornerPool<Real> corners;
+  UsedList<std::uint64_t> shape_data;  ///< the user's
   Slots<ChainRecord> chains;
   std::vector<int> moved_shapes;
   DynamicTree<Real> still_tree, moving_tree;  ///< static; kinematic and dynamic

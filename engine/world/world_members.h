@@ -29,7 +29,7 @@ PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, invers
 
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
 PLUMB_REAL_MEMBERS(ShapeRecord, body, next, proxy, chain, moved, hit_events, pre_solve, filter, friction,
-                   restitution, rolling_resistance, surface_speed, density, user_data)
+                   restitution, rolling_resistance, surface_speed, density)
 PLUMB_MEMBERS(ChainRecord, body, shapes)
 PLUMB_MEMBERS(SensorRecord, shape, visitors)
 
@@ -55,13 +55,13 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes, still_tree,
-         moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable, events,
-         pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
+         extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains, moved_shapes,
+         still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable,
+         events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, extents, enlarged, awake, shapes, forms, boxes, corners, chains, moved_shapes,
-                  still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors,
-                  breakable, events, pending, reports_hits);
+                  position, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
+                  moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
+                  joint_set, sensors, breakable, events, pending, reports_hits);
 }
 
 }  // namespace plumb

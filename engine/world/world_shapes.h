@@ -35,7 +35,7 @@ BodyId BasicWorld<Real>::body(ShapeId shape) const {
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(ShapeId shape) const {
-  return data_->shapes[place(shape)].user_data;
+  return data_->shape_data.get(place(shape));
 }
 template <class Real>
 Material BasicWorld<Real>::material(ShapeId shape) const {

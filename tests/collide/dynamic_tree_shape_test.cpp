@@ -84,7 +84,7 @@ void expect_low(const Boxes<Real>& boxes, double times) {
     const Aabb<Real> grown = tree.box(i).grown(Real(0.25));
     tree.enlarge(i, grown);
   }
-  EXPECT_GT(tree.rebuild(), 0);
+  tree.rebuild();
   EXPECT_TRUE(tree.valid());
   EXPECT_LE(tree.height(), 2 * least) << "enlarged and rebuilt";
   while (tree.size() > 1) tree.remove(tree.size() - 1);
@@ -204,8 +204,33 @@ TYPED_TEST(DynamicTreeShape, StaysGoodInLongMotion) {
     rebuilds += tree.rebuild() > 0;
   }
   EXPECT_TRUE(tree.valid());
-  EXPECT_GE(rebuilds, 75);
+  EXPECT_GE(rebuilds, 7);
   EXPECT_LT(tree.cost(), 1.15 * tree_of(boxes).cost());
+}
+
+// What moves together keeps its neighbours: its boxes are made exact where they are, and no leaf changes its
+// place. The tree is as good as a new one, as its boxes are those of the start, carried along.
+TYPED_TEST(DynamicTreeShape, MovesAlongWithoutBuilding) {
+  using Real = TypeParam;
+  constexpr int kBoxes = 2000, kSteps = 64;
+  Boxes<Real> boxes = scattered<Real>(kBoxes);
+  DynamicTree<Real> tree = tree_of(boxes);
+  tree.rebuild_all();
+  const double cost = tree.cost();
+  const std::vector<int> before = order(tree);
+  for (int step = 0; step < kSteps; ++step) {
+    for (int i = 0; i < kBoxes; ++i) {
+      const Vec2<Real> by{Real(0.25), Real(-0.5)};
+      boxes[i] = {boxes[i].lower + by, boxes[i].upper + by};
+      tree.enlarge(i, boxes[i]);
+    }
+    EXPECT_EQ(tree.rebuild(), 0) << step;
+  }
+  EXPECT_TRUE(tree.valid());
+  EXPECT_EQ(order(tree), before);
+  // Inner boxes are exact. Sides of up to 64 m were rounded 64 times: by half a unit of 64 epsilon at most.
+  const double rounding = 64.0 * kSteps * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  EXPECT_NEAR(tree.cost(), cost, rounding * cost);
 }
 
 // A leaf that goes to the other end of the world must not take the boxes above it along.
@@ -303,7 +328,7 @@ TEST(DynamicTreeBits, OneHistoryGivesOneTree) {
                [&](int user, int) { return add(static_cast<std::uint64_t>(user)), true; });
   }
   for (const std::byte each : bytes_of(tree)) add(static_cast<std::uint64_t>(each));
-  EXPECT_EQ(hash, 7116424426945940420u);
+  EXPECT_EQ(hash, 14849480604048718292u);
 }
 
 // Any single byte changed: refused, or a tree that holds together. Cut off anywhere: refused. What refuses

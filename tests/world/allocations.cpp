@@ -4,15 +4,24 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
+
 namespace {
 
-std::atomic<long> count{0};
+std::atomic<long> count{0}, bytes{0};
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++count;
   const std::size_t room = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, room > 0 ? room : alignment)) return memory;
-  throw std::bad_alloc();
+  void* memory = std::aligned_alloc(alignment, room > 0 ? room : alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  bytes += static_cast<long>(malloc_usable_size(memory));
+  return memory;
+}
+
+void give_back(void* memory) {
+  if (memory != nullptr) bytes -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
 }
 
 constexpr std::size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
@@ -22,6 +31,7 @@ constexpr std::size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 namespace plumb::test {
 
 long allocations() { return count; }
+long live_bytes() { return bytes; }
 
 }  // namespace plumb::test
 
@@ -34,15 +44,15 @@ long allocations() { return count; }
 [[gnu::noinline]] void* operator new[](std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::align_val_t) noexcept { give_back(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 [[gnu::noinline]] void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/world/allocations.h"
+#include "tests/world/support.h"
+
+namespace plumb {
+namespace {
+
+// A drum of 24 segments in which a bar turns: islands join and part all the time.
+World make_stirred(int count) {
+  World world({.sleeping = false});
+  const BodyId drum = world.create_body({.type = BodyType::Static});
+  const auto point = [](int i) {
+    const double angle = 2 * std::numbers::pi * i / 24;
+    return Vec2d{6 * std::cos(angle), 6 * std::sin(angle)};
+  };
+  for (int i = 0; i < 24; ++i) world.create_shape(drum, {.geometry = Segment{point(i), point(i + 1)}});
+  world.create_body({.type = BodyType::Kinematic, .angular_velocity = 1.5},
+                    ShapeDefinition{.geometry = Box{10.4, 0.3}});
+  const ShapeGeometry kinds[] = {Box{0.4, 0.4}, Circle{0.2}, Capsule{{-0.1, 0}, {0.1, 0}, 0.15}};
+  for (int i = 0; i < count; ++i) {
+    const double column = i % 15, row = i / 15;
+    world.create_body({.position = {-3.5 + 0.5 * column, 0.5 + 0.45 * row}},
+                      ShapeDefinition{.geometry = kinds[i % 3], .material = {.restitution = 0.2}});
+  }
+  return world;
+}
+
+// Where islands come and go without end, something may still become more than ever before, a time or two.
+// Each island with room of its own asked for it 11 times here.
+TEST(Churn, StepsHardlyEverAllocateOnceWarm) {
+  World world = make_stirred(120);
+  run(world, 3000);
+  int begun = 0;
+  const long before = test::allocations();
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    begun += static_cast<int>(world.events().begin.size());
+  }
+  EXPECT_LE(test::allocations() - before, 3);
+  EXPECT_GT(begun, 600) << "otherwise nothing is stirred";
+}
+
+}  // namespace
+}  // namespace plumb
