@@ -39,11 +39,13 @@ void read_version(const Fields& fields) {
 }
 
 ContactRules read_contact_rules(const View& view) {
-  const Fields fields(view, "contact_rules", {"friction", "restitution", "restitution_threshold"});
+  const Fields fields(view, "contact_rules",
+                      {"friction", "restitution", "restitution_threshold", "simultaneous"});
   ContactRules rules;
   fields.read("friction", rules.friction, kCombineNames);
   fields.read("restitution", rules.restitution, kCombineNames);
   fields.read("restitution_threshold", rules.restitution_threshold);
+  fields.read("simultaneous", rules.simultaneous, kSimultaneousNames);
   return rules;
 }
 

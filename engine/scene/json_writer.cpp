@@ -61,6 +61,9 @@ class Writer {
     write("friction", rules.friction, kCombineNames);
     write("restitution", rules.restitution, kCombineNames);
     write("restitution_threshold", rules.restitution_threshold);
+    // Written where it is chosen: the hashes of scenes from before there was a choice stay as they are.
+    if (rules.simultaneous != Simultaneous::Sequence)
+      write("simultaneous", rules.simultaneous, kSimultaneousNames);
     out_.end('}');
   }
 

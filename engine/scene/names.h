@@ -9,6 +9,7 @@ namespace plumb {
 inline constexpr std::array<std::string_view, 3> kBodyTypeNames{"static", "kinematic", "dynamic"};
 inline constexpr std::array<std::string_view, 5> kCombineNames{"geometric_mean", "product", "maximum",
                                                                "minimum", "average"};
+inline constexpr std::array<std::string_view, 2> kSimultaneousNames{"sequence", "together"};
 inline constexpr std::array<std::string_view, 2> kFrameNames{"world", "body"};
 inline constexpr std::array<std::string_view, 2> kGeometryNames{"circle", "box"};
 inline constexpr std::array<std::string_view, 2> kJointNames{"revolute", "distance"};

@@ -172,10 +172,17 @@ std::array<std::string_view, 2> ends_of(const ForceLaw& law);
 /// How two shapes' coefficients become a contact's.
 enum class Combine { GeometricMean, Product, Maximum, Minimum, Average };
 
+/// How impacts at the same instant are resolved, by engines that have a choice.
+enum class Simultaneous {
+  Sequence,  ///< pair by pair, the fastest first, until none closes: a blow goes through a row of balls
+  Together,  ///< all at once, as one complementarity problem: nothing closes, and no order matters
+};
+
 struct ContactRules {
   Combine friction = Combine::GeometricMean;
   Combine restitution = Combine::Maximum;
   double restitution_threshold = 0;  ///< m/s; slower impacts do not bounce
+  Simultaneous simultaneous = Simultaneous::Sequence;
   friend bool operator==(const ContactRules&, const ContactRules&) = default;
 };
 

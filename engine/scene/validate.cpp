@@ -154,6 +154,7 @@ class Checker {
     member("contact_rules.restitution", scene_.contact_rules.restitution, kCombineNames);
     number("contact_rules.restitution_threshold", scene_.contact_rules.restitution_threshold,
            Range::NonNegative, "m/s");
+    member("contact_rules.simultaneous", scene_.contact_rules.simultaneous, kSimultaneousNames);
   }
 
   void check_body(const Body& body) {

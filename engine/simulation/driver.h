@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,25 @@
 #include "engine/simulation/plan.h"
 
 namespace plumb {
+
+/// What happens to contacts in Precise.
+enum class ContactEvent {
+  Impact,      ///< shapes that met got an impulse
+  Rest,        ///< bouncing that piles up ended; the last time is that of its limit
+  Hold,        ///< a contact that lasts began
+  Separation,  ///< the force of a lasting contact fell to zero
+  SlipStart,   ///< what stuck or rolled began to slip
+  SlipEnd,     ///< slip came to an end: it sticks, rolls, or slips back
+  Change,      ///< a contact went over to another corner or edge
+  Paradox,     ///< no force could hold a slipping contact (Painleve): an impulse ended its slip
+};
+inline constexpr std::size_t kContactEvents = 8;
+
+/// How often, and when last.
+struct EventCount {
+  std::int64_t count = 0;
+  double last = 0;  ///< s
+};
 
 /// What a run did so far.
 struct Statistics {
@@ -20,6 +40,9 @@ struct Statistics {
   std::int64_t leaps = 0;        ///< Precise: steps carried over a singular place of a mechanism
   std::int64_t redundant_joints =
       0;  ///< Precise: joints with rows that follow from others, named in the plan
+  std::array<EventCount, kContactEvents> contacts{};  ///< Precise: by `ContactEvent`
+
+  const EventCount& of(ContactEvent event) const { return contacts[static_cast<std::size_t>(event)]; }
 };
 
 /// A way of moving compiled bodies forward in time. One virtual call a step, none a body.

@@ -48,6 +48,8 @@ Statistics PreciseDriver::statistics() const {
   all.implicit = smooth_.implicit_steps();
   all.leaps = smooth_.leaps();
   all.redundant_joints = static_cast<std::int64_t>(smooth_.redundant_joints().size());
+  all.contacts = contacts_.events();
+  all.impacts = contacts_.impacts();
   return all;
 }
 
@@ -94,7 +96,7 @@ std::vector<std::byte> PreciseDriver::save() const {
   out.put(grid_steps_);
   out.put(std::int64_t{joints_closed_});
   out.put(statistics_.steps);
-  out.put(statistics_.impacts);
+  contacts_.save(out);
   smooth_.save(time_, out);
   out.put(equations_.evaluations());
   for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
@@ -118,7 +120,7 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   joints_closed_ = in.get<std::int64_t>() != 0;
   statistics_ = {};
   statistics_.steps = in.get<std::int64_t>();
-  statistics_.impacts = in.get<std::int64_t>();
+  contacts_.restore(in);
   smooth_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();

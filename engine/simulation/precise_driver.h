@@ -11,8 +11,8 @@
 #include "engine/scene/scene.h"
 #include "engine/simulation/accuracy.h"
 #include "engine/simulation/driver.h"
+#include "engine/simulation/precise_contacts.h"
 #include "engine/simulation/precise_flight.h"
-#include "engine/simulation/precise_impacts.h"
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_plan.h"
@@ -42,15 +42,10 @@ class PreciseDriver final : public Driver {
   // What a step is made of, in this order.
   void close_joints();
   void go_on(double end);
-  void resolve_impacts();
-  void stop_at_impact(double next);
   void arrive();
 
   // What those are made of.
-  void motions(double time, std::span<const double> y, std::span<const double> rate,
-               std::span<Motion> out) const;
   void name_redundant_joints();
-  void strike(const Impact& impact);
   std::size_t slot_of(std::size_t body) const;
   void take(std::span<const std::byte> snapshot);
   void check_finite();
@@ -66,9 +61,7 @@ class PreciseDriver final : public Driver {
   mutable SmoothMotion smooth_;  // its polynomial is made when somebody reads
   mutable Compensated sample_;   // of the integrated bodies at sampled_, where that is within the last step
   mutable double sampled_ = -1;  // s
-  Impacts impacts_;
-  std::vector<Motion> start_, end_;  // by body, of those with discs
-  std::vector<Twist<double>> normal_response_, tangent_response_;
+  Contacts contacts_;
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 
@@ -76,7 +69,8 @@ class PreciseDriver final : public Driver {
   std::int64_t grid_steps_ = 0;
   bool joints_closed_ = false;
   Statistics statistics_{};
-  int impacts_in_step_ = 0, steps_in_step_ = 0;
+  int steps_in_step_ = 0;
+  std::int64_t impacts_before_ = 0;  // when the step began
   bool profiling_ = false;
   std::array<double, kStageCount> cost_{};
 };

@@ -1,91 +1,62 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
+#include <cstdint>
+#include <functional>
 #include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
-#include "engine/integrate/bernstein.h"
-#include "engine/joints/row.h"
-#include "engine/scene/scene.h"
-#include "engine/simulation/precise_parts.h"
+#include "engine/simulation/precise_motion.h"
+#include "engine/simulation/precise_touch.h"
+#include "engine/solve/coulomb.h"
 
 namespace plumb::precise {
 
-/// Two discs that meet.
-struct Impact {
-  std::size_t disc_a = 0, disc_b = 0;
-  double time = 0;      ///< s
-  double distance = 0;  ///< m, of the centres when they meet
+/// The Coulomb problem of touches' points: normals first, then one tangent a touch.
+struct TouchProblem {
+  std::vector<std::size_t> touch_of, index_of;  ///< by point: which touch, and which of its points
+  std::vector<std::size_t> touches;             ///< by patch
+  ContactResponse response;
+  CoulombProblem problem;  ///< response filled; rates are the caller's to fill
+
+  /// Of the points that `take` chooses.
+  static TouchProblem of(std::span<const Touch> touches, const std::function<bool(std::size_t, int)>& take,
+                         EquationsOfMotion& equations, double time, std::span<const double> y);
 };
 
-/// A pair as it is at one time.
-struct Encounter {
-  Vec2d normal{};    ///< from disc a to disc b
-  double gap = 0;    ///< m, distance less the sum of the radii
-  double speed = 0;  ///< m/s, of the gap: negative when the discs approach
-  double noise = 0;  ///< m, what rounding can make of the gap
-  double quiet = 0;  ///< m/s, what rounding can make of the speed
-};
-
-/// Finds impacts between circles, in time. Motions are given by body of the scene; those of bodies without
-/// discs are not looked at.
-class Impacts {
+/// Impacts at an instant: Newton's restitution and Coulomb's friction for impulses. For a touch with gap
+/// rates u before and u' after,
+///   u' >= -e u where it closes, u' >= 0 else;  impulses push, and only where equality holds;
+///   tangential impulses oppose the slip that is left, or stop it within Coulomb's cone.
+/// Two corners of one shape on an edge of another are one problem. Several touches at once are a sequence,
+/// the fastest first, until none closes, or one problem (`ContactRules::simultaneous`).
+class ImpactLaw {
  public:
-  Impacts(const Scene& scene, Parts parts);
+  ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
+      : finder_(finder), equations_(equations) {}
 
-  bool empty() const { return discs_.empty(); }
-  std::span<const Disc> discs() const { return discs_; }
+  /// Restitution by touch and point; the caller may have set it to zero where bouncing ends.
+  using Restitution = std::function<double(const Touch& touch, int point)>;
 
-  /// The pair that touches and approaches fastest; nothing when none does.
-  std::optional<Impact> touching(double time, std::span<const Motion> motions);
+  /// Resolves what closes. `states` are by body of the scene, of everything that has outlines; their
+  /// velocities change with `y`. Returns how many impacts there were; throws `Error` (Run) where nothing can
+  /// give way.
+  std::int64_t resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y,
+                       const Restitution& restitution);
 
-  /// The first pair that comes together between two times. Between them a disc's centre is taken to follow
-  /// the polynomial of degree 5 that has its position, velocity and acceleration at both ends: exact in free
-  /// flight.
-  std::optional<Impact> first(double start, double end, std::span<const Motion> at_start,
-                              std::span<const Motion> at_end);
-
-  /// The pair of `impact` in the given motions.
-  Encounter encounter(const Impact& impact, std::span<const Motion> motions) const;
-
-  /// How long a step may be for the polynomials to follow discs that are off their bodies' centres: a quarter
-  /// of a radian.
-  double longest_step(std::span<const Motion> motions) const;
-
-  /// The impact's rows for a unit impulse along the normal and along the tangent (a quarter turn on).
-  struct Directions {
-    Row<double> normal, tangent;
-  };
-  Directions directions(const Impact& impact, std::span<const Motion> motions) const;
-
-  /// The impulses along normal and tangent by Newton's restitution and Coulomb's friction, N s. `nn`, `nt`
-  /// and `tt` are the velocities in one direction by a unit impulse in another; `slip` the velocity along the
-  /// tangent.
-  struct Impulse {
-    double normal = 0, tangent = 0;
-  };
-  Impulse impulse(const Impact& impact, double speed, double slip, double nn, double nt, double tt) const;
+  /// Painleve's paradox: a slipping touch that no finite force holds. An impulse stops its slip while it
+  /// presses on, then sticks (or slips back) until the gap's rate is zero again. Returns whether one was
+  /// found.
+  bool jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y);
 
  private:
-  static constexpr std::size_t kControls = 6;
-  using Path = std::array<Vec2d, kControls>;  // Bernstein coefficients of a centre's way
+  void strike(double time, std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+              const Restitution& restitution);
+  void apply(const ContactResponse& response, std::span<const double> impulses, std::span<Touch> touches,
+             std::span<BodyState> states, Compensated& y);
 
-  void find_pairs(std::span<const Path> paths);
-  void follow(std::span<const Motion> at_start, std::span<const Motion> at_end, double duration);
-
-  Scene rules_;  // names, types and contact rules
-  Parts parts_;
-  std::vector<Disc> discs_;
-  // Work space, by disc.
-  std::vector<Path> paths_;
-  struct Extent {
-    double left = 0, right = 0, bottom = 0, top = 0;
-    std::size_t disc = 0;
-  };
-  std::vector<Extent> extents_;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  const TouchFinder& finder_;
+  EquationsOfMotion& equations_;
 };
 
 }  // namespace plumb::precise

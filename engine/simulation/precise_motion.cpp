@@ -95,6 +95,7 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       has_forces_(!forces_.empty() || every_stage),
       has_joints_(!rows_.empty() || every_stage),
       length_(scales_of(scene, parts).length) {
+  for (const Body& body : scene.bodies) names_.push_back(body.name);
   double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
   for (const Row<double>& row : rows_) {
     for (const int body : {row.a, row.b}) {
@@ -216,6 +217,7 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
     solve_joints();
     pull(accelerations_);
   }
+  if (!patches_.empty()) press(accelerations_);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& acceleration = accelerations_[bodies_[slot]];
     const double* motion = y.data() + kPerBody * slot;
@@ -228,12 +230,22 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
 }
 
 void EquationsOfMotion::project(double time, Compensated& y) {
-  if (!has_joints_) return;
+  if (!has_joints_ && patches_.empty()) return;
   close_gaps(time, y);
   // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
-  system_.factor(rows_);
-  speed_response(y.value(), accelerations_);
-  kick(accelerations_, 1, y);
+  std::vector<Twist<double>>& shift = accelerations_;
+  std::fill(shift.begin(), shift.end(), Twist<double>{});
+  if (has_joints_) {
+    system_.factor(rows_);
+    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
+    solve_joints();
+    pull(shift);
+  }
+  if (!patches_.empty()) {
+    linearise_contacts(false);
+    close_contacts(twists_, false, shift);
+  }
+  kick(shift, 1, y);
 }
 
 void EquationsOfMotion::hold(double time, std::span<const double> y) {
@@ -278,26 +290,26 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     place(time, y.value());
-    joints_.rows(poses_, twists_, rows_);
-    double gap = 0;
-    std::size_t worst = 0;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (std::abs(rows_[r].residual) <= gap) continue;
-      gap = std::abs(rows_[r].residual);
-      worst = r;
-    }
-    const bool stuck = gap > 0.5 * before || i == kMost;
-    if (gap <= rounding_of_gaps() || (stuck && gap <= kOpen * length_)) return;
-    if (i == kMost || !std::isfinite(gap)) {
-      throw Error(Error::Kind::Run, "joint '" + joint_of_row_[worst] + "'", "gap", shortest(gap) + " m",
+    if (has_joints_) joints_.rows(poses_, twists_, rows_);
+    const WorstGap worst = worst_gap();
+    const bool stuck = worst.gap > 0.5 * before || i == kMost;
+    if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;
+    if (i == kMost || !std::isfinite(worst.gap)) {
+      throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",
                   "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
     }
-    before = gap;
-    system_.factor(rows_);
-    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
-    solve_joints();
+    before = worst.gap;
     std::fill(shift.begin(), shift.end(), Twist<double>{});
-    pull(shift);
+    if (has_joints_) {
+      system_.factor(rows_);
+      for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
+      solve_joints();
+      pull(shift);
+    }
+    if (!patches_.empty()) {
+      linearise_contacts(false);
+      close_contacts(twists_, true, shift);
+    }
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
       const Twist<double>& s = shift[bodies_[slot]];
       y.add(kPerBody * slot, s.velocity.x);
@@ -305,6 +317,28 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
       y.add(kPerBody * slot + 2, s.angular_velocity);
     }
   }
+}
+
+/// The widest gap of a joint, or of a contact that lasts, where bodies are placed.
+EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
+  WorstGap worst;
+  const auto offer = [&](double gap, const auto& subject) {
+    if (std::abs(gap) <= worst.gap) return;
+    worst.gap = std::abs(gap);
+    worst.subject = subject();
+  };
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    offer(rows_[r].residual, [&] { return "joint '" + joint_of_row_[r] + "'"; });
+  }
+  for (const ActivePatch& patch : patches_) {
+    for (int i = 0; i < patch.count; ++i) {
+      const Gap gap =
+          gap_of(patch.features[i], *patch.a, poses_[patch.a->body], *patch.b, poses_[patch.b->body]);
+      offer(gap.value,
+            [&] { return "contact of '" + names_[patch.a->body] + "' and '" + names_[patch.b->body] + "'"; });
+    }
+  }
+  return worst;
 }
 
 /// What gaps cannot be less than: the rounding of the positions that they are differences of.
@@ -323,22 +357,6 @@ void EquationsOfMotion::kick(std::span<const Twist<double>> response, double sca
     y.add(kPerBody * slot + 4, scale * change.velocity.y);
     y.add(kPerBody * slot + 5, scale * change.angular_velocity);
   }
-}
-
-void EquationsOfMotion::respond(double time, std::span<const double> y, const Row<double>& contact,
-                                std::span<Twist<double>> response) {
-  std::fill(response.begin(), response.end(), Twist<double>{});
-  response[contact.a] = {inverse_mass_[contact.a] * contact.linear_a,
-                         inverse_inertia_[contact.a] * contact.angular_a};
-  response[contact.b] = {inverse_mass_[contact.b] * contact.linear_b,
-                         inverse_inertia_[contact.b] * contact.angular_b};
-  if (!has_joints_) return;
-  // Joints push back so that the anchors' velocities stay as they are: J dv = 0.
-  place(time, y);
-  linearise();
-  for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], response);
-  solve_joints();
-  pull(response);
 }
 
 }  // namespace plumb::precise

@@ -10,8 +10,10 @@
 #include "engine/integrate/flow.h"
 #include "engine/joints/joints.h"
 #include "engine/scene/scene.h"
+#include "engine/simulation/precise_active.h"
 #include "engine/simulation/precise_flight.h"
 #include "engine/simulation/precise_parts.h"
+#include "engine/solve/dense_system.h"
 #include "engine/solve/joint_system.h"
 
 namespace plumb::precise {
@@ -19,7 +21,8 @@ namespace plumb::precise {
 /// The equations of motion of the integrated bodies, in maximal coordinates: y holds position, angle,
 /// velocity and angular velocity of each, six numbers a body. Joints act through the accelerations that they
 /// allow,
-///   M a = F + J^T lambda,   J a + (dJ/dt) v = 0.
+///   M a = F + J^T lambda,   J a + (dJ/dt) v = 0,
+/// and so do contacts that last.
 class EquationsOfMotion final : public Flow {
  public:
   static constexpr std::size_t kPerBody = 6;
@@ -37,8 +40,9 @@ class EquationsOfMotion final : public Flow {
   std::int64_t evaluations() const { return evaluations_; }
   void set_evaluations(std::int64_t count) { evaluations_ = count; }
 
-  /// Moves positions and angles by the least mass-weighted amount that closes all joints, to rounding; then
-  /// velocities likewise until they keep them closed. Throws `Error` (Run) where joints cannot be closed.
+  /// Moves positions and angles by the least mass-weighted amount that closes all joints and held contacts,
+  /// to rounding; then velocities likewise until they keep them so, and what sticks from slipping. Throws
+  /// `Error` (Run) where gaps cannot be closed.
   void project(double time, Compensated& y);
 
   /// The parts of `rate` and `project`, for methods that hold joints in their own way; arrays by body.
@@ -62,10 +66,24 @@ class EquationsOfMotion final : public Flow {
   /// their own.
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
 
-  /// The change of every integrated body's motion, and of the bodies of `contact`, by a unit impulse along
-  /// that row, joints included; indexed by body. `y` is the state at `time`.
-  void respond(double time, std::span<const double> y, const Row<double>& contact,
-               std::span<Twist<double>> response);
+  /// Contacts that last from now on: they are held as joints are, by accelerations and by `project`.
+  void hold_contacts(std::vector<ActivePatch> patches);
+  std::span<const ActivePatch> held() const { return patches_; }
+
+  /// The forces of the contacts that are held, at a state. Counts as one evaluation.
+  const ContactForces& contact_forces(double time, std::span<const double> y);
+
+  /// What unit impulses along `rows` change at the state `y`, joints included; `matrix`, row after row, the
+  /// change of each row's rate by each impulse.
+  void respond(double time, std::span<const double> y, std::vector<Row<double>> rows,
+               ContactResponse& response, std::vector<double>& matrix);
+
+  /// Adds the impulses along the rows of `response` to the velocities in `y`.
+  void push(const ContactResponse& response, std::span<const double> impulses, Compensated& y) const;
+
+  /// By body of the scene, as if no contact lasted; valid until the next call of anything. Zero for what is
+  /// not integrated.
+  std::span<const Twist<double>> accelerations_without_contacts(double time, std::span<const double> y);
 
   /// Adds `scale` times `response` to the velocities in `y`.
   void kick(std::span<const Twist<double>> response, double scale, Compensated& y) const;
@@ -82,6 +100,7 @@ class EquationsOfMotion final : public Flow {
   std::span<const Row<double>> rows() const { return rows_; }
   std::span<const double> multipliers() const { return multipliers_; }
   const Joints<double>& joints() const { return joints_; }
+  const std::string& name(std::size_t body) const { return names_[body]; }
   static BodyState state(std::span<const double> y, std::size_t slot);
   static void set_state(Compensated& y, std::size_t slot, const BodyState& state);
 
@@ -96,9 +115,24 @@ class EquationsOfMotion final : public Flow {
   void place(double time, std::span<const double> y);
   void linearise();
   void close_gaps(double time, Compensated& y);
+  struct WorstGap {
+    double gap = 0;
+    std::string subject;
+  };
+  WorstGap worst_gap() const;
   void solve_joints();
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
+
+  // Contacts that last (precise_contact_motion.cpp).
+  void find_response(std::vector<Row<double>> rows, ContactResponse& out);
+  double gain(const Row<double>& row, const ContactResponse& response, std::size_t k) const;
+  void add_response(const ContactResponse& response, std::span<const double> impulses,
+                    std::span<Twist<double>> motion) const;
+  void linearise_contacts(bool forces);
+  void solve_contacts(std::span<double> right_side);
+  void press(std::span<Twist<double>> accelerations);
+  void close_contacts(std::span<const Twist<double>> motion, bool gaps, std::span<Twist<double>> shift);
 
   std::vector<std::size_t> bodies_;  // integrated, by slot
   std::vector<std::size_t> guides_;  // not integrated, but with joints or at the end of a law
@@ -106,7 +140,7 @@ class EquationsOfMotion final : public Flow {
   Vec2d gravity_;
   Forces<double> forces_;
   Joints<double> joints_;
-  std::vector<std::string> joint_of_row_;
+  std::vector<std::string> joint_of_row_, names_;
   std::vector<Row<double>> rows_, rows_elsewhere_;
   // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
   // integrated ones alone: joints do not move what flies.
@@ -122,6 +156,14 @@ class EquationsOfMotion final : public Flow {
   double window_start_ = 0, window_end_ = 0;
   double length_ = 1;
   std::int64_t evaluations_ = 0;
+
+  std::vector<ActivePatch> patches_;
+  std::vector<Row<double>> constraints_;  // of active contacts: normals, then tangents of what sticks
+  std::size_t points_ = 0;                // how many normals
+  ContactResponse active_response_;
+  DenseSystem contact_system_;
+  std::vector<double> scale_, contact_side_, scratch_;
+  ContactForces contact_forces_;
 };
 
 }  // namespace plumb::precise

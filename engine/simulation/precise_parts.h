@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/simulation/precise_outline.h"
 
 namespace plumb::precise {
 
@@ -15,20 +16,12 @@ struct Motion {
   double angular_acceleration = 0;  ///< rad/s^2
 };
 
-/// A circle that may touch others.
-struct Disc {
-  std::size_t body = 0;
-  Vec2d offset{};  ///< m, of its centre in the body's frame
-  double radius = 0, friction = 0, restitution = 0;
-  Filter filter{};
-};
-
 /// Who is moved how: what `Precise` derives from the scene before anything is allocated.
 struct Parts {
   std::vector<std::size_t> flying;  ///< bodies on polynomials: static, kinematic, under constant forces alone
-  std::vector<std::size_t>
-      integrated;           ///< dynamic bodies with joints or with forces that depend on the motion
-  std::vector<Disc> discs;  ///< those that have a partner to touch
+  std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
+                                        ///< forces that depend on the motion
+  std::vector<Outline> outlines;        ///< of shapes that have a partner to touch
   std::vector<std::pair<std::size_t, std::size_t>>
       apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
   std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending

@@ -25,31 +25,33 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
       }));
   const std::string some = std::to_string(parts.integrated.size()) + " of " + count(bodies, "body", "bodies");
   const bool integrates = !parts.integrated.empty(), joints = !scene.joints.empty(),
-             discs = !parts.discs.empty();
+             contacts = !parts.outlines.empty();
 
   Plan plan{"precise", std::vector<Stage>(kStageCount)};
   const auto stage = [&](StageIndex index, const char* name, bool active, const std::string& why,
                          const std::string& why_not) {
     plan.stages[index] = {name, active ? why : why_not, active || every_stage, 0};
   };
-  stage(kResolve, "impacts", discs,
-        "circles that touch and approach get Newton's restitution and Coulomb's friction",
-        "no circles may touch");
+  stage(
+      kContacts, "contacts", contacts,
+      "shapes that meet get Newton's restitution and Coulomb's friction; contacts that last are constraints",
+      "no shapes may touch");
   stage(kForces, "forces", laws > 0, count(laws, "force law", "force laws") + " on integrated bodies",
         "no force depends on the motion");
   stage(kJointAccelerations, "joint_accelerations", joints,
         count(scene.joints.size(), "joint is", "joints are") + " held by accelerations, solved directly",
         "no joints");
-  stage(kRungeKutta, "runge_kutta", integrates, some + " under joints or forces that are not constant",
+  stage(kRungeKutta, "runge_kutta", integrates,
+        some + " under joints, forces that are not constant, or with shapes that may touch",
         "every body is in free flight under constant forces");
   stage(kProjection, "projection", joints, "closes joints to rounding after each step", "no joints");
   stage(kPolynomialFlight, "polynomial_flight", !parts.flying.empty(),
         std::to_string(parts.flying.size()) + " of " + count(bodies, "body", "bodies") +
             " at rest or under constant forces: evaluated, not integrated",
         "no body is in free flight");
-  stage(kImpactSearch, "impact_search", discs,
-        count(parts.discs.size(), "circle", "circles") + " may touch: impacts are located in time",
-        "no circles may touch");
+  stage(kContactSearch, "contact_search", contacts,
+        count(parts.outlines.size(), "shape", "shapes") + " may touch: events are located in time",
+        "no shapes may touch");
   return plan;
 }
 

@@ -8,13 +8,13 @@ namespace plumb::precise {
 
 /// The stages in the order in which a step runs them: their places in the plan.
 enum StageIndex : int {
-  kResolve,
+  kContacts,
   kForces,
   kJointAccelerations,
   kRungeKutta,
   kProjection,
   kPolynomialFlight,
-  kImpactSearch,
+  kContactSearch,
   kStageCount,
 };
 

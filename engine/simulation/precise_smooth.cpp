@@ -220,7 +220,7 @@ void SmoothMotion::accept(double end, double error) {
   equations_.forget_rank();
   rate_at_end();
   rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
-  if (method_ == MotionMethod::Automatic) watch_stiffness();
+  if (method_ == MotionMethod::Automatic && equations_.held().empty()) watch_stiffness();
 }
 
 /// Steps are held short by stability alone: go on with the implicit method. They have become so long that the
@@ -370,6 +370,13 @@ void SmoothMotion::restart() {
   polynomial_known_ = rate_known_ = false;
   jumped_ = true;
   implicit_.forget();
+  // The implicit method's Jacobian knows joints and forces, not contacts: while those last, steps are
+  // explicit.
+  if (!equations_.held().empty()) {
+    stiff_ = false;
+  } else if (method_ == MotionMethod::Implicit) {
+    stiff_ = true;
+  }
 }
 
 void SmoothMotion::start_anew() {

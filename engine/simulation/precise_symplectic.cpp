@@ -100,7 +100,7 @@ std::string symplectic_unsupported(const Scene& scene) {
              "= automatic";
     }
   }
-  if (!precise::divide(scene).discs.empty()) {
+  if (!precise::divide(scene).outlines.empty()) {
     return "shapes may touch, and impacts would cut the symplectic method's steps; use method = automatic";
   }
   return {};

@@ -376,7 +376,7 @@ TEST(PrecisePlan, NamesWhatRunsAndWhy) {
   EXPECT_EQ(falling->plan().driver, "precise");
   EXPECT_TRUE(is_active(*falling, "polynomial_flight"));
   for (const char* stage :
-       {"runge_kutta", "joint_accelerations", "projection", "impact_search", "impacts", "forces"}) {
+       {"runge_kutta", "joint_accelerations", "projection", "contact_search", "contacts", "forces"}) {
     EXPECT_FALSE(is_active(*falling, stage)) << stage;
   }
   const auto swinging = make_precise_driver(rods(2), {}, {});

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/joints/row.h"
+#include "engine/simulation/precise_outline.h"
+
+namespace plumb::precise {
+
+/// A contact that lasts: one or two points of the same two shapes, which share their tangent line.
+struct ActivePatch {
+  const Outline* a = nullptr;
+  const Outline* b = nullptr;
+  double friction = 0;
+  int mode = 0;  ///< 0: sticks; +1, -1: slips in this direction, friction acts against it
+  int count = 0;
+  Feature features[2] = {};
+
+  bool sticks() const { return friction > 0 && mode == 0; }
+};
+
+/// Forces of contacts that last, N: normal ones by point, patch after patch; tangential ones by patch, on
+/// body b along the tangent (the normal from a to b turned a quarter counter-clockwise).
+struct ContactForces {
+  std::vector<double> normal, tangent;
+};
+
+/// Rows and what a unit impulse along each of them changes, joints included.
+struct ContactResponse {
+  std::vector<Row<double>> rows;
+  std::vector<Twist<double>> of_a, of_b;  ///< by row: of the row's own bodies
+  std::vector<Twist<double>> all;         ///< row after row, by body; empty where no joints pass anything on
+
+  Twist<double> at(std::size_t row, int body, std::size_t bodies) const {
+    if (body == kFixedFrame) return {};
+    if (!all.empty()) return all[row * bodies + static_cast<std::size_t>(body)];
+    if (rows[row].a == body) return of_a[row];
+    if (rows[row].b == body) return of_b[row];
+    return {};
+  }
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,267 @@
+#include "engine/simulation/precise_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+
+// Deciding at an instant: impacts, then which contacts last.
+namespace plumb::precise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Bouncing ends where what is left of it takes less than this share of the scene's own time (the time in
+/// which its accelerations cross its length), or rises by less than this many roundings of a gap.
+constexpr double kLeftToBounce = 3e-5, kLowestBounce = 32;
+/// Corners that take turns at touching are held where they return within this share of the scene's own time.
+constexpr double kClatter = 1e-7;
+/// Gaps up to this many times the rounding of positions touch.
+constexpr double kTouching = 8;
+constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
+
+double rate_along(const Row<double>& row, std::span<const Twist<double>> motion) {
+  const Twist<double>&a = motion[row.a], &b = motion[row.b];
+  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
+         row.angular_b * b.angular_velocity;
+}
+
+}  // namespace
+
+Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
+                   SmoothMotion& smooth)
+    : flight_(flight),
+      equations_(equations),
+      smooth_(smooth),
+      finder_(scene, parts),
+      law_(finder_, equations),
+      paths_(flight, parts.integrated, scene.bodies.size()),
+      search_(finder_.outlines(), paths_),
+      states_(scene.bodies.size()),
+      sample_(equations.dimension()),
+      rate_(equations.dimension()) {}
+
+void Contacts::count(ContactEvent event, double time, std::int64_t times) {
+  EventCount& e = events_[static_cast<std::size_t>(event)];
+  e.count += times;
+  e.last = time;
+}
+
+void Contacts::look_at_states() {
+  for (const Outline& o : finder_.outlines()) {
+    if (flight_.holds(o.body)) states_[o.body] = flight_.at(o.body, smooth_.time()).state;
+  }
+  for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
+    states_[equations_.bodies()[slot]] = EquationsOfMotion::state(smooth_.state().value(), slot);
+  }
+}
+
+void Contacts::settle() {
+  const double now = smooth_.time();
+  events_at_once_ =
+      now - last_event_ <= 4 * std::numeric_limits<double>::epsilon() * now ? events_at_once_ + 1 : 0;
+  last_event_ = now;
+  if (events_at_once_ > kMostEventsAtOnce)
+    throw Error(Error::Kind::Run, "contacts", "events", std::to_string(kMostEventsAtOnce) + " and more",
+                "they change at one instant without end; Realtime may do");
+  equations_.set_window(now, now);
+  look_at_states();
+  near_ = kTouching * finder_.near(states_);
+  for (int round = 0;; ++round) {
+    std::vector<Touch> touches = finder_.touches(states_, near_);
+    if (round == 0 && touches.empty() && held_.empty()) {  // the motion goes on as it was
+      touching_.clear();
+      settled_ = true;
+      return;
+    }
+    resolve_impacts(touches);
+    if (decide(touches) == Decision::Done) break;
+    if (round == kMostRounds)
+      throw Error(Error::Kind::Run, "contacts", "rounds", std::to_string(round),
+                  "no set of contacts lasts at this instant; Realtime may do");
+    look_at_states();
+  }
+  equations_.project(now, smooth_.change());
+  smooth_.restart();
+  settled_ = true;
+}
+
+bool Contacts::is_held(const Touch& touch, int point) const {
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    if (held_[p] != touch.pair) continue;
+    const ActivePatch& patch = equations_.held()[p];
+    for (int i = 0; i < patch.count; ++i) {
+      if (patch.features[i] == touch.features[point]) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Twist<double>> Contacts::accelerations() {
+  equations_.rate(smooth_.time(), smooth_.state().value(), rate_);
+  std::vector<Twist<double>> result(states_.size());
+  for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
+    const double* rate = rate_.data() + EquationsOfMotion::kPerBody * slot;
+    result[equations_.bodies()[slot]] = {{rate[3], rate[4]}, rate[5]};
+  }
+  return result;
+}
+
+/// How strongly each point is drawn together: its gap's second derivative with the sign turned, under the
+/// contacts that are held; for those themselves under none.
+std::vector<std::array<double, 2>> Contacts::pulls(std::span<const Touch> touches) {
+  std::vector<std::array<double, 2>> result(touches.size());
+  const std::vector<Twist<double>> with = accelerations();
+  const std::span<const Twist<double>> without =
+      equations_.accelerations_without_contacts(smooth_.time(), smooth_.state().value());
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    for (int i = 0; i < touches[t].count; ++i) {
+      const Row<double>& row = touches[t].rows[i].normal;
+      result[t][static_cast<std::size_t>(i)] =
+          -(row.bias_acceleration +
+            (is_held(touches[t], i) ? rate_along(row, without) : rate_along(row, with)));
+    }
+  }
+  return result;
+}
+
+void Contacts::resolve_impacts(std::vector<Touch>& touches) {
+  const bool closes = std::any_of(touches.begin(), touches.end(), [](const Touch& touch) {
+    for (int i = 0; i < touch.count; ++i) {
+      if (touch.closing[i] < -touch.quiet) return true;
+    }
+    return false;
+  });
+  if (!closes) return;
+  const double now = smooth_.time();
+  const std::vector<std::array<double, 2>> pull = pulls(touches);
+  const std::vector<Touch> before = touches;
+  const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
+  double limit = 0;
+  bool ends = false;
+  const auto restitution = [&](const Touch& touch, int point) {
+    const double speed = -touch.closing[point];
+    const double e = speed >= finder_.rules().restitution_threshold ? touch.restitution : 0;
+    if (e == 0 || e == 1) return e;
+    const auto place =
+        std::find_if(before.begin(), before.end(), [&](const Touch& t) { return t.pair == touch.pair; });
+    const double drawn =
+        pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
+    if (!(drawn > 0)) return e;
+    // A bounce takes 2 v / a, the next one e times as long; the series has this limit. Its impulses add up to
+    // what a contact that begins now gives within the same time.
+    const double left = 2 * e * speed / (drawn * (1 - e)), height = e * e * speed * speed / (2 * drawn);
+    if (left > kLeftToBounce * own_time && height > kLowestBounce * near_) return e;
+    ends = true;
+    limit = std::max(limit, now + left);
+    return 0.0;
+  };
+  const std::int64_t impacts = law_.resolve(now, touches, states_, smooth_.change(), restitution);
+  count(ContactEvent::Impact, now, impacts);
+  if (ends) count(ContactEvent::Rest, limit);
+}
+
+/// Which of the points that neither close nor open push, by Coulomb's law for the accelerations.
+Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
+  const double now = smooth_.time();
+  TouchProblem p = TouchProblem::of(
+      touches, [&](std::size_t t, int i) { return std::abs(touches[t].closing[i]) <= touches[t].quiet; },
+      equations_, now, smooth_.state().value());
+  const std::span<const Twist<double>> free =
+      equations_.accelerations_without_contacts(now, smooth_.state().value());
+  const std::size_t n = p.problem.points();
+  for (std::size_t i = 0; i < p.problem.size(); ++i) {
+    const Row<double>& row = p.response.rows[i];
+    p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
+  }
+  for (std::size_t q = 0; q < p.touches.size(); ++q) {
+    const Touch& touch = touches[p.touches[q]];
+    if (std::abs(touch.slip) > touch.quiet) p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
+  }
+  if (n > 0 &&
+      std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
+    p.problem.rate.assign(p.problem.size(), 0.0);  // nothing of it can move
+  const CoulombSolution solution = solve_coulomb(p.problem);
+  if (!solution.solved) {
+    if (!law_.jamb(now, touches, states_, smooth_.change())) {
+      throw Error(Error::Kind::Run, "contacts", "forces", std::to_string(n) + " points",
+                  "no forces obey Coulomb's law here, and no impulse either; Realtime may do");
+    }
+    count(ContactEvent::Paradox, now);
+    return Decision::Again;
+  }
+  if (solution.ambiguous) count(ContactEvent::Paradox, now);
+  activate(touches, p, solution);
+  return end_clatter(touches) ? Decision::Again : Decision::Done;
+}
+
+void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
+                        const CoulombSolution& solution) {
+  std::vector<ActivePatch> patches;
+  const std::vector<OutlinePair> before = held_;
+  held_.clear();
+  force_scale_ = 0;
+  for (std::size_t q = 0; q < p.touches.size(); ++q) {
+    const Touch& touch = touches[p.touches[q]];
+    ActivePatch patch{&finder_.outlines()[touch.pair.a],
+                      &finder_.outlines()[touch.pair.b],
+                      touch.friction,
+                      solution.mode[q],
+                      0,
+                      {}};
+    for (std::size_t i = 0; i < p.problem.points(); ++i) {
+      if (p.touch_of[i] != p.touches[q] || !solution.pushes[i]) continue;
+      patch.features[patch.count++] = touch.features[p.index_of[i]];
+      force_scale_ = std::max(force_scale_, solution.force[i]);
+    }
+    if (patch.count == 0) continue;
+    patches.push_back(patch);
+    held_.push_back(touch.pair);
+    if (!std::binary_search(before.begin(), before.end(), touch.pair))
+      count(ContactEvent::Hold, smooth_.time());
+  }
+  touching_.clear();
+  for (const Touch& touch : touches) {
+    if (!std::binary_search(held_.begin(), held_.end(), touch.pair)) touching_.push_back(touch.pair);
+  }
+  equations_.hold_contacts(std::move(patches));
+}
+
+/// Points that open but come back at once, corners that take turns: they are closed. Returns whether any was.
+bool Contacts::end_clatter(std::vector<Touch>& touches) {
+  const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
+  const auto opens = [](const Touch& touch, int i) { return touch.closing[i] > touch.quiet; };
+  bool any = false;
+  for (const Touch& touch : touches) {
+    for (int i = 0; i < touch.count; ++i) any = any || opens(touch, i);
+  }
+  if (!any) return false;
+  const std::vector<Twist<double>> now = accelerations();
+  std::vector<ActivePatch> closed;
+  any = false;
+  for (const Touch& touch : touches) {
+    ActivePatch patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
+    for (int i = 0; i < touch.count; ++i) {
+      const Row<double>& row = touch.rows[i].normal;
+      const double pull = -(rate_along(row, now) + row.bias_acceleration);
+      const double speed = touch.closing[i];
+      const bool soon =
+          2 * speed < kClatter * own_time * pull || speed * speed < 2 * pull * kLowestBounce * near_;
+      const bool returns = opens(touch, i) && pull > 0 && soon;
+      if (returns || std::abs(touch.closing[i]) <= touch.quiet)
+        patch.features[patch.count++] = touch.features[i];
+      any = any || returns;
+    }
+    if (patch.count > 0) closed.push_back(patch);
+  }
+  if (!any) return false;
+  equations_.hold_contacts(std::move(closed));
+  equations_.project(smooth_.time(), smooth_.change());
+  held_.clear();
+  equations_.hold_contacts({});
+  count(ContactEvent::Rest, smooth_.time());
+  return true;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/simulation/driver.h"
+#include "engine/simulation/precise_events.h"
+#include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_impacts.h"
+#include "engine/simulation/precise_motion.h"
+#include "engine/simulation/precise_paths.h"
+#include "engine/simulation/precise_search.h"
+#include "engine/simulation/precise_smooth.h"
+#include "engine/simulation/precise_touch.h"
+#include "engine/simulation/snapshot.h"
+
+namespace plumb::precise {
+
+/// Contacts of `Precise`: between events those that last are constraints of the equations of motion; at
+/// events it is decided anew which they are.
+/// - `stop` looks for the first event of the step just made, and cuts the step there;
+/// - `settle` resolves impacts, and finds by a complementarity problem in the accelerations which contacts
+///   push, stick, slip or open.
+class Contacts {
+ public:
+  Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
+           SmoothMotion& smooth);
+
+  /// Nothing may touch.
+  bool empty() const { return finder_.outlines().empty(); }
+
+  /// At the time where the motion has stopped: after events, jumps of forces and changes from outside.
+  void settle();
+  bool settled() const { return settled_; }
+  void unsettle() { settled_ = false; }
+
+  /// Cuts the last step at its first event, and is unsettled then.
+  void stop();
+
+  /// What happened so far.
+  const std::array<EventCount, kContactEvents>& events() const { return events_; }
+  std::int64_t impacts() const { return events_[static_cast<std::size_t>(ContactEvent::Impact)].count; }
+
+  void save(SnapshotWriter& out) const;
+  void restore(SnapshotReader& in);
+
+ private:
+  /// What is watched of contacts that last.
+  enum class Quantity { Force, Cone, Slip, Range, Height };
+  struct Watched {
+    Quantity quantity{};
+    std::size_t patch = 0;
+    int point = 0;
+    Feature feature{};  // of a height: the corner that comes down
+  };
+  struct Event {
+    double time = 0;
+    Quantity quantity{};
+    std::optional<OutlinePair> meet;                      // shapes that come together
+    std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
+  };
+
+  void look_at_states();
+  void count(ContactEvent event, double time, std::int64_t times = 1);
+
+  // settle
+  void resolve_impacts(std::vector<Touch>& touches);
+  std::vector<std::array<double, 2>> pulls(std::span<const Touch> touches);
+  bool is_held(const Touch& touch, int point) const;
+  enum class Decision { Done, Again };
+  Decision decide(std::vector<Touch>& touches);
+  void activate(std::span<const Touch> touches, const TouchProblem& problem, const CoulombSolution& solution);
+  bool end_clatter(std::vector<Touch>& touches);
+  std::vector<Twist<double>> accelerations();
+
+  // stop
+  std::optional<Event> first_meeting(double until);
+  std::optional<Event> first_change(double until);
+  void list_watched();
+  void evaluate(double time, std::span<double> values);
+  void refine(const Event& event);
+
+  const Flight& flight_;
+  EquationsOfMotion& equations_;
+  SmoothMotion& smooth_;
+  TouchFinder finder_;
+  ImpactLaw law_;
+  StepPaths paths_;
+  ContactSearch search_;
+  std::vector<BodyState> states_;  // by body, at the motion's time
+  double near_ = 0;                // m: gaps that are none
+  bool settled_ = false;
+
+  std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order
+  std::vector<OutlinePair> touching_;  // that touch and are not held; ascending
+  std::vector<Watched> watched_;
+  std::vector<double> tolerance_;
+  double force_scale_ = 0;
+  Compensated sample_;
+  std::vector<double> rate_;
+
+  std::array<EventCount, kContactEvents> events_{};
+  double last_event_ = -1;
+  int events_at_once_ = 0;
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,255 @@
+#include "engine/simulation/precise_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "engine/math/trigonometry.h"
+
+namespace plumb::precise {
+namespace {
+
+using Kind = Feature::Kind;
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
+
+/// A feature seen from the side of its edge: corner and edge in either order are one case.
+struct EdgeView {
+  const Outline *edged, *cornered;
+  const Pose<double>*pose_e, *pose_c;
+  int edge, corner;
+};
+
+EdgeView edge_view(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                   const Pose<double>& pose_b) {
+  if (f.kind == Kind::CornerOfB) return {&a, &b, &pose_a, &pose_b, f.a, f.b};
+  return {&b, &a, &pose_b, &pose_a, f.b, f.a};
+}
+
+/// Height of a corner over the edge's line, both without their radii, m.
+double height(const EdgeView& v, int corner) {
+  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
+  const Vec2d normal = v.pose_e->rotation * v.edged->corners[v.edge].normal;
+  return dot(normal, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+}
+
+double along_edge(const EdgeView& v, int corner) {
+  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
+  const Vec2d direction = perpendicular(v.pose_e->rotation * v.edged->corners[v.edge].normal);
+  return dot(direction, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+}
+
+/// The least height of `cornered`'s corners over an edge of `edged`, and that corner.
+struct Lowest {
+  double height = 0;
+  int corner = 0;
+};
+Lowest lowest_over(const Outline& edged, const Pose<double>& pose_e, int edge, const Outline& cornered,
+                   const Pose<double>& pose_c) {
+  const EdgeView view{&edged, &cornered, &pose_e, &pose_c, edge, 0};
+  Lowest best{std::numeric_limits<double>::infinity(), 0};
+  for (int k = 0; k < cornered.count(); ++k) {
+    const double h = height(view, k);
+    if (h < best.height) best = {h, k};
+  }
+  return best;
+}
+
+struct CornerPair {
+  int a = 0, b = 0;
+  double distance = std::numeric_limits<double>::infinity();
+  Vec2d direction{};
+};
+CornerPair closest_corners(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                           const Pose<double>& pose_b) {
+  CornerPair best;
+  double least = std::numeric_limits<double>::infinity();
+  Vec2d apart{};
+  for (int i = 0; i < a.count(); ++i) {
+    for (int j = 0; j < b.count(); ++j) {
+      const Vec2d d = world(pose_b, b.corners[j].point) - world(pose_a, a.corners[i].point);
+      if (length_squared(d) >= least) continue;
+      least = length_squared(d);
+      best.a = i, best.b = j;
+      apart = d;
+    }
+  }
+  best.distance = std::sqrt(least);
+  best.direction = best.distance > 0 ? (1 / best.distance) * apart : Vec2d{1, 0};
+  return best;
+}
+
+/// How far the hulls are apart along a direction from a to b.
+double apart_along(Vec2d n, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                   const Pose<double>& pose_b) {
+  double far_a = -std::numeric_limits<double>::infinity(), near_b = -far_a;
+  for (const Corner<double>& c : a.corners) far_a = std::max(far_a, dot(n, world(pose_a, c.point)));
+  for (const Corner<double>& c : b.corners) near_b = std::min(near_b, dot(n, world(pose_b, c.point)));
+  return near_b - far_a;
+}
+
+template <class Visit>
+void each_edge(const Outline& a, const Outline& b, const Visit& visit) {
+  for (int i = 0; i < a.edges(); ++i) visit(Kind::CornerOfB, i);
+  for (int i = 0; i < b.edges(); ++i) visit(Kind::CornerOfA, i);
+}
+
+Feature feature(Kind kind, int edge, int corner) {
+  return kind == Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
+}
+
+}  // namespace
+
+double Outline::edge_length(int edge) const {
+  return length(corners[next(edge)].point - corners[edge].point);
+}
+
+Outline outline_of(std::size_t body, const Shape& shape) {
+  Outline outline;
+  outline.body = body;
+  outline.friction = shape.friction;
+  outline.restitution = shape.restitution;
+  outline.filter = shape.filter;
+  if (const Circle* circle = std::get_if<Circle>(&shape.geometry)) {
+    outline.corners = {{shape.position, {}}};
+    outline.radius = circle->radius;
+  } else if (const Box* box = std::get_if<Box>(&shape.geometry)) {
+    const Rotation<double> q = shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle);
+    const double x = 0.5 * box->width, y = 0.5 * box->height;
+    const Vec2d corners[] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    const Vec2d normals[] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+    for (int i = 0; i < 4; ++i) outline.corners.push_back({shape.position + q * corners[i], q * normals[i]});
+  }
+  for (const Corner<double>& c : outline.corners) outline.reach = std::max(outline.reach, length(c.point));
+  return outline;
+}
+
+Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+           const Pose<double>& pose_b) {
+  Gap gap;
+  const double radii = a.radius + b.radius;
+  if (f.kind == Kind::Corners) {
+    const Vec2d from = world(pose_a, a.corners[f.a].point), to = world(pose_b, b.corners[f.b].point);
+    const double distance = length(to - from);
+    gap.normal = distance > 0 ? (1 / distance) * (to - from) : Vec2d{1, 0};
+    gap.value = distance - radii;
+    gap.point = to - b.radius * gap.normal;
+    return gap;
+  }
+  const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
+  const Vec2d outward = view.pose_e->rotation * view.edged->corners[view.edge].normal;
+  gap.normal = f.kind == Kind::CornerOfB ? outward : -outward;
+  gap.value = height(view, view.corner) - radii;
+  gap.along = along_edge(view, view.corner);
+  gap.length = view.edged->edge_length(view.edge);
+  gap.point =
+      world(*view.pose_c, view.cornered->corners[view.corner].point) - view.cornered->radius * outward;
+  return gap;
+}
+
+// With the normal n, its turning rate W, the contact point p and the velocities of the bodies v, w,
+//   gap' = n . (vb - va) + wb (p - xb) x n - wa (p - xa) x n,      n' = W t,   t' = -W n,
+// slip the same with t in place of n; p' is the velocity of the corner that makes the contact, and of its
+// radius.
+ContactRows rows_of(const Feature& f, const Outline& a, const Pose<double>& pose_a,
+                    const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
+                    const Twist<double>& twist_b) {
+  const Gap gap = gap_of(f, a, pose_a, b, pose_b);
+  const Vec2d n = gap.normal, t = perpendicular(n), p = gap.point;
+  const auto corner_velocity = [](const Outline& o, int corner, const Pose<double>& pose,
+                                  const Twist<double>& twist) {
+    return twist.velocity + cross(twist.angular_velocity, pose.rotation * o.corners[corner].point);
+  };
+  double turning = 0;
+  Vec2d p_rate{};
+  if (f.kind == Kind::Corners) {
+    const Vec2d va = corner_velocity(a, f.a, pose_a, twist_a), vb = corner_velocity(b, f.b, pose_b, twist_b);
+    const double distance = gap.value + a.radius + b.radius;
+    turning = distance > 0 ? dot(t, vb - va) / distance : 0;
+    p_rate = vb - b.radius * turning * t;
+  } else if (f.kind == Kind::CornerOfB) {
+    turning = twist_a.angular_velocity;
+    p_rate = corner_velocity(b, f.b, pose_b, twist_b) - b.radius * turning * t;
+  } else {
+    turning = twist_b.angular_velocity;
+    p_rate = corner_velocity(a, f.a, pose_a, twist_a) + a.radius * turning * t;
+  }
+  const Vec2d arm_a = p - pose_a.position, arm_b = p - pose_b.position;
+  const Vec2d arm_a_rate = p_rate - twist_a.velocity, arm_b_rate = p_rate - twist_b.velocity;
+  const auto row = [&](Vec2d u, Vec2d u_rate) {
+    Row<double> r;
+    r.a = static_cast<int>(a.body), r.b = static_cast<int>(b.body);
+    r.linear_a = -u, r.linear_b = u;
+    r.angular_a = -cross(arm_a, u), r.angular_b = cross(arm_b, u);
+    r.bias_acceleration = dot(u_rate, twist_b.velocity - twist_a.velocity) +
+                          twist_b.angular_velocity * (cross(arm_b_rate, u) + cross(arm_b, u_rate)) -
+                          twist_a.angular_velocity * (cross(arm_a_rate, u) + cross(arm_a, u_rate));
+    return r;
+  };
+  ContactRows rows{row(n, turning * t), row(t, -turning * n)};
+  rows.normal.residual = gap.value;
+  return rows;
+}
+
+Separation separation(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                      const Pose<double>& pose_b) {
+  const double radii = a.radius + b.radius;
+  Separation best;
+  best.distance = -std::numeric_limits<double>::infinity();
+  each_edge(a, b, [&](Kind kind, int edge) {
+    const bool of_a = kind == Kind::CornerOfB;
+    const Lowest low =
+        of_a ? lowest_over(a, pose_a, edge, b, pose_b) : lowest_over(b, pose_b, edge, a, pose_a);
+    if (low.height - radii <= best.distance) return;
+    best.distance = low.height - radii;
+    best.feature = feature(kind, edge, low.corner);
+  });
+  if (best.distance + radii > 0 || (a.edges() == 0 && b.edges() == 0)) {
+    const CornerPair corners = closest_corners(a, pose_a, b, pose_b);
+    const double apart = apart_along(corners.direction, a, pose_a, b, pose_b) - radii;
+    // Sharp corners touch nothing but edges: for them this is a bound on the distance alone.
+    const bool touches = radii == 0 && corners.distance < 1e-9 * (a.reach + b.reach);
+    if (apart > best.distance && !touches) {
+      best.distance = apart;
+      best.feature = {Kind::Corners, corners.a, corners.b};
+      best.normal = corners.direction;
+      return best;
+    }
+  }
+  best.normal = gap_of(best.feature, a, pose_a, b, pose_b).normal;
+  return best;
+}
+
+Limits limits_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                 const Pose<double>& pose_b) {
+  Limits limits;
+  if (f.kind == Kind::Corners) {
+    // The normal stays within the cones of both corners: it points away from their neighbours.
+    const Vec2d n = gap_of(f, a, pose_a, b, pose_b).normal;
+    const auto cone = [&](const Outline& o, int corner, const Pose<double>& pose, Vec2d outward) {
+      if (o.count() < 2) return;
+      for (const int other : {o.previous(corner), o.next(corner)}) {
+        const Vec2d to = pose.rotation * (o.corners[corner].point - o.corners[other].point);
+        limits.add(dot(outward, to), false);
+        if (o.count() == 2) return;
+      }
+    };
+    cone(a, f.a, pose_a, n);
+    cone(b, f.b, pose_b, -n);
+    return limits;
+  }
+  const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
+  const double along = along_edge(view, view.corner);
+  limits.add(along, false);
+  limits.add(view.edged->edge_length(view.edge) - along, false);
+  if (view.cornered->count() < 2) return limits;
+  const double radii = a.radius + b.radius;
+  limits.add(height(view, view.cornered->previous(view.corner)) - radii, true);
+  if (view.cornered->count() > 2) limits.add(height(view, view.cornered->next(view.corner)) - radii, true);
+  return limits;
+}
+
+}  // namespace plumb::precise

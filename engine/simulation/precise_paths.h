@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/aabb.h"
+#include "engine/integrate/bernstein.h"
+#include "engine/math/pose.h"
+#include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_outline.h"
+#include "engine/simulation/precise_smooth.h"
+
+namespace plumb::precise {
+
+/// How all bodies move during one step, with bounds that hold throughout.
+class StepPaths {
+ public:
+  StepPaths(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
+
+  /// The last step of `motion`; valid until its next one.
+  void take(SmoothMotion& motion);
+
+  double start() const { return start_; }
+  double end() const { return end_; }
+
+  struct Placed {
+    Pose<double> pose{};
+    Twist<double> twist{};
+  };
+  Placed at(std::size_t body, double time) const;
+
+  /// Bounds over the step, on one body's turning and on two bodies' motion against each other.
+  struct Turning {
+    double speed = 0;         ///< rad/s
+    double acceleration = 0;  ///< rad/s^2
+  };
+  Turning turning(std::size_t body) const { return turning_[body]; }
+  struct Relative {
+    double speed = 0;         ///< m/s
+    double acceleration = 0;  ///< m/s^2
+  };
+  Relative relative(std::size_t a, std::size_t b) const;
+
+  /// A box that the outline stays in.
+  Aabb<double> swept(const Outline& outline) const;
+
+ private:
+  static constexpr std::size_t kControls = StepPolynomial::kMostTerms + 1;
+  struct Path {
+    Bernstein<kControls> vx{}, vy{};
+    Aabb<double> hull{};  // of the centre of mass
+    double turned = 0;    // rad, at most away from the start
+  };
+
+  void follow_integrated(std::size_t body, int slot, SmoothMotion& motion);
+  void follow_flight(std::size_t body);
+
+  const Flight& flight_;
+  std::vector<int> slot_;  // by body: among the integrated ones, or -1
+  std::vector<Path> paths_;
+  std::vector<Turning> turning_;
+  SmoothMotion* motion_ = nullptr;
+  double start_ = 0, end_ = 0;
+};
+
+}  // namespace plumb::precise

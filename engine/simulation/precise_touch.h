@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/simulation/precise_motion.h"
+#include "engine/simulation/precise_outline.h"
+#include "engine/simulation/precise_parts.h"
+#include "engine/simulation/precise_search.h"
+
+namespace plumb::precise {
+
+/// Two shapes that touch at an instant, in one or two points, and how they move against each other there.
+struct Touch {
+  OutlinePair pair{};
+  double friction = 0, restitution = 0;
+  int count = 0;
+  Feature features[2] = {};
+  ContactRows rows[2] = {};
+  double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
+  double slip = 0;         ///< m/s, of b against a along the tangent
+  double quiet = 0;        ///< m/s, what rounding can make of these
+};
+
+/// The outlines of a scene that may touch, and what touches at an instant.
+class TouchFinder {
+ public:
+  TouchFinder(const Scene& scene, const Parts& parts);
+
+  std::span<const Outline> outlines() const { return outlines_; }
+  bool may_meet(std::size_t a, std::size_t b) const;
+  double friction(const OutlinePair& pair) const;
+  double restitution(const OutlinePair& pair) const;
+  const ContactRules& rules() const { return rules_; }
+  double scale_of_speed() const { return speed_; }
+  double scale_of_length() const { return length_; }
+
+  /// What rounding can make of a gap, m, with bodies at the given states.
+  double near(std::span<const BodyState> states) const;
+
+  /// What touches, pairs in ascending order. `states` by body of the scene.
+  std::vector<Touch> touches(std::span<const BodyState> states, double near) const;
+
+  /// Rates of a touch anew, after velocities have changed.
+  void measure(std::span<const BodyState> states, Touch& touch) const;
+
+ private:
+  Parts parts_;
+  std::vector<Outline> outlines_;
+  std::vector<char> dynamic_;  // by body
+  ContactRules rules_;
+  double speed_ = 1, length_ = 1;
+};
+
+/// The wide net of a step: boxes that bodies stay in, and the pairs whose boxes overlap.
+std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepPaths& paths);
+
+}  // namespace plumb::precise

@@ -1,0 +1,198 @@
+#include "engine/solve/complementarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "engine/solve/dense_system.h"
+
+namespace plumb {
+namespace {
+
+/// w - M z - d z0 = q, d the covering vector, as a tableau of n rows. Columns: w (n), z (n), z0, q.
+class Tableau {
+ public:
+  Tableau(std::span<const double> matrix, std::span<const double> q, std::span<const double> covering,
+          double least_pivot)
+      : n_(q.size()), width_(2 * n_ + 2), entries_(n_ * width_, 0.0), basis_(n_) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      at(i, i) = 1;
+      for (std::size_t j = 0; j < n_; ++j) at(i, n_ + j) = -matrix[i * n_ + j];
+      at(i, cover()) = -covering[i];
+      at(i, width_ - 1) = q[i];
+      basis_[i] = i;
+    }
+    double largest = 1;
+    for (const double x : matrix) largest = std::max(largest, std::abs(x));
+    least_pivot_ = least_pivot * largest;
+  }
+
+  std::size_t cover() const { return 2 * n_; }  // the column of z0
+  std::size_t basis(std::size_t row) const { return basis_[row]; }
+  double value(std::size_t row) const { return entries_[row * width_ + width_ - 1]; }
+
+  /// The column that may enter when `column` has left.
+  std::size_t complement(std::size_t column) const { return column < n_ ? column + n_ : column - n_; }
+
+  /// The lexicographically least row [q, w columns] as it stands, relative to the covering vector.
+  std::size_t least_row() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < n_; ++i) {
+      if (precedes(i, -at(i, cover()), best, -at(best, cover()))) best = i;
+    }
+    return best;
+  }
+
+  /// The row that leaves when `column` enters: the lexicographically least ratio; nothing on a ray. z0 leaves
+  /// as soon as it may.
+  std::optional<std::size_t> leaving(std::size_t column) const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!(at(i, column) > least_pivot_)) continue;
+      if (!best || precedes(i, at(i, column), *best, at(*best, column))) best = i;
+    }
+    if (!best) return best;
+    for (std::size_t i = 0; i < n_; ++i) {  // ties in the value alone: z0 first
+      if (basis_[i] != cover() || !(at(i, column) > least_pivot_)) continue;
+      const double ratio = value(i) / at(i, column), least = value(*best) / at(*best, column);
+      if (ratio <= least + 1e-14 * std::abs(least)) return i;
+    }
+    return best;
+  }
+
+  void pivot(std::size_t row, std::size_t column) {
+    const double scale = 1 / at(row, column);
+    for (std::size_t j = 0; j < width_; ++j) at(row, j) *= scale;
+    at(row, column) = 1;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double factor = at(i, column);
+      if (i == row || factor == 0) continue;
+      for (std::size_t j = 0; j < width_; ++j) at(i, j) -= factor * at(row, j);
+      at(i, column) = 0;
+    }
+    basis_[row] = column;
+  }
+
+ private:
+  double& at(std::size_t i, std::size_t j) { return entries_[i * width_ + j]; }
+  double at(std::size_t i, std::size_t j) const { return entries_[i * width_ + j]; }
+
+  bool precedes(std::size_t i, double by_i, std::size_t j, double by_j) const {
+    const double a = value(i) / by_i, b = value(j) / by_j;
+    if (a != b) return a < b;
+    for (std::size_t k = 0; k < n_; ++k) {
+      const double x = at(i, k) / by_i, y = at(j, k) / by_j;
+      if (x != y) return x < y;
+    }
+    return false;
+  }
+
+  std::size_t n_, width_;
+  std::vector<double> entries_;
+  std::vector<std::size_t> basis_;
+  double least_pivot_ = 0;
+};
+
+/// The basic components anew from the problem itself: what pivoting has rounded away is put right.
+void polish(std::span<const double> matrix, std::span<const double> q, ComplementaritySolution& solution) {
+  const std::size_t n = q.size();
+  std::vector<std::size_t> in;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (solution.basic[i]) in.push_back(i);
+  }
+  std::vector<double> part(in.size() * in.size()), z(in.size());
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    z[i] = -q[in[i]];
+    for (std::size_t j = 0; j < in.size(); ++j) part[i * in.size() + j] = matrix[in[i] * n + in[j]];
+  }
+  DenseSystem system;
+  const bool regular = system.factor(in.size(), part) == in.size();
+  system.solve_refined(z);
+  // Where columns depend on each other there are many solutions: this one will do only if it is one.
+  if (!regular && std::any_of(z.begin(), z.end(), [](double x) { return x < 0; })) return;
+  for (std::size_t i = 0; i < in.size(); ++i) solution.z[in[i]] = std::max(z[i], 0.0);
+}
+
+ComplementaritySolution follow(std::span<const double> matrix, std::span<const double> q,
+                               std::span<const double> covering, double least_pivot) {
+  using Status = ComplementaritySolution::Status;
+  const std::size_t n = q.size();
+  ComplementaritySolution solution;
+  solution.z.assign(n, 0.0);
+  solution.basic.assign(n, 0);
+  Tableau tableau(matrix, q, covering, least_pivot);
+  std::size_t row = tableau.least_row(), entering = tableau.cover();
+  const int most = 50 * static_cast<int>(n) + 50;
+  for (;;) {
+    const std::size_t left = tableau.basis(row);
+    tableau.pivot(row, entering);
+    ++solution.pivots;
+    if (left == tableau.cover()) break;
+    if (solution.pivots > most) {
+      solution.status = Status::Limit;
+      return solution;
+    }
+    entering = tableau.complement(left);
+    const auto next = tableau.leaving(entering);
+    if (!next) {
+      solution.status = Status::Ray;
+      return solution;
+    }
+    row = *next;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t column = tableau.basis(i);
+    if (column < n || column == tableau.cover()) continue;
+    solution.basic[column - n] = 1;
+    solution.z[column - n] = std::max(tableau.value(i), 0.0);
+  }
+  return solution;
+}
+
+/// Whether w is not negative beyond rounding, and zero where z is basic.
+bool holds(std::span<const double> matrix, std::span<const double> q,
+           const ComplementaritySolution& solution) {
+  constexpr double kRounding = 1e-9;
+  const std::size_t n = q.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double w = q[i], size = 1;
+    for (std::size_t j = 0; j < n; ++j) {
+      w += matrix[i * n + j] * solution.z[j];
+      size = std::max(size, std::abs(matrix[i * n + j] * solution.z[j]));
+    }
+    if (w < -kRounding * size || (solution.basic[i] && w > kRounding * size)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q) {
+  using Status = ComplementaritySolution::Status;
+  const std::size_t n = q.size();
+  ComplementaritySolution solution;
+  solution.z.assign(n, 0.0);
+  solution.basic.assign(n, 0);
+  if (std::all_of(q.begin(), q.end(), [](double x) { return x >= 0; })) return solution;
+  // Where rounding leads the method astray, or on a ray, another covering vector takes another way; a
+  // diagonal that is enlarged a little keeps it from pivots that are rounding.
+  constexpr double kLeastPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
+  constexpr double kEnlarged[] = {0, 0, 0, 0, 1e-10, 1e-8};
+  std::vector<double> enlarged(matrix.begin(), matrix.end());
+  std::vector<double> covering(n, 1.0);
+  int pivots = 0;
+  for (std::size_t attempt = 0; attempt < std::size(kLeastPivot); ++attempt) {
+    for (std::size_t i = 0; i < n; ++i) enlarged[i * n + i] = matrix[i * n + i] + kEnlarged[attempt];
+    solution = follow(enlarged, q, covering, kLeastPivot[attempt]);
+    if (solution.status == Status::Solved) polish(matrix, q, solution);
+    pivots += solution.pivots;
+    if (solution.status == Status::Solved && !holds(matrix, q, solution)) solution.status = Status::Limit;
+    if (solution.status == Status::Solved) break;
+    for (std::size_t i = 0; i < n; ++i) covering[i] = 1 + static_cast<double>((i * (attempt + 3)) % 7) / 7;
+  }
+  solution.pivots = pivots;
+  return solution;
+}
+
+}  // namespace plumb
