@@ -29,7 +29,7 @@ Mechanics mechanics(const Scene& scene, std::span<const BodyState> states) {
     const BodyState& state = states[i];
     const double m = body.mass, inertia = inertia_of(body), w = state.angular_velocity;
     sum.kinetic += 0.5 * m * length_squared(state.velocity) + 0.5 * inertia * w * w;
-    sum.potential -= m * dot(scene.gravity, state.position - body.position);
+    sum.potential -= m * body.gravity_scale * dot(scene.gravity, state.position - body.position);
     sum.momentum += m * state.velocity;
     sum.sum_of_momenta += m * std::hypot(state.velocity.x, state.velocity.y);
     const double orbital = m * cross(state.position, state.velocity), spin = inertia * w;

@@ -9,12 +9,6 @@ namespace {
 
 double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
 
-double radius_of(const Geometry& geometry) {
-  if (const auto* circle = std::get_if<Circle>(&geometry)) return circle->radius;
-  const auto& box = std::get<Box>(geometry);
-  return std::hypot(box.width, box.height) / 2;
-}
-
 struct Moment {
   std::vector<BodyState> before, after;
 };
@@ -69,7 +63,7 @@ Jump jump_of(const Scene& scene, const Moment& moment, std::size_t body) {
 double bounding_radius(const Body& body) {
   double radius = 0;
   for (const Shape& shape : body.shapes)
-    radius = std::max(radius, magnitude(shape.position) + radius_of(shape.geometry));
+    radius = std::max(radius, magnitude(shape.position) + reach_of(shape.geometry));
   return radius;
 }
 

@@ -1,5 +1,6 @@
 #include "harness/joint_gap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/math/trigonometry.h"
@@ -7,33 +8,75 @@
 namespace plumb::harness {
 namespace {
 
+double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
+
 Vec2d anchor_of(const JointGaps::End& end, std::span<const BodyState> states) {
   if (!end.body) return end.anchor;
   const BodyState& state = states[*end.body];
-  const Rotation<double> turn = rotation_of(state.angle);
-  return state.position + turn * end.anchor;
+  return state.position + rotation_of(state.angle) * end.anchor;
+}
+
+/// The anchors of a joint where they are now, and body a's angle.
+struct Placed {
+  Vec2d a, b;
+  double angle_a;
+};
+
+double rope_length(const PulleyJoint& pulley, const Placed& at) {
+  return magnitude(at.a - pulley.ground_a) + pulley.ratio * magnitude(at.b - pulley.ground_b);
+}
+
+double across(Vec2d axis, const Placed& at) {
+  const Vec2d along = rotation_of(at.angle_a) * axis;
+  return std::abs(cross(along, at.b - at.a)) / magnitude(along);
+}
+
+struct Gap {
+  const Placed& at;
+  double rope;
+
+  double operator()(const RevoluteJoint&) const { return magnitude(at.b - at.a); }
+  double operator()(const DistanceJoint& j) const {
+    const double length = magnitude(at.b - at.a);
+    if (j.range) return std::max({j.range->lower - length, length - j.range->upper, 0.0});
+    return j.spring ? 0 : std::abs(length - j.length);
+  }
+  double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : magnitude(at.b - at.a); }
+  double operator()(const PrismaticJoint& j) const { return across(j.axis, at); }
+  double operator()(const WheelJoint& j) const { return across(j.axis, at); }
+  double operator()(const PulleyJoint& j) const { return std::abs(rope_length(j, at) - rope); }
+  double operator()(const auto&) const { return 0; }
+};
+
+Placed place(const JointGaps::End& a, const JointGaps::End& b, std::span<const BodyState> states) {
+  return {anchor_of(a, states), anchor_of(b, states), a.body ? states[*a.body].angle : 0};
 }
 
 }  // namespace
 
 JointGaps::JointGaps(const Scene& scene) {
+  std::vector<BodyState> start;
+  for (const Body& body : scene.bodies) start.push_back(initial_state(body));
   for (const Joint& joint : scene.joints) {
-    Entry entry;
+    Entry entry{joint, {}, {}, 0};
     std::visit(
         [&](const auto& j) {
-          entry.a = {find_body(scene, j.body_a), j.anchor_a};
-          entry.b = {find_body(scene, j.body_b), j.anchor_b};
+          entry.a.body = find_body(scene, j.body_a);
+          entry.b.body = find_body(scene, j.body_b);
+          if constexpr (requires { j.anchor_a; }) entry.a.anchor = j.anchor_a;
+          if constexpr (requires { j.anchor_b; }) entry.b.anchor = j.anchor_b;
         },
         joint);
-    if (const auto* rod = std::get_if<DistanceJoint>(&joint)) entry.length = rod->length;
-    joints_.push_back(entry);
+    if (const auto* pulley = std::get_if<PulleyJoint>(&joint))
+      entry.rope = pulley->length ? *pulley->length : rope_length(*pulley, place(entry.a, entry.b, start));
+    joints_.push_back(std::move(entry));
   }
 }
 
 double JointGaps::gap(std::size_t joint, std::span<const BodyState> states) const {
   const Entry& entry = joints_[joint];
-  const Vec2d apart = anchor_of(entry.b, states) - anchor_of(entry.a, states);
-  return std::abs(std::hypot(apart.x, apart.y) - entry.length);
+  const Placed at = place(entry.a, entry.b, states);
+  return std::visit(Gap{at, entry.rope}, entry.joint);
 }
 
 }  // namespace plumb::harness

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,13 +8,15 @@
 
 namespace plumb::harness {
 
-/// Measures how far the anchors of each joint are from where the joint wants them.
+/// Measures how far each joint is from what it holds rigidly, in m.
 class JointGaps {
  public:
   explicit JointGaps(const Scene& scene);
 
   std::size_t size() const { return joints_.size(); }
-  /// Revolute: the distance of the anchors, m. Distance joint: how far their distance is from its length, m.
+  /// Revolute and rigid weld: the distance of the anchors. Rod: how far their distance is from its length;
+  /// rope: how far outside its range. Prismatic and wheel: how far the anchors are apart across the axis.
+  /// Pulley: how far the rope is from its length. Others hold nothing rigidly: 0.
   double gap(std::size_t joint, std::span<const BodyState> states) const;
 
   /// A joint's end: a body (none: the fixed frame) and the anchor's distance from its centre of mass, m.
@@ -28,8 +29,9 @@ class JointGaps {
 
  private:
   struct Entry {
+    Joint joint;
     End a, b;
-    double length = 0;  // 0: revolute
+    double rope = 0;  // of a pulley, m
   };
   std::vector<Entry> joints_;
 };

@@ -37,6 +37,8 @@ PenetrationMeter::PenetrationMeter(const Scene& scene) {
   bool moves = false;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (const Shape& shape : scene.bodies[i].shapes) {
+      if (!std::holds_alternative<Circle>(shape.geometry) && !std::holds_alternative<Box>(shape.geometry))
+        continue;
       entries_.push_back({i, scene.bodies[i].type == BodyType::Dynamic, &shape});
       moves = moves || entries_.back().moves;
       if (std::find(filters.begin(), filters.end(), shape.filter) == filters.end())

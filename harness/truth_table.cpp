@@ -94,8 +94,8 @@ void TruthTable::measure_joints(const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     std::visit(
         [&](const auto& j) {
-          include(j.body_a, j.anchor_a);
-          include(j.body_b, j.anchor_b);
+          if constexpr (requires { j.anchor_a; }) include(j.body_a, j.anchor_a);
+          if constexpr (requires { j.anchor_b; }) include(j.body_b, j.anchor_b);
         },
         joint);
   }

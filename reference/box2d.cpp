@@ -15,9 +15,11 @@
 #include <variant>
 #include <vector>
 
+#include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
 #include "reference/backend.h"
+#include "reference/box2d/joints.h"
 #include "reference/support/applied_forces.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"
@@ -27,7 +29,6 @@ namespace {
 
 constexpr const char* kName = "box2d";
 
-b2Vec2 to_box2d(Vec2d v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
 Vec2d from_box2d(const b2Vec2& v) { return {v.x, v.y}; }
 
 /// `StepSettings` with this engine's options read.
@@ -78,7 +79,8 @@ class Box2dSimulator final : public Simulator {
     world_.SetContactFilter(&rules_);
     world_.SetContactListener(&rules_);
     for (const Body& body : scene_.bodies) bodies_.push_back(add_body(body));
-    for (const Joint& joint : scene_.joints) std::visit([this](const auto& j) { add_joint(j); }, joint);
+    const auto called = [this](const std::string& name) { return body_called(name); };
+    Box2dJointMaker(world_, scene_, called).make_all();
   }
 
   double advance(int steps) override {
@@ -117,6 +119,9 @@ class Box2dSimulator final : public Simulator {
     def.angularVelocity = static_cast<float>(body.angular_velocity);
     def.allowSleep = false;
     def.fixedRotation = body.fixed_rotation;
+    def.gravityScale = static_cast<float>(body.gravity_scale);
+    def.linearDamping = static_cast<float>(body.linear_damping);
+    def.angularDamping = static_cast<float>(body.angular_damping);
     b2Body* out = world_.CreateBody(&def);
     for (const Shape& shape : body.shapes) add_shape(*out, shape);
     if (body.type == BodyType::Dynamic) {
@@ -130,23 +135,66 @@ class Box2dSimulator final : public Simulator {
   }
 
   void add_shape(b2Body& body, const Shape& shape) {
-    b2CircleShape circle;
-    b2PolygonShape polygon;
+    std::visit([&](const auto& geometry) { add_geometry(body, shape, geometry); }, shape.geometry);
+  }
+
+  void add_fixture(b2Body& body, const Shape& shape, const b2Shape& geometry) {
     b2FixtureDef def;
-    if (const auto* round = std::get_if<Circle>(&shape.geometry)) {
-      circle.m_radius = static_cast<float>(round->radius);
-      circle.m_p = to_box2d(shape.position);
-      def.shape = &circle;
-    } else {
-      const Box& box = std::get<Box>(shape.geometry);
-      polygon.SetAsBox(static_cast<float>(box.width / 2), static_cast<float>(box.height / 2),
-                       to_box2d(shape.position), static_cast<float>(shape.angle));
-      def.shape = &polygon;
-    }
+    def.shape = &geometry;
     def.density = 0;  // the scene states the mass
     def.restitutionThreshold = static_cast<float>(scene_.contact_rules.restitution_threshold);
     def.userData.pointer = reinterpret_cast<std::uintptr_t>(&shape);
     body.CreateFixture(&def);
+  }
+
+  void add_geometry(b2Body& body, const Shape& shape, const Circle& round) {
+    b2CircleShape circle;
+    circle.m_radius = static_cast<float>(round.radius);
+    circle.m_p = to_box2d(shape.position);
+    add_fixture(body, shape, circle);
+  }
+
+  void add_geometry(b2Body& body, const Shape& shape, const Box& box) {
+    b2PolygonShape polygon;
+    polygon.SetAsBox(static_cast<float>(box.width / 2), static_cast<float>(box.height / 2),
+                     to_box2d(shape.position), static_cast<float>(shape.angle));
+    add_fixture(body, shape, polygon);
+  }
+
+  void add_geometry(b2Body& body, const Shape& shape, const Polygon& polygon) {
+    const std::vector<b2Vec2> corners = placed(shape, convex_corners(polygon.points));
+    b2PolygonShape out;
+    out.Set(corners.data(), static_cast<int>(corners.size()));
+    add_fixture(body, shape, out);
+  }
+
+  void add_geometry(b2Body& body, const Shape& shape, const Segment& segment) {
+    const std::vector<b2Vec2> ends = placed(shape, {segment.start, segment.end});
+    b2EdgeShape edge;
+    edge.SetTwoSided(ends[0], ends[1]);
+    add_fixture(body, shape, edge);
+  }
+
+  void add_geometry(b2Body& body, const Shape& shape, const Chain& chain) {
+    const std::vector<b2Vec2> points = placed(shape, chain.points);
+    const int count = static_cast<int>(points.size());
+    b2ChainShape out;
+    if (chain.closed) {
+      out.CreateLoop(points.data(), count);
+    } else {  // straight on at the ends
+      const b2Vec2 before = 2 * points[0] - points[1], after = 2 * points[count - 1] - points[count - 2];
+      out.CreateChain(points.data(), count, before, after);
+    }
+    add_fixture(body, shape, out);
+  }
+
+  void add_geometry(b2Body&, const Shape&, const Capsule&) {}  // refused
+
+  static std::vector<b2Vec2> placed(const Shape& shape, const std::vector<Vec2d>& points) {
+    const Rotation<double> turn = rotation_of(shape.angle);
+    std::vector<b2Vec2> out;
+    for (const Vec2d point : points) out.push_back(to_box2d(shape.position + turn * point));
+    return out;
   }
 
   b2Body* body_called(const std::string& name) {
@@ -156,29 +204,6 @@ class Box2dSimulator final : public Simulator {
       fixed_frame_ = world_.CreateBody(&at_origin);
     }
     return fixed_frame_;
-  }
-
-  template <class Definition, class SceneJoint>
-  Definition definition_of(const SceneJoint& joint) {
-    Definition def;
-    def.bodyA = body_called(joint.body_a);
-    def.bodyB = body_called(joint.body_b);
-    def.localAnchorA = to_box2d(joint.anchor_a);
-    def.localAnchorB = to_box2d(joint.anchor_b);
-    def.collideConnected = joint.collide;
-    return def;
-  }
-
-  void add_joint(const RevoluteJoint& joint) {
-    const auto def = definition_of<b2RevoluteJointDef>(joint);
-    world_.CreateJoint(&def);
-  }
-
-  void add_joint(const DistanceJoint& joint) {
-    auto def = definition_of<b2DistanceJointDef>(joint);
-    // Without stiffness and with both limits at the length, Box2D solves it as an equation.
-    def.length = def.minLength = def.maxLength = static_cast<float>(joint.length);
-    world_.CreateJoint(&def);
   }
 
   // As a user of Box2D does it: forces of the state at the step's start, held for the step.
@@ -223,12 +248,13 @@ class Box2dBackend final : public Backend {
 
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
+    for (const Body& body : scene.bodies) {
+      if (const std::string reason = missing(body); !reason.empty())
+        return "body " + plumb::quoted(body.name) + ": " + reason;
+    }
+    const Box2dJointLimits limits(scene);
     for (const Joint& joint : scene.joints) {
-      const auto* distance = std::get_if<DistanceJoint>(&joint);
-      if (distance != nullptr && static_cast<float>(distance->length) < b2_linearSlop) {
-        return "joint " + plumb::quoted(distance->name) + ": length " + shortest(distance->length) +
-               " m is below Box2D's least, " + shortest(b2_linearSlop) + " m";
-      }
+      if (std::string reason = limits.reason(joint); !reason.empty()) return reason;
     }
     return out_of_range(scene, kFloatRange);
   }
@@ -242,8 +268,8 @@ class Box2dBackend final : public Backend {
                  {"continuous", chosen.continuous ? "on" : "off"},
                  {"warm_starting", "on"},
                  {"sleeping", "off"},
-                 {"linear_damping", "0"},
-                 {"angular_damping", "0"},
+                 {"linear_damping", "the scene's"},
+                 {"angular_damping", "the scene's"},
                  {"inertia", "the scene's"},
                  {"filters", "the scene's"}};
     append_contact_rules(out, scene);
@@ -264,6 +290,35 @@ class Box2dBackend final : public Backend {
   }
 
  private:
+  static std::string missing(const Body& body) {
+    if (body.lock_x || body.lock_y) return "Box2D locks rotation only";
+    for (const Shape& shape : body.shapes) {
+      if (shape.rolling_resistance != 0) return "Box2D has no rolling resistance";
+      if (shape.surface_speed != 0) return "Box2D 2.4 sets surface speeds by callbacks, contact by contact";
+      if (std::holds_alternative<Capsule>(shape.geometry)) return "Box2D 2.4 has no capsule";
+      if (const auto* polygon = std::get_if<Polygon>(&shape.geometry)) {
+        if (polygon->radius > 0) return "Box2D 2.4 has no rounded polygons";
+        if (convex_corners(polygon->points).size() > b2_maxPolygonVertices)
+          return "Box2D's polygons have at most " + std::to_string(b2_maxPolygonVertices) + " corners";
+        if (too_close(convex_corners(polygon->points), true))
+          return "Box2D merges corners that are this close";
+      }
+      if (const auto* chain = std::get_if<Chain>(&shape.geometry)) {
+        if (too_close(chain->points, chain->closed)) return "Box2D refuses chain points that are this close";
+      }
+    }
+    return "";
+  }
+
+  static bool too_close(const std::vector<Vec2d>& points, bool closed) {
+    for (std::size_t i = closed ? 0 : 1; i < points.size(); ++i) {
+      const Vec2d way = points[i] - points[i == 0 ? points.size() - 1 : i - 1];
+      constexpr double kSlop = static_cast<double>(b2_linearSlop);
+      if (length_squared(way) <= kSlop * kSlop) return true;
+    }
+    return false;
+  }
+
   static Box2dSettings read_settings(const StepSettings& settings) {
     check_steps(kName, settings, Stepping::Fixed);
     const OptionReader given(kName, settings, Box2dBackend().options());

@@ -1,35 +1,14 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <variant>
 
 #include "engine/math/vec2.h"
+#include "engine/scene/joint.h"
 
 /// What joints of the real-time world are made from. Anchors stand in the frames of their bodies (the body's
 /// origin, not its centre of mass); angles in rad, counter-clockwise, of b relative to a.
 namespace plumb {
-
-/// A damped spring by what one sees of it: its natural frequency with the joined bodies' own effective mass.
-struct Spring {
-  double hertz = 0;          ///< 1/s, > 0
-  double damping_ratio = 1;  ///< 1 is critical, >= 0
-  friend bool operator==(const Spring&, const Spring&) = default;
-};
-
-/// Lowest and highest value, lower <= upper.
-struct Range {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  friend bool operator==(const Range&, const Range&) = default;
-};
-
-/// Drives towards a speed with no more than a force.
-struct Motor {
-  double speed = 0;      ///< m/s or rad/s
-  double max_force = 0;  ///< N or N m, >= 0
-  friend bool operator==(const Motor&, const Motor&) = default;
-};
 
 /// Two anchors at a distance: a rod, a spring when `spring` is given, a rope when `range` is.
 struct DistanceDefinition {

@@ -34,20 +34,16 @@ Joints<Real> compile_joints(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     index.emplace(scene.bodies[i].name, static_cast<int>(i));
   }
-  struct Sorter {
-    Joints<Real>& joints;
-    const std::map<std::string_view, int>& index;
-    void operator()(const RevoluteJoint& j) const {
-      joints.revolute.push_back(
-          {index.at(j.body_a), index.at(j.body_b), j.anchor_a.as<Real>(), j.anchor_b.as<Real>()});
-    }
-    void operator()(const DistanceJoint& j) const {
-      joints.distance.push_back({index.at(j.body_a), index.at(j.body_b), j.anchor_a.as<Real>(),
-                                 j.anchor_b.as<Real>(), static_cast<Real>(j.length)});
-    }
-  };
   Joints<Real> joints;
-  for (const Joint& joint : scene.joints) std::visit(Sorter{joints, index}, joint);
+  for (const Joint& joint : scene.joints) {
+    if (const auto* hinge = std::get_if<RevoluteJoint>(&joint)) {
+      joints.revolute.push_back({index.at(hinge->body_a), index.at(hinge->body_b), hinge->anchor_a.as<Real>(),
+                                 hinge->anchor_b.as<Real>()});
+    } else if (const auto* rod = std::get_if<DistanceJoint>(&joint)) {
+      joints.distance.push_back({index.at(rod->body_a), index.at(rod->body_b), rod->anchor_a.as<Real>(),
+                                 rod->anchor_b.as<Real>(), static_cast<Real>(rod->length)});
+    }
+  }
   return joints;
 }
 

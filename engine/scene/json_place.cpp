@@ -33,7 +33,7 @@ std::string entry_subject(const Node& list, const Node& item) {
 /// Whether an error names the whole list in place of its entry: a position in place of its x.
 bool is_vector(const Node& list) {
   return list.kind == Kind::Array && list.key != "bodies" && list.key != "joints" && list.key != "forces" &&
-         list.key != "shapes";
+         list.key != "shapes" && list.key != "points";
 }
 
 const char* list_key(Place::List list) {

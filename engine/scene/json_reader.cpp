@@ -7,6 +7,7 @@
 #include "engine/scene/json.h"
 #include "engine/scene/json_document.h"
 #include "engine/scene/json_fields.h"
+#include "engine/scene/json_joints.h"
 #include "engine/scene/json_place.h"
 #include "engine/scene/names.h"
 
@@ -58,33 +59,79 @@ Filter read_filter(const View& view) {
   return filter;
 }
 
-Fields::Keys shape_keys() { return {"type", "position", "angle", "friction", "restitution", "filter"}; }
+Fields::Keys shape_keys() {
+  return {"type",          "position", "angle", "friction", "restitution", "rolling_resistance",
+          "surface_speed", "density",  "filter"};
+}
+
+std::vector<Vec2d> read_points(const View& view) {
+  if (view.node().kind != json::Kind::Array)
+    view.fail(Error::Kind::Syntax, "must be a list of points [[x, y], ...]");
+  std::vector<Vec2d> points;
+  for (const json::Node& item : view.node().items) points.push_back(json::vector(View(item, view)));
+  return points;
+}
 
 Geometry read_geometry(const View& view) {
-  const Fields::Keys any = shape_keys() + Fields::Keys{"radius", "width", "height"};
-  if (type_of(view, "a shape", any, kGeometryNames) == 0) {
-    const Fields fields(view, "a circle", shape_keys() + Fields::Keys{"radius"});
-    return Circle{json::number(fields.required("radius"))};
+  const Fields::Keys any =
+      shape_keys() + Fields::Keys{"radius", "width", "height", "start", "end", "points", "closed"};
+  const auto of = [&](std::string_view what, const Fields::Keys& keys) {
+    return Fields(view, what, shape_keys() + keys);
+  };
+  switch (type_of(view, "a shape", any, kGeometryNames)) {
+    case 0: {
+      const Fields fields = of("a circle", {"radius"});
+      return Circle{json::number(fields.required("radius"))};
+    }
+    case 1: {
+      const Fields fields = of("a box", {"width", "height"});
+      return Box{json::number(fields.required("width")), json::number(fields.required("height"))};
+    }
+    case 2: {
+      const Fields fields = of("a capsule", {"start", "end", "radius"});
+      return Capsule{json::vector(fields.required("start")), json::vector(fields.required("end")),
+                     json::number(fields.required("radius"))};
+    }
+    case 3: {
+      const Fields fields = of("a polygon", {"points", "radius"});
+      Polygon polygon{.points = read_points(fields.required("points"))};
+      fields.read("radius", polygon.radius);
+      return polygon;
+    }
+    case 4: {
+      const Fields fields = of("a segment", {"start", "end"});
+      return Segment{json::vector(fields.required("start")), json::vector(fields.required("end"))};
+    }
+    default: {
+      const Fields fields = of("a chain", {"points", "closed"});
+      Chain chain{.points = read_points(fields.required("points"))};
+      fields.read("closed", chain.closed);
+      return chain;
+    }
   }
-  const Fields fields(view, "a box", shape_keys() + Fields::Keys{"width", "height"});
-  return Box{json::number(fields.required("width")), json::number(fields.required("height"))};
 }
 
 Shape read_shape(const View& view) {
   Shape shape{.geometry = read_geometry(view)};
-  const Fields fields(view, "a shape", shape_keys() + Fields::Keys{"radius", "width", "height"});
+  const Fields fields(
+      view, "a shape",
+      shape_keys() + Fields::Keys{"radius", "width", "height", "start", "end", "points", "closed"});
   fields.read("position", shape.position);
   fields.read("angle", shape.angle);
   fields.read("friction", shape.friction);
   fields.read("restitution", shape.restitution);
+  fields.read("rolling_resistance", shape.rolling_resistance);
+  fields.read("surface_speed", shape.surface_speed);
+  if (fields.has("density")) shape.density = json::number(fields.required("density"));
   if (fields.has("filter")) shape.filter = read_filter(fields.required("filter"));
   return shape;
 }
 
 Body read_body(const View& view) {
-  const Fields fields(view, "a body",
-                      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
-                       "fixed_rotation", "shapes"});
+  const Fields fields(
+      view, "a body",
+      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
+       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping", "angular_damping", "shapes"});
   Body body{.name = json::string(fields.required("name"))};
   fields.read("type", body.type, kBodyTypeNames);
   fields.read("position", body.position);
@@ -94,33 +141,15 @@ Body read_body(const View& view) {
   fields.read("mass", body.mass);
   if (fields.has("inertia")) body.inertia = json::number(fields.required("inertia"));
   fields.read("fixed_rotation", body.fixed_rotation);
+  fields.read("lock_x", body.lock_x);
+  fields.read("lock_y", body.lock_y);
+  fields.read("gravity_scale", body.gravity_scale);
+  fields.read("linear_damping", body.linear_damping);
+  fields.read("angular_damping", body.angular_damping);
   fields.each("shapes", [&](const View& shape) { body.shapes.push_back(read_shape(shape)); });
+  if (body.type == BodyType::Dynamic && !fields.has("mass"))
+    body.mass = mass_by_density(body).value_or(body.mass);
   return body;
-}
-
-Fields::Keys joint_keys() { return {"type", "name", "body_a", "body_b", "anchor_a", "anchor_b", "collide"}; }
-
-template <class AnyJoint>
-void read_ends(const Fields& fields, AnyJoint& joint) {
-  joint.name = json::string(fields.required("name"));
-  joint.body_a = json::string(fields.required("body_a"));
-  joint.body_b = json::string(fields.required("body_b"));
-  fields.read("anchor_a", joint.anchor_a);
-  fields.read("anchor_b", joint.anchor_b);
-  fields.read("collide", joint.collide);
-}
-
-Joint read_joint(const View& view) {
-  if (type_of(view, "a joint", joint_keys() + Fields::Keys{"length"}, kJointNames) == 0) {
-    RevoluteJoint joint;
-    read_ends(Fields(view, "a revolute joint", joint_keys()), joint);
-    return joint;
-  }
-  const Fields fields(view, "a distance joint", joint_keys() + Fields::Keys{"length"});
-  DistanceJoint joint;
-  read_ends(fields, joint);
-  joint.length = json::number(fields.required("length"));
-  return joint;
 }
 
 template <class Drag>
@@ -213,7 +242,7 @@ Scene read_scene(const View& view) {
   fields.read("gravity", scene.gravity);
   if (fields.has("contact_rules")) scene.contact_rules = read_contact_rules(fields.required("contact_rules"));
   fields.each("bodies", [&](const View& body) { scene.bodies.push_back(read_body(body)); });
-  fields.each("joints", [&](const View& joint) { scene.joints.push_back(read_joint(joint)); });
+  fields.each("joints", [&](const View& joint) { scene.joints.push_back(json::read_joint(joint)); });
   fields.each("forces", [&](const View& force) { scene.forces.push_back(read_force(force)); });
   return scene;
 }

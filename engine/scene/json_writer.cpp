@@ -2,6 +2,7 @@
 #include <string>
 
 #include "engine/scene/error.h"
+#include "engine/scene/joint_fields.h"
 #include "engine/scene/json.h"
 #include "engine/scene/json_emitter.h"
 #include "engine/scene/names.h"
@@ -78,6 +79,11 @@ class Writer {
     write("mass", body.mass);
     if (body.inertia) write("inertia", *body.inertia);
     write("fixed_rotation", body.fixed_rotation);
+    write("lock_x", body.lock_x);
+    write("lock_y", body.lock_y);
+    write("gravity_scale", body.gravity_scale);
+    write("linear_damping", body.linear_damping);
+    write("angular_damping", body.angular_damping);
     list("shapes", body.shapes, [this](const Shape& shape) { this->shape(shape); });
     out_.end('}');
   }
@@ -90,6 +96,9 @@ class Writer {
     write("angle", shape.angle);
     write("friction", shape.friction);
     write("restitution", shape.restitution);
+    write("rolling_resistance", shape.rolling_resistance);
+    write("surface_speed", shape.surface_speed);
+    if (shape.density) write("density", *shape.density);
     out_.key("filter");
     out_.begin('{', Emitter::Layout::Inline);
     out_.key("category"), out_.integer(shape.filter.category);
@@ -105,22 +114,75 @@ class Writer {
     write("height", box.height);
   }
 
+  void geometry(const Capsule& capsule) {
+    write("start", capsule.start);
+    write("end", capsule.end);
+    write("radius", capsule.radius);
+  }
+  void geometry(const Polygon& polygon) {
+    points(polygon.points);
+    write("radius", polygon.radius);
+  }
+  void geometry(const Segment& segment) {
+    write("start", segment.start);
+    write("end", segment.end);
+  }
+  void geometry(const Chain& chain) {
+    points(chain.points);
+    write("closed", chain.closed);
+  }
+  void points(const std::vector<Vec2d>& points) {
+    out_.key("points");
+    out_.begin('[', Emitter::Layout::Inline);
+    for (const Vec2d point : points) out_.vector(point);
+    out_.end(']');
+  }
+
+  void write(std::string_view key, const Spring& spring) {
+    out_.key(key);
+    out_.begin('{', Emitter::Layout::Inline);
+    write("hertz", spring.hertz);
+    write("damping_ratio", spring.damping_ratio);
+    out_.end('}');
+  }
+  void write(std::string_view key, const Motor& motor) {
+    out_.key(key);
+    out_.begin('{', Emitter::Layout::Inline);
+    write("speed", motor.speed);
+    write("max_force", motor.max_force);
+    out_.end('}');
+  }
+  /// JSON has no infinity: an open end of a range is left out.
+  void write(std::string_view key, const Range& range) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    out_.key(key);
+    out_.begin('{', Emitter::Layout::Inline);
+    if (range.lower != -kInfinity) write("lower", range.lower);
+    if (range.upper != kInfinity) write("upper", range.upper);
+    out_.end('}');
+  }
+  template <class T>
+  void write(std::string_view key, const std::optional<T>& value) {
+    if (value) write(key, *value);
+  }
+
   void joint(const Joint& joint) {
     out_.begin('{');
     write("type", kJointNames[joint.index()]);
-    std::visit([this](const auto& any) { ends(any); }, joint);
-    if (const auto* distance = std::get_if<DistanceJoint>(&joint)) write("length", distance->length);
-    std::visit([this](const auto& any) { write("collide", any.collide); }, joint);
+    std::visit(
+        [this](const auto& any) {
+          write("name", any.name);
+          write("body_a", any.body_a);
+          write("body_b", any.body_b);
+          const auto field = [this](std::string_view key, const auto& value, const FieldRule&) {
+            write(key, value);
+          };
+          anchor_fields(any, field);
+          own_fields(any, field);
+          last_fields(any, field);
+        },
+        joint);
     out_.end('}');
-  }
-
-  template <class AnyJoint>
-  void ends(const AnyJoint& joint) {
-    write("name", joint.name);
-    write("body_a", joint.body_a);
-    write("body_b", joint.body_b);
-    write("anchor_a", joint.anchor_a);
-    write("anchor_b", joint.anchor_b);
   }
 
   void force(const ForceLaw& force) {

@@ -11,8 +11,11 @@ inline constexpr std::array<std::string_view, 5> kCombineNames{"geometric_mean",
                                                                "minimum", "average"};
 inline constexpr std::array<std::string_view, 2> kSimultaneousNames{"sequence", "together"};
 inline constexpr std::array<std::string_view, 2> kFrameNames{"world", "body"};
-inline constexpr std::array<std::string_view, 2> kGeometryNames{"circle", "box"};
-inline constexpr std::array<std::string_view, 2> kJointNames{"revolute", "distance"};
+inline constexpr std::array<std::string_view, 6> kGeometryNames{"circle",  "box",     "capsule",
+                                                                "polygon", "segment", "chain"};
+inline constexpr std::array<std::string_view, 11> kJointNames{"revolute", "distance", "prismatic", "weld",
+                                                              "wheel",    "motor",    "mouse",     "gear",
+                                                              "pulley",   "ratchet",  "friction"};
 inline constexpr std::array<std::string_view, 7> kForceNames{
     "linear_drag", "quadratic_drag", "point_force", "torque", "spring", "attraction", "sinusoidal_force"};
 

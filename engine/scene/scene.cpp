@@ -2,22 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/math/trigonometry.h"
 #include "engine/scene/json.h"
 
 namespace plumb {
-namespace {
-
-double area(const Circle& circle) { return std::numbers::pi * circle.radius * circle.radius; }
-double area(const Box& box) { return box.width * box.height; }
-
-/// Square of the radius of gyration about the shape's own centre, m^2: I/m.
-double gyration_squared(const Circle& circle) { return circle.radius * circle.radius / 2; }
-double gyration_squared(const Box& box) { return (box.width * box.width + box.height * box.height) / 12; }
-
-}  // namespace
-
 BodyState initial_state(const Body& body) {
   return {body.position, body.angle, body.velocity, body.angular_velocity};
 }
@@ -25,20 +14,27 @@ BodyState initial_state(const Body& body) {
 double inertia_of(const Body& body) {
   if (body.type != BodyType::Dynamic || body.fixed_rotation) return 0;
   if (body.inertia) return *body.inertia;
-  double total_area = 0;
-  for (const Shape& shape : body.shapes) {
-    total_area += std::visit([](const auto& geometry) { return area(geometry); }, shape.geometry);
-  }
-  // I = sum m_i (k_i^2 + |r_i|^2) with m_i = m A_i / A: the polar moment does not depend on a shape's angle.
+  double total = 0;
+  for (const Shape& shape : body.shapes) total += shape.density.value_or(1) * extent_of(shape.geometry).area;
+  // I = m sum s_i (k_i^2 + |r_i|^2), s_i a shape's share of the mass, k_i its radius of gyration about its
+  // own centroid and r_i where that is: the polar moment does not depend on a shape's angle.
   double mean_square = 0;
   for (const Shape& shape : body.shapes) {
-    const double share =
-        std::visit([](const auto& geometry) { return area(geometry); }, shape.geometry) / total_area;
-    const double own =
-        std::visit([](const auto& geometry) { return gyration_squared(geometry); }, shape.geometry);
-    mean_square += share * (own + length_squared(shape.position));
+    const Extent extent = extent_of(shape.geometry);
+    if (extent.area == 0) continue;
+    const double share = shape.density.value_or(1) * extent.area / total;
+    Vec2d centre = shape.position;
+    if (extent.centroid != Vec2d{}) centre += rotation_of(shape.angle) * extent.centroid;
+    mean_square += share * (extent.gyration_squared + length_squared(centre));
   }
   return body.mass * mean_square;
+}
+
+std::optional<double> mass_by_density(const Body& body) {
+  if (body.shapes.empty() || !body.shapes.front().density) return std::nullopt;
+  double sum = 0;
+  for (const Shape& shape : body.shapes) sum += shape.density.value_or(0) * extent_of(shape.geometry).area;
+  return sum;
 }
 
 double combine(Combine rule, double a, double b) {

@@ -10,25 +10,14 @@
 #include <vector>
 
 #include "engine/math/vec2.h"
+#include "engine/scene/geometry.h"
+#include "engine/scene/joint.h"
 
 /// One scene for every engine: plain data in SI units, double precision, y up.
 namespace plumb {
 
 /// Joints name this in place of a body to hold on to the fixed frame.
 inline constexpr std::string_view kWorld = "world";
-
-struct Circle {
-  double radius = 0;  ///< m, > 0
-  friend bool operator==(const Circle&, const Circle&) = default;
-};
-
-struct Box {
-  double width = 0;   ///< m, > 0, along the shape's x
-  double height = 0;  ///< m, > 0, along the shape's y
-  friend bool operator==(const Box&, const Box&) = default;
-};
-
-using Geometry = std::variant<Circle, Box>;
 
 /// Two shapes may touch when each one's category is in the other's mask; an equal non-zero group decides
 /// first: positive always, negative never.
@@ -46,6 +35,10 @@ struct Shape {
   double friction = 0.5;   ///< Coulomb coefficient, >= 0
   double restitution = 0;  ///< Newton's coefficient, 0..1
   Filter filter{};
+  double rolling_resistance =
+      0;                     ///< share of the rounding radius at which the normal force resists rolling, >= 0
+  double surface_speed = 0;  ///< m/s, of the surface, to the right as seen by who stands on it
+  std::optional<double> density{};  ///< kg/m^2, >= 0; where one shape of a body has it all have
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
@@ -63,33 +56,13 @@ struct Body {
   std::optional<double> inertia{};  ///< kg m^2 about the centre of mass, > 0; absent: see `inertia_of`
   bool fixed_rotation = false;
   std::vector<Shape> shapes{};
+  double gravity_scale = 1;    ///< share of the scene's gravity that acts on the body
+  double linear_damping = 0;   ///< 1/s, >= 0: the velocity decays as exp(-damping t)
+  double angular_damping = 0;  ///< 1/s, >= 0: likewise
+  bool lock_x = false;         ///< the centre of mass keeps its x
+  bool lock_y = false;         ///< likewise its y
   friend bool operator==(const Body&, const Body&) = default;
 };
-
-/// Holds two anchors together; the bodies turn freely about them.
-struct RevoluteJoint {
-  std::string name;    ///< unique, not empty
-  std::string body_a;  ///< a body's name, or "world"
-  std::string body_b;
-  Vec2d anchor_a{};      ///< m, in body a's frame
-  Vec2d anchor_b{};      ///< m, in body b's frame
-  bool collide = false;  ///< whether the two bodies may also touch
-  friend bool operator==(const RevoluteJoint&, const RevoluteJoint&) = default;
-};
-
-/// Holds two anchors at a distance (a massless rigid rod).
-struct DistanceJoint {
-  std::string name;
-  std::string body_a;
-  std::string body_b;
-  Vec2d anchor_a{};
-  Vec2d anchor_b{};
-  double length = 0;  ///< m, > 0
-  bool collide = false;
-  friend bool operator==(const DistanceJoint&, const DistanceJoint&) = default;
-};
-
-using Joint = std::variant<RevoluteJoint, DistanceJoint>;
 
 /// F = -coefficient v, at the centre of mass.
 struct LinearDrag {
@@ -209,9 +182,12 @@ struct BodyState {
 BodyState initial_state(const Body& body);
 
 /// Rotational inertia of a dynamic body about its centre of mass, kg m^2: as given, else that of its shapes
-/// with uniform density (overlaps counted twice). 0 where rotation is fixed. Source: I_disc = m r^2/2,
-/// I_box = m (w^2 + h^2)/12, parallel axes.
+/// with their densities, or with uniform density (overlaps counted twice). 0 where rotation is fixed. Source:
+/// `extent_of`, parallel axes.
 double inertia_of(const Body& body);
+
+/// What the shapes' densities give, kg; nothing where shapes have none. A body with densities has this mass.
+std::optional<double> mass_by_density(const Body& body);
 
 /// The coefficient of a contact between shapes with coefficients `a` and `b`.
 double combine(Combine rule, double a, double b);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
+#include "engine/scene/joint_fields.h"
 #include "engine/scene/names.h"
 #include "engine/scene/subject.h"
 #include "engine/scene/suggest.h"
@@ -16,38 +19,6 @@
 
 namespace plumb {
 namespace {
-
-/// Which numbers a field takes.
-enum class Range { Any, NonNegative, Positive, ZeroToOne };
-
-std::string describe(Range range, const std::string& unit) {
-  const std::string of = unit.empty() ? "" : " of " + unit;
-  switch (range) {
-    case Range::NonNegative:
-      return "must be zero or a positive number" + of;
-    case Range::Positive:
-      return "must be a positive number" + of;
-    case Range::ZeroToOne:
-      return "must be a number from 0 to 1" + of;
-    case Range::Any:
-      break;
-  }
-  return "must be a finite number" + of;
-}
-
-bool within(Range range, double value) {
-  switch (range) {
-    case Range::NonNegative:
-      return value >= 0;
-    case Range::Positive:
-      return value > 0;
-    case Range::ZeroToOne:
-      return value >= 0 && value <= 1;
-    case Range::Any:
-      break;
-  }
-  return true;
-}
 
 std::string text_of(Vec2d v) { return "[" + shortest(v.x) + ", " + shortest(v.y) + "]"; }
 
@@ -99,23 +70,24 @@ class Checker {
     return scene_subject(scene_.name);
   }
 
-  void number(const char* field, double value, Range range, const char* unit) const {
+  void number(const std::string& field, double value, Limits range, const char* unit) const {
     if (!std::isfinite(value) || !within(range, value)) {
       fail(Error::Kind::Value, field, shortest(value), describe(range, unit));
     }
     if (std::abs(value) > kLargest) too_large(field, shortest(value));
-    if (range == Range::Positive && value < kSmallest) {
+    if ((range == Limits::Positive || range == Limits::NotZero) && std::abs(value) < kSmallest) {
       fail(Error::Kind::Value, field, shortest(value),
-           "must be at least " + shortest(kSmallest) + ": products with its reciprocal would overflow");
+           "must be at least " + shortest(kSmallest) + (range == Limits::NotZero ? " in magnitude" : "") +
+               ": products with its reciprocal would overflow");
     }
   }
 
-  [[noreturn]] void too_large(const char* field, std::string value) const {
+  [[noreturn]] void too_large(const std::string& field, std::string value) const {
     fail(Error::Kind::Value, field, std::move(value),
          "must be at most " + shortest(kLargest) + " in magnitude: products of such numbers overflow");
   }
 
-  void vector(const char* field, Vec2d value, const char* unit) const {
+  void vector(const std::string& field, Vec2d value, const char* unit) const {
     if (!std::isfinite(value.x) || !std::isfinite(value.y)) {
       fail(Error::Kind::Value, field, text_of(value), std::string("must be two finite numbers of ") + unit);
     }
@@ -153,7 +125,7 @@ class Checker {
     member("contact_rules.friction", scene_.contact_rules.friction, kCombineNames);
     member("contact_rules.restitution", scene_.contact_rules.restitution, kCombineNames);
     number("contact_rules.restitution_threshold", scene_.contact_rules.restitution_threshold,
-           Range::NonNegative, "m/s");
+           Limits::NonNegative, "m/s");
     member("contact_rules.simultaneous", scene_.contact_rules.simultaneous, kSimultaneousNames);
   }
 
@@ -164,25 +136,58 @@ class Checker {
     }
     member("type", body.type, kBodyTypeNames);
     vector("position", body.position, "m");
-    number("angle", body.angle, Range::Any, "rad");
+    number("angle", body.angle, Limits::Any, "rad");
     check_motion(body);
     const bool dynamic = body.type == BodyType::Dynamic;
-    number("mass", body.mass, dynamic ? Range::Positive : Range::NonNegative, "kg");
-    if (body.inertia) number("inertia", *body.inertia, Range::Positive, "kg m^2");
+    number("mass", body.mass, dynamic ? Limits::Positive : Limits::NonNegative, "kg");
+    if (body.inertia) number("inertia", *body.inertia, Limits::Positive, "kg m^2");
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
       prefix_ = "shapes[" + std::to_string(i) + "].";
       check_shape(body.shapes[i]);
       prefix_.clear();
     }
-    if (dynamic && !body.inertia && !body.fixed_rotation && body.shapes.empty()) {
+    number("gravity_scale", body.gravity_scale, Limits::Any, "");
+    number("linear_damping", body.linear_damping, Limits::NonNegative, "1/s");
+    number("angular_damping", body.angular_damping, Limits::NonNegative, "1/s");
+    if (dynamic) check_mass(body);
+  }
+
+  /// A mass that follows from the shapes, and shapes that the inertia can follow from.
+  void check_mass(const Body& body) const {
+    const auto has = [](const Shape& shape) { return shape.density.has_value(); };
+    if (std::any_of(body.shapes.begin(), body.shapes.end(), has)) {
+      for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+        if (has(body.shapes[i])) continue;
+        fail(Error::Kind::Value, "shapes[" + std::to_string(i) + "].density", "absent",
+             "must be given in kg/m^2 when another shape of the body has its density");
+      }
+      const double sum = *mass_by_density(body);
+      if (!(sum >= kSmallest && sum <= kLargest))
+        fail(Error::Kind::Value, "mass", shortest(sum),
+             "by the shapes' densities is out of range: it must be positive");
+      // The share is that of a decimal with 9 digits.
+      if (!(std::abs(body.mass - sum) <= 1e-9 * sum))
+        fail(Error::Kind::Value, "mass", shortest(body.mass),
+             "must be " + shortest(sum) + " kg, what the shapes' densities give; it may be left out");
+    }
+    if (body.inertia || body.fixed_rotation) return;
+    const auto weighs = [](const Shape& shape) {
+      return shape.density.value_or(1) > 0 && extent_of(shape.geometry).area > 0;
+    };
+    if (body.shapes.empty()) {
       fail(Error::Kind::Value, "inertia", "absent",
            "must be given in kg m^2 for a dynamic body without shapes, unless fixed_rotation is true");
+    }
+    if (std::none_of(body.shapes.begin(), body.shapes.end(), weighs)) {
+      fail(Error::Kind::Value, "inertia", "absent",
+           "must be given in kg m^2 for a dynamic body whose shapes weigh nothing, unless fixed_rotation is "
+           "true");
     }
   }
 
   void check_motion(const Body& body) const {
     vector("velocity", body.velocity, "m/s");
-    number("angular_velocity", body.angular_velocity, Range::Any, "rad/s");
+    number("angular_velocity", body.angular_velocity, Limits::Any, "rad/s");
     if (body.type == BodyType::Static && body.velocity != Vec2d{}) {
       fail(Error::Kind::Value, "velocity", text_of(body.velocity),
            "must be zero for a static body; a kinematic one moves as it is told");
@@ -201,16 +206,62 @@ class Checker {
   void check_shape(const Shape& shape) const {
     std::visit([this](const auto& geometry) { check_geometry(geometry); }, shape.geometry);
     vector("position", shape.position, "m");
-    number("angle", shape.angle, Range::Any, "rad");
-    number("friction", shape.friction, Range::NonNegative, "");
-    number("restitution", shape.restitution, Range::ZeroToOne, "");
+    number("angle", shape.angle, Limits::Any, "rad");
+    number("friction", shape.friction, Limits::NonNegative, "");
+    number("restitution", shape.restitution, Limits::ZeroToOne, "");
+    number("rolling_resistance", shape.rolling_resistance, Limits::NonNegative, "");
+    number("surface_speed", shape.surface_speed, Limits::Any, "m/s");
+    if (shape.density) number("density", *shape.density, Limits::NonNegative, "kg/m^2");
   }
 
-  void check_geometry(const Circle& circle) const { number("radius", circle.radius, Range::Positive, "m"); }
+  void check_geometry(const Circle& circle) const { number("radius", circle.radius, Limits::Positive, "m"); }
 
   void check_geometry(const Box& box) const {
-    number("width", box.width, Range::Positive, "m");
-    number("height", box.height, Range::Positive, "m");
+    number("width", box.width, Limits::Positive, "m");
+    number("height", box.height, Limits::Positive, "m");
+  }
+
+  void check_geometry(const Capsule& capsule) const {
+    vector("start", capsule.start, "m");
+    vector("end", capsule.end, "m");
+    number("radius", capsule.radius, Limits::Positive, "m");
+  }
+
+  void check_geometry(const Polygon& polygon) const {
+    points(polygon.points, 3);
+    number("radius", polygon.radius, Limits::NonNegative, "m");
+    if (!(extent_of(polygon).area > 0))
+      fail(Error::Kind::Value, "points", std::to_string(polygon.points.size()) + " points",
+           "must not lie on a line: a polygon has an area");
+  }
+
+  void check_geometry(const Segment& segment) const {
+    vector("start", segment.start, "m");
+    vector("end", segment.end, "m");
+    if (segment.start == segment.end)
+      fail(Error::Kind::Value, "end", text_of(segment.end), "must differ from start: a segment has a length");
+  }
+
+  void check_geometry(const Chain& chain) const {
+    points(chain.points, 2);
+    if (chain.closed && chain.points.size() < 3)
+      fail(Error::Kind::Value, "points", std::to_string(chain.points.size()) + " points",
+           "must be 3 or more when closed");
+    for (std::size_t i = 0; i < chain.points.size(); ++i) {
+      const bool last = i + 1 == chain.points.size();
+      const std::size_t next = last ? 0 : i + 1;
+      if ((last && !chain.closed) || chain.points[i] != chain.points[next]) continue;
+      fail(Error::Kind::Value, "points[" + std::to_string(next) + "]", text_of(chain.points[next]),
+           "must differ from the point before it");
+    }
+  }
+
+  void points(const std::vector<Vec2d>& points, std::size_t least) const {
+    if (points.size() < least)
+      fail(Error::Kind::Value, "points", std::to_string(points.size()) + " points",
+           "must be " + std::to_string(least) + " or more");
+    for (std::size_t i = 0; i < points.size(); ++i)
+      vector("points[" + std::to_string(i) + "]", points[i], "m");
   }
 
   /// The body that `field` names; nullptr for the world where that is allowed.
@@ -240,22 +291,53 @@ class Checker {
       fail(Error::Kind::Name, "body_b", joint.body_b,
            "must be dynamic when " + quoted(joint.body_a) + " is not: a joint has to have something to hold");
     }
-    vector("anchor_a", joint.anchor_a, "m");
-    vector("anchor_b", joint.anchor_b, "m");
-    check_size(joint);
+    const auto check = [this](const char* field, const auto& value, const FieldRule& rule) {
+      this->field(field, value, rule);
+    };
+    anchor_fields(joint, check);
+    own_fields(joint, check);
+    last_fields(joint, check);
   }
 
-  void check_size(const RevoluteJoint&) const {}
-  void check_size(const DistanceJoint& joint) const { number("length", joint.length, Range::Positive, "m"); }
+  // A field of a joint, by its type.
+  void field(const std::string& name, double value, const FieldRule& rule) const {
+    number(name, value, rule.limits, rule.unit);
+  }
+  void field(const std::string&, bool, const FieldRule&) const {}
+  void field(const std::string& name, Vec2d value, const FieldRule& rule) const {
+    vector(name, value, rule.unit);
+    if (rule.limits == Limits::NotZero && std::max(std::abs(value.x), std::abs(value.y)) < kSmallest)
+      fail(Error::Kind::Value, name, text_of(value), "must not be zero: it is a direction");
+  }
+  void field(const std::string& name, const Spring& spring, const FieldRule&) const {
+    number(name + ".hertz", spring.hertz, Limits::Positive, "1/s");
+    number(name + ".damping_ratio", spring.damping_ratio, Limits::NonNegative, "");
+  }
+  void field(const std::string& name, const Motor& motor, const FieldRule& rule) const {
+    number(name + ".speed", motor.speed, Limits::Any, rule.unit);
+    number(name + ".max_force", motor.max_force, Limits::NonNegative, "N or N m");
+  }
+  void field(const std::string& name, const Range& range, const FieldRule& rule) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (range.lower != -kInfinity) number(name + ".lower", range.lower, rule.limits, rule.unit);
+    if (range.upper != kInfinity) number(name + ".upper", range.upper, rule.limits, rule.unit);
+    if (!(range.lower <= range.upper))
+      fail(Error::Kind::Value, name + ".upper", shortest(range.upper),
+           "must be at least the lower bound, " + shortest(range.lower));
+  }
+  template <class T>
+  void field(const std::string& name, const std::optional<T>& value, const FieldRule& rule) const {
+    if (value) field(name, *value, rule);
+  }
 
   void check_force(const LinearDrag& law) const {
     body_called("body", law.body, false);
-    number("coefficient", law.coefficient, Range::NonNegative, "N s/m");
+    number("coefficient", law.coefficient, Limits::NonNegative, "N s/m");
   }
 
   void check_force(const QuadraticDrag& law) const {
     body_called("body", law.body, false);
-    number("coefficient", law.coefficient, Range::NonNegative, "N s^2/m^2");
+    number("coefficient", law.coefficient, Limits::NonNegative, "N s^2/m^2");
   }
 
   void check_force(const PointForce& law) const {
@@ -268,7 +350,7 @@ class Checker {
 
   void check_force(const Torque& law) const {
     body_called("body", law.body, false);
-    number("torque", law.torque, Range::Any, "N m");
+    number("torque", law.torque, Limits::Any, "N m");
     check_time(law.start, law.duration);
   }
 
@@ -279,9 +361,9 @@ class Checker {
       fail(Error::Kind::Name, "body_b", law.body_b, "must differ from body_a: a spring pulls two ends");
     vector("anchor_a", law.anchor_a, "m");
     vector("anchor_b", law.anchor_b, "m");
-    number("rest_length", law.rest_length, Range::NonNegative, "m");
-    number("stiffness", law.stiffness, Range::NonNegative, "N/m");
-    number("damping", law.damping, Range::NonNegative, "N s/m");
+    number("rest_length", law.rest_length, Limits::NonNegative, "m");
+    number("stiffness", law.stiffness, Limits::NonNegative, "N/m");
+    number("damping", law.damping, Limits::NonNegative, "N s/m");
   }
 
   void check_force(const AttractionForce& law) const {
@@ -290,7 +372,7 @@ class Checker {
       fail(Error::Kind::Name, "centre_body", law.centre_body,
            "must differ from body: nothing attracts itself");
     vector("centre", law.centre, "m");
-    number("strength", law.strength, Range::Any, "m^(1 + exponent)/s^2");
+    number("strength", law.strength, Limits::Any, "m^(1 + exponent)/s^2");
     if (std::abs(law.exponent) > kLargestExponent)
       fail(Error::Kind::Value, "exponent", std::to_string(law.exponent),
            "must be a whole number from -9 to 9");
@@ -300,14 +382,14 @@ class Checker {
     body_called("body", law.body, false);
     vector("amplitude", law.amplitude, "N");
     vector("point", law.point, "m");
-    number("angular_frequency", law.angular_frequency, Range::NonNegative, "rad/s");
-    number("phase", law.phase, Range::Any, "rad");
+    number("angular_frequency", law.angular_frequency, Limits::NonNegative, "rad/s");
+    number("phase", law.phase, Limits::Any, "rad");
   }
 
   void check_time(double start, double duration) const {
-    number("start", start, Range::NonNegative, "s");
+    number("start", start, Limits::NonNegative, "s");
     if (duration != std::numeric_limits<double>::infinity()) {
-      number("duration", duration, Range::NonNegative, "s");
+      number("duration", duration, Limits::NonNegative, "s");
     }
   }
 

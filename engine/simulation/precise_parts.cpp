@@ -9,6 +9,7 @@
 
 #include "engine/forces/attraction_force.h"
 #include "engine/math/trigonometry.h"
+#include "engine/scene/features.h"
 #include "engine/simulation/precise.h"
 
 namespace plumb::precise {
@@ -97,9 +98,6 @@ std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const
   return a;
 }
 
-double extent(const Circle& circle) { return circle.radius; }
-double extent(const Box& box) { return 0.5 * std::sqrt(box.width * box.width + box.height * box.height); }
-
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 /// What a law says of the scene's scales at the start: a length, and an acceleration that it gives.
@@ -186,17 +184,19 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
     const Body& body = scene.bodies[i];
     speed = std::max(speed, length(body.velocity));
     for (const Shape& shape : body.shapes) {
-      largest = std::max(largest, std::visit([](const auto& g) { return extent(g); }, shape.geometry));
+      largest = std::max(largest, reach_of(shape.geometry));
     }
   }
   for (const Joint& joint : scene.joints) {
     std::visit(
         [&](const auto& j) {
-          if (j.body_a != kWorld) largest = std::max(largest, length(j.anchor_a));
-          if (j.body_b != kWorld) largest = std::max(largest, length(j.anchor_b));
-          if constexpr (requires { j.length; }) largest = std::max(largest, j.length);
+          if constexpr (requires { j.anchor_a; }) {
+            if (j.body_a != kWorld) largest = std::max(largest, length(j.anchor_a));
+            if (j.body_b != kWorld) largest = std::max(largest, length(j.anchor_b));
+          }
         },
         joint);
+    if (const auto* rod = std::get_if<DistanceJoint>(&joint)) largest = std::max(largest, rod->length);
   }
   for (const ForceLaw& law : scene.forces) {
     const LawScale scale = std::visit(LawScales(scene, index), law);
@@ -218,6 +218,8 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
 namespace plumb {
 
 std::string precise_unsupported(const Scene& scene) {
+  if (const std::string feature = unusual_feature(scene); !feature.empty())
+    return feature + ", which Precise does not have; a World runs it";
   // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(scene);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/scene/error.h"
+#include "engine/scene/features.h"
 #include "engine/scene/text.h"
 #include "engine/solve/direct_joints.h"
 #include "engine/solve/iterative_joints.h"
@@ -221,6 +222,8 @@ template class RealtimeDriver<float>;
 template class RealtimeDriver<double>;
 
 std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy) {
+  if (const std::string feature = unusual_feature(scene); !feature.empty())
+    return feature + ", which Realtime does not have; a World runs it";
   if (accuracy.precision != Precision::Float) return "";
   constexpr double kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
   const auto fits = [](double value) {

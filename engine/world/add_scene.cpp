@@ -2,26 +2,18 @@
 
 #include <map>
 #include <string_view>
+#include <tuple>
 
+#include "engine/joints/joint_check.h"
+#include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 #include "engine/scene/subject.h"
+#include "engine/scene/text.h"
 #include "engine/scene/validate.h"
+#include "engine/world/validate.h"
 
 namespace plumb {
 namespace {
-
-void refuse_what_a_world_lacks(const Scene& scene) {
-  const std::string subject = scene_subject(scene.name);
-  if (!scene.forces.empty()) {
-    throw Error(Error::Kind::Unsupported, subject, "forces", std::to_string(scene.forces.size()),
-                "are not part of a world; apply them before each step");
-  }
-  if (scene.contact_rules.restitution_threshold > 0) {
-    throw Error(Error::Kind::Unsupported, subject, "restitution_threshold",
-                std::to_string(scene.contact_rules.restitution_threshold),
-                "is the world's own: it follows from gravity and the step");
-  }
-}
 
 BodyDefinition definition_of(const Body& body) {
   BodyDefinition definition;
@@ -32,6 +24,11 @@ BodyDefinition definition_of(const Body& body) {
   definition.velocity = body.velocity;
   definition.angular_velocity = body.angular_velocity;
   definition.lock_rotation = body.fixed_rotation;
+  definition.gravity_scale = body.gravity_scale;
+  definition.linear_damping = body.linear_damping;
+  definition.angular_damping = body.angular_damping;
+  definition.lock_x = body.lock_x;
+  definition.lock_y = body.lock_y;
   if (body.type != BodyType::Dynamic) return definition;
   const double inertia = inertia_of(body);
   definition.mass = MassProperties{body.mass, {}, inertia > 0 ? inertia : 1};
@@ -39,43 +36,135 @@ BodyDefinition definition_of(const Body& body) {
   return definition;
 }
 
-ShapeDefinition definition_of(const Shape& shape) {
-  ShapeDefinition definition;
-  std::visit([&](const auto& geometry) { definition.geometry = geometry; }, shape.geometry);
-  definition.position = shape.position;
-  definition.angle = shape.angle;
-  definition.material = {.friction = shape.friction, .restitution = shape.restitution};
-  definition.filter = shape.filter;
-  return definition;
+Material material_of(const Shape& shape) {
+  return {.friction = shape.friction,
+          .restitution = shape.restitution,
+          .rolling_resistance = shape.rolling_resistance,
+          .surface_speed = shape.surface_speed};
+}
+
+/// What the shapes of a body become: chains are made one by one after it.
+struct Shapes {
+  std::vector<ShapeDefinition> solid;
+  std::vector<ChainDefinition> chains;
+};
+
+struct AddShape {
+  Shapes& to;
+  const Shape& shape;
+
+  void operator()(const Chain& chain) const {
+    ChainDefinition definition{
+        .closed = chain.closed, .material = material_of(shape), .filter = shape.filter};
+    const Rotation<double> turn = rotation_of(shape.angle);
+    for (const Vec2d point : chain.points) definition.points.push_back(shape.position + turn * point);
+    to.chains.push_back(std::move(definition));
+  }
+
+  void operator()(const auto& geometry) const {
+    ShapeDefinition definition;
+    definition.geometry = geometry;
+    definition.position = shape.position;
+    definition.angle = shape.angle;
+    definition.density = shape.density.value_or(definition.density);
+    definition.material = material_of(shape);
+    definition.filter = shape.filter;
+    to.solid.push_back(std::move(definition));
+  }
+};
+
+Shapes shapes_of(const Body& body) {
+  Shapes out;
+  for (const Shape& shape : body.shapes) std::visit(AddShape{out, shape}, shape.geometry);
+  return out;
 }
 
 struct KindOf {
-  JointKind operator()(const RevoluteJoint& joint) const {
-    return RevoluteDefinition{.anchor_a = joint.anchor_a, .anchor_b = joint.anchor_b};
+  JointKind operator()(const RevoluteJoint& j) const {
+    return RevoluteDefinition{j.anchor_a, j.anchor_b, j.reference_angle, j.limits,
+                              j.motor,    j.spring,   j.target_angle};
   }
-  JointKind operator()(const DistanceJoint& joint) const {
-    return DistanceDefinition{.anchor_a = joint.anchor_a, .anchor_b = joint.anchor_b, .length = joint.length};
+  JointKind operator()(const DistanceJoint& j) const {
+    return DistanceDefinition{j.anchor_a, j.anchor_b, j.length, j.spring, j.range, j.motor};
+  }
+  JointKind operator()(const PrismaticJoint& j) const {
+    return PrismaticDefinition{j.anchor_a, j.anchor_b, j.axis,   j.reference_angle,
+                               j.limits,   j.motor,    j.spring, j.target_translation};
+  }
+  JointKind operator()(const WeldJoint& j) const {
+    return WeldDefinition{j.anchor_a, j.anchor_b, j.reference_angle, j.linear_spring, j.angular_spring};
+  }
+  JointKind operator()(const WheelJoint& j) const {
+    return WheelDefinition{j.anchor_a, j.anchor_b, j.axis, j.spring, j.limits, j.motor};
+  }
+  JointKind operator()(const MotorJoint& j) const {
+    return MotorDefinition{j.target_position, j.target_angle, j.max_force, j.max_torque, j.spring};
+  }
+  JointKind operator()(const MouseJoint& j) const {
+    return MouseDefinition{j.anchor_b, j.target, j.spring, j.max_force};
+  }
+  JointKind operator()(const GearJoint& j) const { return GearDefinition{j.ratio, j.phase}; }
+  JointKind operator()(const PulleyJoint& j) const {
+    return PulleyDefinition{j.ground_a, j.ground_b, j.anchor_a, j.anchor_b, j.ratio, j.length};
+  }
+  JointKind operator()(const RatchetJoint& j) const { return RatchetDefinition{j.tooth, j.phase}; }
+  JointKind operator()(const FrictionJoint& j) const {
+    return FrictionDefinition{j.anchor_a, j.anchor_b, j.max_force, j.max_torque};
   }
 };
+
+JointDefinition definition_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) {
+        return JointDefinition{.kind = KindOf{}(j),
+                               .collide = j.collide,
+                               .break_force = j.break_force,
+                               .break_torque = j.break_torque};
+      },
+      joint);
+}
+
+/// Error where the world would refuse a part: before any other part is in it.
+void check_parts(const Scene& scene) {
+  validate(world_definition(scene));
+  for (const Body& body : scene.bodies) {
+    validate(definition_of(body));
+    const Shapes shapes = shapes_of(body);
+    for (const ShapeDefinition& shape : shapes.solid) validate(shape);
+    for (const ChainDefinition& chain : shapes.chains) validate(chain);
+  }
+  for (const Joint& joint : scene.joints) validate(definition_of(joint).kind);
+}
 
 }  // namespace
 
 WorldDefinition world_definition(const Scene& scene) {
-  return {.gravity = scene.gravity,
-          .combine_friction = scene.contact_rules.friction,
-          .combine_restitution = scene.contact_rules.restitution};
+  WorldDefinition definition;
+  definition.gravity = scene.gravity;
+  definition.combine_friction = scene.contact_rules.friction;
+  definition.combine_restitution = scene.contact_rules.restitution;
+  return definition;
+}
+
+std::string world_unsupported(const Scene& scene) {
+  if (scene.contact_rules.restitution_threshold > 0)
+    return "restitution_threshold is " + shortest(scene.contact_rules.restitution_threshold) +
+           ": a World's own follows from gravity and the step";
+  return "";
 }
 
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
   validate(scene);
-  refuse_what_a_world_lacks(scene);
+  if (const std::string reason = world_unsupported(scene); !reason.empty())
+    throw Error(Error::Kind::Unsupported, scene_subject(scene.name), "", "", reason);
+  check_parts(scene);
   SceneParts parts;
   std::map<std::string_view, BodyId> by_name;
   for (const Body& body : scene.bodies) {
-    std::vector<ShapeDefinition> shapes;
-    for (const Shape& shape : body.shapes) shapes.push_back(definition_of(shape));
-    parts.bodies.push_back(world.create_body(definition_of(body), shapes));
+    const Shapes shapes = shapes_of(body);
+    parts.bodies.push_back(world.create_body(definition_of(body), shapes.solid));
+    for (const ChainDefinition& chain : shapes.chains) world.create_chain(parts.bodies.back(), chain);
     by_name[body.name] = parts.bodies.back();
   }
   const auto find = [&](const std::string& name) {
@@ -88,12 +177,10 @@ SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
     return parts.frame;
   };
   for (const Joint& joint : scene.joints) {
-    const auto [body_a, body_b, collide] =
-        std::visit([](const auto& j) { return std::tuple(j.body_a, j.body_b, j.collide); }, joint);
-    JointDefinition definition;
-    definition.kind = std::visit(KindOf{}, joint);
-    definition.collide = collide;
-    parts.joints.push_back(world.create_joint(find(body_a), find(body_b), definition));
+    const auto [name_a, name_b] =
+        std::visit([](const auto& j) { return std::tuple(j.body_a, j.body_b); }, joint);
+    const BodyId a = find(name_a), b = find(name_b);
+    parts.joints.push_back(world.create_joint(a, b, definition_of(joint)));
   }
   return parts;
 }

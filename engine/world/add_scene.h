@@ -16,10 +16,13 @@ struct SceneParts {
 /// The world that behaves as `scene` says: its gravity, its combine rules.
 WorldDefinition world_definition(const Scene& scene);
 
-/// Adds the bodies and joints of a scene to a world. Force laws act step by step: apply them before each step
-/// (force_laws.h). Throws Error as `validate(scene)`, and Error (Unsupported) for a scene with force laws or
-/// a restitution threshold; nothing has changed then.
+/// Adds the bodies and joints of a scene to a world. Force laws act step by step: `SceneForces`
+/// (scene_forces.h) applies them before each. Throws Error as `validate(scene)`, Error (Value) for numbers
+/// beyond the world's own, and Error (Unsupported) as `world_unsupported`; nothing has changed then.
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene);
+
+/// Empty, or what of a valid scene no world has.
+std::string world_unsupported(const Scene& scene);
 
 }  // namespace plumb

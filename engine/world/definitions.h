@@ -12,23 +12,6 @@
 /// What bodies and shapes of a world are made from: plain data in SI units, y up, double precision.
 namespace plumb {
 
-/// The points no farther than `radius` from the segment.
-struct Capsule {
-  Vec2d start{}, end{};  ///< m
-  double radius = 0;     ///< m, > 0
-};
-
-/// The convex hull of points, rounded by a radius.
-struct Polygon {
-  std::vector<Vec2d> points{};  ///< m, 3 or more that do not lie on a line, in any order
-  double radius = 0;            ///< m, >= 0
-};
-
-/// A line without thickness, solid from both sides. It has no mass.
-struct Segment {
-  Vec2d start{}, end{};  ///< m
-};
-
 using ShapeGeometry = std::variant<Circle, Box, Capsule, Polygon, Segment>;
 
 struct Material {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/scene/features.h"
 #include "engine/scene/text.h"
 #include "reference/bullet/simulator.h"
 #include "reference/support/range.h"
@@ -45,6 +46,8 @@ class BulletBackend final : public Backend {
 
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
+    if (const std::string feature = unusual_feature(scene); !feature.empty())
+      return feature + ", which this adapter does not translate; a World runs it";
     for (const Joint& joint : scene.joints) {
       const std::string reason = std::visit([&](const auto& j) { return ignored(scene, j); }, joint);
       if (!reason.empty()) return reason;

@@ -240,6 +240,8 @@ class BulletSimulator final : public Simulator {
         joint.collide);
   }
 
+  void add_joint(const auto&) {}  // not one that `unsupported` lets through
+
   void add(std::unique_ptr<btTypedConstraint> joint, bool collide) {
     machinery_.world.addConstraint(joint.get(), !collide);
     joints_.push_back(std::move(joint));

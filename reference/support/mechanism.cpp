@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "engine/math/trigonometry.h"
+#include "engine/scene/features.h"
 #include "engine/scene/text.h"
 
 namespace plumb::reference {
@@ -178,6 +179,8 @@ std::string ill_fitting(const Scene& scene, const Link& link, const std::vector<
 std::vector<Link> links_of(const Scene& scene) { return Walk(scene).links; }
 
 std::string not_a_mechanism(const Scene& scene) {
+  if (const std::string field = unusual_field(scene); !field.empty())
+    return field + ", which this engine does not have; a World runs it";
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const auto* hinge = std::get_if<RevoluteJoint>(&scene.joints[j]);
     if (hinge == nullptr) return quoted_joint(scene, j) + ": only revolute joints become coordinates";

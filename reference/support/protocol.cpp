@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/scene/features.h"
 #include "engine/scene/names.h"
 #include "engine/scene/text.h"
 
@@ -294,6 +295,8 @@ std::optional<std::pair<std::string, std::string>> pair_that_may_touch(const Sce
 
 std::string missing_capability(const Scene& scene, const Hello& hello) {
   const std::string lacks = ", which it does not declare";
+  if (const std::string field = unusual_field(scene); !field.empty())
+    return field + ", which the protocol's engines do not have; a World runs it";
   for (const Body& body : scene.bodies) {
     const std::string missing = missing_of_body(body, hello);
     if (!missing.empty()) return missing + lacks;

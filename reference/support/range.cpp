@@ -36,6 +36,27 @@ class Checker {
   Range range_;
 };
 
+void check(const std::string& who, const Circle& circle, Checker& checker) {
+  checker.within(who, "radius", {circle.radius});
+}
+void check(const std::string& who, const Box& box, Checker& checker) {
+  checker.within(who, "box side", {box.width, box.height});
+}
+void check(const std::string& who, const Capsule& capsule, Checker& checker) {
+  checker.within(who, "radius", {capsule.radius});
+  checker.at_most(who, "end", {capsule.start.x, capsule.start.y, capsule.end.x, capsule.end.y});
+}
+void check(const std::string& who, const Segment& segment, Checker& checker) {
+  checker.at_most(who, "end", {segment.start.x, segment.start.y, segment.end.x, segment.end.y});
+}
+void check(const std::string& who, const Polygon& polygon, Checker& checker) {
+  checker.at_most(who, "radius", {polygon.radius});
+  for (const Vec2d point : polygon.points) checker.at_most(who, "point", {point.x, point.y});
+}
+void check(const std::string& who, const Chain& chain, Checker& checker) {
+  for (const Vec2d point : chain.points) checker.at_most(who, "point", {point.x, point.y});
+}
+
 void check(const Body& body, Checker& checker) {
   const std::string who = "body " + plumb::quoted(body.name);
   checker.at_most(who, "position", {body.position.x, body.position.y});
@@ -49,11 +70,7 @@ void check(const Body& body, Checker& checker) {
   for (const Shape& shape : body.shapes) {
     checker.at_most(who, "shape position", {shape.position.x, shape.position.y});
     checker.at_most(who, "friction", {shape.friction});
-    if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
-      checker.within(who, "radius", {circle->radius});
-    } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-      checker.within(who, "box side", {box->width, box->height});
-    }
+    std::visit([&](const auto& geometry) { check(who, geometry, checker); }, shape.geometry);
   }
 }
 
@@ -61,10 +78,12 @@ void check(const Joint& joint, Checker& checker) {
   std::visit(
       [&](const auto& j) {
         const std::string who = "joint " + plumb::quoted(j.name);
-        checker.at_most(who, "anchor", {j.anchor_a.x, j.anchor_a.y, j.anchor_b.x, j.anchor_b.y});
-        if constexpr (requires { j.length; }) checker.within(who, "length", {j.length});
+        if constexpr (requires { j.anchor_a; }) checker.at_most(who, "anchor", {j.anchor_a.x, j.anchor_a.y});
+        if constexpr (requires { j.anchor_b; }) checker.at_most(who, "anchor", {j.anchor_b.x, j.anchor_b.y});
       },
       joint);
+  if (const auto* rod = std::get_if<DistanceJoint>(&joint))
+    checker.within("joint " + plumb::quoted(rod->name), "length", {rod->length});
 }
 
 }  // namespace

@@ -157,9 +157,20 @@ TEST(Schema, ListsTheSameChoices) {
 /// A scene with nothing but what is required, written out: all else stands at its default.
 TEST(Schema, StatesTheDefaults) {
   const Scene scene = scene_from_json(R"({"bodies": [{"name": "a", "shapes": [{"type": "circle", "radius": 1},
-      {"type": "box", "width": 1, "height": 1}]}],
+      {"type": "box", "width": 1, "height": 1}, {"type": "capsule", "start": [0, 0], "end": [1, 0], "radius": 1},
+      {"type": "polygon", "points": [[0, 0], [1, 0], [0, 1]]}, {"type": "segment", "start": [0, 0], "end": [1, 0]},
+      {"type": "chain", "points": [[0, 0], [1, 0]]}]}],
     "joints": [{"type": "revolute", "name": "r", "body_a": "world", "body_b": "a"},
-               {"type": "distance", "name": "d", "body_a": "world", "body_b": "a", "length": 1}],
+               {"type": "distance", "name": "d", "body_a": "world", "body_b": "a", "length": 1},
+               {"type": "prismatic", "name": "p", "body_a": "world", "body_b": "a"},
+               {"type": "weld", "name": "we", "body_a": "world", "body_b": "a"},
+               {"type": "wheel", "name": "wh", "body_a": "world", "body_b": "a"},
+               {"type": "motor", "name": "mo", "body_a": "world", "body_b": "a"},
+               {"type": "mouse", "name": "m", "body_a": "world", "body_b": "a", "target": [0, 0], "max_force": 1},
+               {"type": "gear", "name": "g", "body_a": "world", "body_b": "a"},
+               {"type": "pulley", "name": "pu", "body_a": "world", "body_b": "a", "ground_a": [0, 0], "ground_b": [0, 0]},
+               {"type": "ratchet", "name": "ra", "body_a": "world", "body_b": "a"},
+               {"type": "friction", "name": "f", "body_a": "world", "body_b": "a"}],
     "forces": [{"type": "linear_drag", "body": "a", "coefficient": 1},
                {"type": "quadratic_drag", "body": "a", "coefficient": 1},
                {"type": "point_force", "body": "a", "force": [1, 0]}, {"type": "torque", "body": "a", "torque": 1},
@@ -173,9 +184,22 @@ TEST(Schema, StatesTheDefaults) {
       {"/$defs/body", "/bodies/0"},
       {"/$defs/circle", "/bodies/0/shapes/0"},
       {"/$defs/box", "/bodies/0/shapes/1"},
+      {"/$defs/capsule", "/bodies/0/shapes/2"},
+      {"/$defs/polygon", "/bodies/0/shapes/3"},
+      {"/$defs/segment", "/bodies/0/shapes/4"},
+      {"/$defs/chain", "/bodies/0/shapes/5"},
       {"/$defs/filter", "/bodies/0/shapes/0/filter"},
       {"/$defs/revolute", "/joints/0"},
       {"/$defs/distance", "/joints/1"},
+      {"/$defs/prismatic", "/joints/2"},
+      {"/$defs/weld", "/joints/3"},
+      {"/$defs/wheel", "/joints/4"},
+      {"/$defs/motor_joint", "/joints/5"},
+      {"/$defs/mouse", "/joints/6"},
+      {"/$defs/gear", "/joints/7"},
+      {"/$defs/pulley", "/joints/8"},
+      {"/$defs/ratchet", "/joints/9"},
+      {"/$defs/friction_joint", "/joints/10"},
       {"/$defs/linear_drag", "/forces/0"},
       {"/$defs/quadratic_drag", "/forces/1"},
       {"/$defs/point_force", "/forces/2"},
@@ -200,7 +224,9 @@ TEST(Schema, StatesTheDefaults) {
 bool beyond_schema(const Error& error) {
   if (error.value().empty() || error.value().find("\\x") != std::string::npos) return false;
   for (const char* rule :
-       {"must be unique", "must be the name of a body", "must differ from body", "must be dynamic when"}) {
+       {"must be unique", "must be the name of a body", "must differ from", "must be dynamic when",
+        "must not lie on a line", "must not be zero: it is a direction", "must be at least the lower bound",
+        "densities", "another shape of the body", "weigh nothing", "when closed"}) {
     if (error.problem().find(rule) != std::string::npos) return true;
   }
   return false;

@@ -91,7 +91,7 @@ const Slip kNameSlips[] = {
     {"UnknownBodyType", "\"kinematic\"", "\"cinematic\"", Kind::Name, "body 'belt'", "type", "cinematic",
      "must be 'static', 'kinematic' or 'dynamic'; did you mean 'kinematic'?", "cinematic"},
     {"UnknownShape", "\"circle\"", "\"ellipse\"", Kind::Name, "body 'ball'", "shapes[0].type", "ellipse",
-     "must be 'circle' or 'box'", "ellipse"},
+     "must be 'circle', 'box', 'capsule', 'polygon', 'segment' or 'chain'", "ellipse"},
     {"UnknownRule", "\"average\"", "\"avarage\"", Kind::Name, "scene 'everything'", "contact_rules.friction",
      "avarage", "did you mean 'average'?", "avarage"},
     {"UnknownBody", "\"body_b\": \"ball\"", "\"body_b\": \"bal\"", Kind::Name, "joint 'hinge'", "body_b",

@@ -120,6 +120,11 @@ TEST(Writer, LayoutAndOrderOfKeys) {
       "mass": 1,
       "inertia": 2,
       "fixed_rotation": false,
+      "lock_x": false,
+      "lock_y": false,
+      "gravity_scale": 1,
+      "linear_damping": 0,
+      "angular_damping": 0,
       "shapes": []
     }
   ],

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
+#include "engine/scene/joint_fields.h"
 #include "engine/scene/json.h"
 
 namespace plumb::test {
@@ -42,19 +46,46 @@ std::string name(std::mt19937_64& random, int index) {
   return kStems[up_to(random, 4)] + std::to_string(index);
 }
 
+Geometry random_geometry(std::mt19937_64& random) {
+  switch (up_to(random, 5)) {
+    case 0:
+      return Circle{positive(random)};
+    case 1: {
+      const double width = positive(random);
+      return Box{width, positive(random)};
+    }
+    case 2: {
+      Capsule capsule{vector(random)};
+      capsule.end = vector(random);
+      capsule.radius = positive(random);
+      return capsule;
+    }
+    case 3: {  // a triangle of any size, clear of a line
+      const double size = 1e-20 + unit(random);
+      return Polygon{{{0, 0}, {size, 0.25 * size}, {0.5 * size, size}}, unit(random)};
+    }
+    case 4: {
+      const Vec2d start = vector(random);
+      return Segment{start, {start.y, -1}};
+    }
+    default: {
+      const double x = unit(random);
+      return Chain{{{x, 1}, {2, x}, {3 + x, -0.0}}, coin(random)};
+    }
+  }
+}
+
 Shape random_shape(std::mt19937_64& random) {
   Shape shape;
-  if (coin(random)) {
-    shape.geometry = Circle{positive(random)};
-  } else {
-    shape.geometry = Box{positive(random), positive(random)};
-  }
+  shape.geometry = random_geometry(random);
   shape.position = vector(random);
   shape.angle = any(random);
   shape.friction = non_negative(random);
   shape.restitution = unit(random);
   shape.filter = {static_cast<std::uint32_t>(random()), static_cast<std::uint32_t>(random()),
                   static_cast<std::int32_t>(random())};
+  shape.rolling_resistance = non_negative(random);
+  shape.surface_speed = any(random);
   return shape;
 }
 
@@ -71,17 +102,70 @@ Body random_body(std::mt19937_64& random, int index) {
   }
   body.mass = positive(random);
   for (int i = up_to(random, 3); i > 0; --i) body.shapes.push_back(random_shape(random));
-  if (body.shapes.empty() || coin(random)) body.inertia = positive(random);
+  body.lock_x = coin(random), body.lock_y = coin(random);
+  body.gravity_scale = any(random);
+  body.linear_damping = non_negative(random), body.angular_damping = non_negative(random);
+  const auto weighs = [](const Shape& shape) { return extent_of(shape.geometry).area > 0; };
+  if (std::none_of(body.shapes.begin(), body.shapes.end(), weighs) || coin(random))
+    body.inertia = positive(random);
   return body;
 }
 
+/// Gives each field of a joint a value that it may have.
+struct RandomField {
+  std::mt19937_64& random;
+
+  void operator()(std::string_view, double& out, const FieldRule& rule) const {
+    out = rule.limits == Limits::Any           ? any(random)
+          : rule.limits == Limits::NonNegative ? non_negative(random)
+                                               : positive(random);
+  }
+  void operator()(std::string_view, bool& out, const FieldRule&) const { out = coin(random); }
+  void operator()(std::string_view, Vec2d& out, const FieldRule& rule) const {
+    out = vector(random);
+    if (rule.limits == Limits::NotZero) out.x = positive(random);
+  }
+  void operator()(std::string_view, Spring& out, const FieldRule&) const {
+    out.hertz = positive(random);
+    out.damping_ratio = non_negative(random);
+  }
+  void operator()(std::string_view, Motor& out, const FieldRule&) const {
+    out.speed = any(random);
+    out.max_force = non_negative(random);
+  }
+  void operator()(std::string_view, Range& out, const FieldRule&) const {
+    out = {};
+    if (coin(random)) out.lower = unit(random);
+    if (coin(random)) out.upper = 1 + non_negative(random);
+  }
+  template <class T>
+  void operator()(std::string_view key, std::optional<T>& out, const FieldRule& rule) const {
+    if (coin(random)) (*this)(key, out.emplace(), rule);
+  }
+};
+
+template <std::size_t... kIndex>
+Joint joint_of_kind(std::size_t kind, std::index_sequence<kIndex...>) {
+  Joint joint;
+  (void)((kind == kIndex ? (joint.emplace<kIndex>(), true) : false) || ...);
+  return joint;
+}
+
 Joint random_joint(std::mt19937_64& random, const Body& body, int index) {
-  RevoluteJoint revolute{name(random, index), body.name,      "world",
-                         vector(random),      vector(random), coin(random)};
-  if (coin(random)) std::swap(revolute.body_a, revolute.body_b);
-  if (coin(random)) return revolute;
-  return DistanceJoint{revolute.name,     revolute.body_a,  revolute.body_b, revolute.anchor_a,
-                       revolute.anchor_b, positive(random), revolute.collide};
+  constexpr std::size_t kKinds = std::variant_size_v<Joint>;
+  Joint joint = joint_of_kind(random() % kKinds, std::make_index_sequence<kKinds>());
+  const RandomField fill{random};
+  std::visit(
+      [&](auto& j) {
+        j.name = name(random, index);
+        j.body_a = body.name, j.body_b = "world";
+        if (coin(random)) std::swap(j.body_a, j.body_b);
+        anchor_fields(j, fill);
+        own_fields(j, fill);
+        last_fields(j, fill);
+      },
+      joint);
+  return joint;
 }
 
 ForceLaw random_force(std::mt19937_64& random, const Body& body) {
@@ -148,13 +232,48 @@ Scene full_scene() {
   Scene scene{.name = "everything", .gravity = {0.1, -1.62}};
   scene.contact_rules = {Combine::Average, Combine::Product, 0.25};
   const Filter filter{6, 0xF0F0F0F0u, -3};
-  const Shape disc{Circle{0.5}, {0.1, 0.2}, 0.3, 0.7, 0.9, filter};
-  const Shape plank{Box{2, 0.25}, {-0.1, 0.4}, -0.6, 0.2, 0.1, filter};
-  scene.bodies = {{"ball", BodyType::Dynamic, {1, 2}, 0.5, {3, 4}, 5, 6, 7.5, false, {disc, plank}},
+  const Shape disc{Circle{0.5}, {0.1, 0.2}, 0.3, 0.7, 0.9, filter, 0.05, -1.5};
+  const Shape plank{Box{2, 0.25}, {-0.1, 0.4}, -0.6, 0.2, 0.1, filter, 0.01, 2};
+  const auto other = [&](const Geometry& geometry) {
+    return Shape{geometry, {0.5, 0.25}, 0.75, 0.3, 0.4, filter, 0.5, 1, 2.5};
+  };
+  const std::vector<Shape> more = {
+      other(Capsule{{1, 2}, {3, 4}, 0.5}), other(Polygon{{{0, 1}, {2, 3}, {-4, 5}}, 0.125}),
+      other(Segment{{1, 2}, {3, 5}}), other(Chain{{{0, 1}, {2, 3}, {-4, 5}}, true})};
+  scene.bodies = {{"ball",
+                   BodyType::Dynamic,
+                   {1, 2},
+                   0.5,
+                   {3, 4},
+                   5,
+                   6,
+                   7.5,
+                   false,
+                   {disc, plank},
+                   0.5,
+                   0.1,
+                   0.2,
+                   true,
+                   true},
                   {"floor", BodyType::Static, {0, -1}, 0.25, {}, 0, 2, {}, true, {plank}},
-                  {"belt", BodyType::Kinematic, {9, 1}, 0.125, {1, 0}, 2, 0, 0.5, false, {}}};
-  scene.joints = {RevoluteJoint{"hinge", "world", "ball", {1, 1}, {2, 2}, true},
-                  DistanceJoint{"rod", "ball", "floor", {3, 3}, {4, 4}, 5, true}};
+                  {"belt", BodyType::Kinematic, {9, 1}, 0.125, {1, 0}, 2, 0, 0.5, false, {}},
+                  {"rock", BodyType::Kinematic, {9, 1}, 0.125, {1, 0}, 2, 0, 0.5, false, more}};
+  const Range range{0.25, 0.5};
+  const Motor motor{1, 2};
+  const Spring spring{3, 4};
+  scene.joints = {
+      RevoluteJoint{"hinge", "world", "ball", {1, 1}, {2, 2}, true, 1, 2, 3, range, motor, spring, 4},
+      DistanceJoint{"rod", "ball", "floor", {3, 3}, {4, 4}, 5, true, 1, 2, spring, range, motor},
+      PrismaticJoint{
+          "slide", "world", "ball", {1, 1}, {2, 2}, true, 1, 2, {3, 4}, 5, range, motor, spring, 6},
+      WeldJoint{"weld", "world", "ball", {1, 1}, {2, 2}, true, 1, 2, 3, spring, spring},
+      WheelJoint{"wheel", "world", "ball", {1, 1}, {2, 2}, true, 1, 2, {3, 4}, spring, range, motor},
+      MotorJoint{"follow", "world", "ball", true, 1, 2, {3, 4}, 5, 6, 7, spring},
+      MouseJoint{"pull", "world", "ball", {1, 1}, true, 1, 2, {3, 4}, spring, 5},
+      GearJoint{"gear", "floor", "ball", true, 1, 2, 3, 4},
+      PulleyJoint{"rope", "floor", "ball", {1, 1}, {2, 2}, true, 1, 2, {3, 4}, {5, 6}, 7, 8},
+      RatchetJoint{"click", "floor", "ball", true, 1, 2, 3, 4},
+      FrictionJoint{"drag", "floor", "ball", {1, 1}, {2, 2}, true, 1, 2, 3, 4}};
   scene.forces = {LinearDrag{"ball", 0.5},
                   QuadraticDrag{"ball", 0.25},
                   PointForce{"ball", {1, 2}, {3, 4}, Frame::Body, 0.5, 1.5},

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "engine/math/vec2.h"
+
+/// What a shape can be, in SI units, each in a frame of its own.
+namespace plumb {
+
+struct Circle {
+  double radius = 0;  ///< m, > 0
+  friend bool operator==(const Circle&, const Circle&) = default;
+};
+
+struct Box {
+  double width = 0;   ///< m, > 0, along the shape's x
+  double height = 0;  ///< m, > 0, along the shape's y
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// The points no farther than `radius` from the segment.
+struct Capsule {
+  Vec2d start{}, end{};  ///< m
+  double radius = 0;     ///< m, > 0
+  friend bool operator==(const Capsule&, const Capsule&) = default;
+};
+
+/// The convex hull of points, rounded by a radius.
+struct Polygon {
+  std::vector<Vec2d> points{};  ///< m, 3 or more that do not lie on a line, in any order
+  double radius = 0;            ///< m, >= 0
+  friend bool operator==(const Polygon&, const Polygon&) = default;
+};
+
+/// A line without thickness, solid from both sides. It has no mass.
+struct Segment {
+  Vec2d start{}, end{};  ///< m
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+/// A line of segments with a front only (to the right of the way from point to point), on which nothing
+/// catches at the seams. It has no mass.
+struct Chain {
+  std::vector<Vec2d> points{};  ///< m, 2 or more; 3 or more when closed
+  bool closed = false;          ///< the last point is joined to the first
+  friend bool operator==(const Chain&, const Chain&) = default;
+};
+
+using Geometry = std::variant<Circle, Box, Capsule, Polygon, Segment, Chain>;
+
+/// How a geometry of even density weighs. Exact but for rounding; lines have none.
+struct Extent {
+  double area = 0;              ///< m^2
+  Vec2d centroid{};             ///< m, in the geometry's frame
+  double gyration_squared = 0;  ///< m^2: I/m about the centroid
+};
+
+/// Source: r^2/2 of a disc, (w^2 + h^2)/12 of a box; others are put together from triangles, rectangles on
+/// their edges and circular sectors at their corners, by parallel axes.
+Extent extent_of(const Geometry& geometry);
+
+/// The largest distance of a point of the geometry from its frame's origin, m.
+double reach_of(const Geometry& geometry);
+
+/// The corners of the convex hull of `points`, counter-clockwise, from the lowest of the leftmost; points on
+/// an edge are left out. Fewer than 3 when all points lie on a line.
+std::vector<Vec2d> convex_corners(std::vector<Vec2d> points);
+
+}  // namespace plumb
