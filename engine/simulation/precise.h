@@ -12,9 +12,10 @@ namespace plumb {
 
 /// The driver of `Precise`, for a valid scene that it supports. What it does, body by body:
 /// - free flight under constant forces is a polynomial and is evaluated, not integrated: exact to rounding;
-/// - all else is integrated by DOP853 with step control, joints held by their accelerations and, after each
-/// step,
-///   by a projection of positions and velocities onto the constraints;
+/// - all else is integrated with step control: explicitly (DOP853), implicitly while the motion is stiff
+/// (Radau
+///   IIA), or as `Precise::method` says; joints are held by their accelerations and, after each step, by a
+///   projection of positions and velocities onto the constraints;
 /// - circles' impacts are located in time and resolved there: Newton's restitution, Coulomb's friction.
 /// Steps end where forces are switched and at impacts, not on the grid of max_dt: what is read there comes
 /// from the step's polynomial.
