@@ -11,7 +11,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Bouncing ends where what is left of it takes less than this share of the scene's own time (the time in
 /// which its accelerations cross its length), or rises by less than this many roundings of a gap.
 constexpr double kLeftToBounce = 3e-5, kLowestBounce = 32;
