@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bench/field/field_world.h"
 
@@ -13,5 +14,6 @@ std::unique_ptr<FieldWorld> create_chipmunk(const WorldSettings& settings);
 std::unique_ptr<FieldWorld> create_plumb(const WorldSettings& settings);
 
 std::string chipmunk_version();
+std::vector<std::string> plumb_solvers();
 
 }  // namespace plumb::field

@@ -19,12 +19,19 @@ std::span<const Engine> engines() {
       {"chipmunk", "7", "install libchipmunk-dev and build again", nullptr},
 #endif
 #ifdef PLUMB_FIELD_PLUMB
-      {"plumb", PLUMB_FIELD_PLUMB, "", create_plumb},
+      {"plumb", PLUMB_FIELD_PLUMB, "", create_plumb, plumb_solvers()},
 #else
       {"plumb", "", "this checkout has no engine/world/world.h", nullptr},
 #endif
   };
   return all;
+}
+
+Engine with_solver(const Engine& engine, const std::string& solver) {
+  Engine out = engine;
+  out.name += ":" + solver;
+  out.solver = solver;
+  return out;
 }
 
 }  // namespace plumb::field

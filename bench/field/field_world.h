@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "bench/field/definitions.h"
 #include "bench/field/mass.h"
@@ -14,7 +15,8 @@ struct WorldSettings {
   double dt = 1.0 / 60;                                  ///< s
   int substeps = 4;                                      ///< of engines that solve by substeps
   int velocity_iterations = 8, position_iterations = 3;  ///< of Box2D 2.4
-  int iterations = 10;                                   ///< of Chipmunk
+  int iterations = 10;                                   ///< of Chipmunk, and of plumb's solvers that sweep
+  std::string solver{};                                  ///< of plumb, by its name; empty: its default
   bool sleeping = false;
   bool continuous = true;
 };

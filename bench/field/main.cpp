@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -28,6 +29,7 @@ constexpr const char* kFooter =
     "  plumb_field --quick                                small scenes and few steps: whether all work\n"
     "  plumb_field large_pyramid tumbler --repeat 5\n"
     "  plumb_field joint_grid --engine box2d --engine chipmunk --format csv\n"
+    "  plumb_field chain_10 --engine plumb --solver soft_steps,direct,xpbd\n"
     "Times are medians over the repetitions; speed is Box2D's time over the engine's. Depths and joints' "
     "gaps are\n"
     "the worst and the mean of ten looks at the run, heights and speeds those at its end. See "
@@ -43,7 +45,7 @@ struct Stop : std::runtime_error {
 };
 
 struct Options {
-  std::vector<std::string> scenes, engines;
+  std::vector<std::string> scenes, engines, solvers;
   std::string format = "table", continuous = "scene", clock = "wall";
   int steps = 0;
   bool list = false, sleeping = false;
@@ -87,6 +89,26 @@ std::vector<const Engine*> select_engines(const std::vector<std::string>& names)
   return chosen;
 }
 
+/// Each engine that has solvers once for each that is named ("all": every one), the others as they are.
+std::vector<Engine> by_solver(const std::vector<const Engine*>& chosen,
+                              const std::vector<std::string>& names) {
+  std::vector<Engine> out;
+  for (const Engine* engine : chosen) {
+    if (names.empty() || engine->solvers.empty()) {
+      out.push_back(*engine);
+      continue;
+    }
+    for (const std::string& name : names)
+      if (name != "all" && std::ranges::find(engine->solvers, name) == engine->solvers.end())
+        throw Stop(kUsage, fmt::format("{} has no solver '{}'{}; see `plumb_field --list`", engine->name,
+                                       name, did_you_mean(name, engine->solvers)));
+    const bool all = std::ranges::find(names, "all") != names.end();
+    for (const std::string& solver : all ? engine->solvers : names)
+      out.push_back(with_solver(*engine, solver));
+  }
+  return out;
+}
+
 std::string list_text() {
   std::string out = "Scenes:\n";
   for (const Scene& scene : scenes()) out += fmt::format("  {:<15} {}\n", scene.name, scene.summary);
@@ -94,6 +116,10 @@ std::string list_text() {
   for (const Engine& engine : engines())
     out += fmt::format("  {:<15} {}\n", engine.name,
                        engine.missing.empty() ? engine.version : "not in this build: " + engine.missing);
+  out += "Solvers:\n";
+  for (const Engine& engine : engines())
+    if (!engine.solvers.empty())
+      out += fmt::format("  {:<15} {}\n", engine.name, fmt::join(engine.solvers, ", "));
   return out;
 }
 
@@ -158,6 +184,13 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
+  app.add_option("--solver", options.solvers,
+                 "solvers to run plumb with, each beside the others; all: every one (its default)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  app.add_option("--iterations", plan.settings.iterations, "sweeps of solvers that sweep (10)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
   app.add_option("--continuous", options.continuous,
                  "continuous collision: on, off, or as the scene has it (scene)")
       ->check(CLI::IsMember({"on", "off", "scene"}));
@@ -182,7 +215,8 @@ int parse_and_run(int argc, char** argv) {
   }
   if (options.list) return print(list_text()), kOk;
   plan.scenes = select(std::span<const Scene>(scenes()), options.scenes, "scene");
-  plan.engines = select_engines(options.engines);
+  const std::vector<Engine> engines = by_solver(select_engines(options.engines), options.solvers);
+  for (const Engine& engine : engines) plan.engines.push_back(&engine);
   if (options.steps > 0) plan.steps = options.steps;
   if (options.continuous != "scene") plan.continuous = options.continuous == "on";
   if (options.clock == "cpu") plan.clock = CLOCK_PROCESS_CPUTIME_ID;

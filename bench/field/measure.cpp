@@ -28,7 +28,7 @@ class Run {
  public:
   Run(const Scene& scene, const Engine& engine, const Plan& plan)
       : limit_(plan.limit),
-        settings_(settings_of(scene, plan)),
+        settings_(settings_of(scene, engine, plan)),
         world_(engine.create(settings_)),
         builder_(*world_, plan.clock) {
     built_ = scene.build(builder_, plan.quick);
@@ -76,8 +76,9 @@ class Run {
   Quality quality() const { return measure_quality(builder_.inventory(), builder_.states()); }
 
  private:
-  static WorldSettings settings_of(const Scene& scene, const Plan& plan) {
+  static WorldSettings settings_of(const Scene& scene, const Engine& engine, const Plan& plan) {
     WorldSettings out = plan.settings;
+    out.solver = engine.solver;
     out.gravity = scene.gravity;
     out.continuous = plan.continuous.value_or(scene.continuous);
     return out;

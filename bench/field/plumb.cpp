@@ -54,7 +54,9 @@ class PlumbWorld final : public FieldWorld {
                 .combine_friction = Combine::GeometricMean,
                 .combine_restitution = Combine::Maximum,
                 .sleeping = settings.sleeping,
-                .continuous = settings.continuous}) {}
+                .continuous = settings.continuous,
+                .solver = solver_of(settings.solver).value_or(Solver::SoftSteps),
+                .iterations = settings.iterations}) {}
 
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                          const MassProperties& mass) override {
@@ -113,6 +115,8 @@ class PlumbWorld final : public FieldWorld {
   Settings settings() const override {
     return {{"precision", "float, positions double"},
             {"substeps", std::to_string(settings_.substeps)},
+            {"solver", name_of(world_.solver())},
+            {"iterations", sweeps() ? std::to_string(settings_.iterations) : "none"},
             {"continuous", settings_.continuous ? "on" : "off"},
             {"sleeping", settings_.sleeping ? "on" : "off"},
             {"threads", "1"},
@@ -122,11 +126,17 @@ class PlumbWorld final : public FieldWorld {
   }
 
  private:
+  bool sweeps() const {
+    return world_.solver() == Solver::SequentialImpulses || world_.solver() == Solver::Jakobsen;
+  }
+
   WorldSettings settings_;
   World world_;
 };
 
 }  // namespace
+
+std::vector<std::string> plumb_solvers() { return {std::begin(kSolverNames), std::end(kSolverNames)}; }
 
 std::unique_ptr<FieldWorld> create_plumb(const WorldSettings& settings) {
   return std::make_unique<PlumbWorld>(settings);

@@ -126,9 +126,12 @@ std::string table(std::span<const Measurement> row, const harness::Style& style)
   std::string out =
       first == row.end() ? style.paint(row.front().scene->name, Ink::Bold) + "\n" : title(*first, style);
   const Measurement* yardstick = yardstick_of(row, *row.front().scene);
-  std::vector<std::string> lines(row.size() + 1, "          ");
+  std::size_t names = 8;
+  for (const Measurement& m : row) names = std::max(names, m.engine->name.size());
+  const int indent = static_cast<int>(names) + 2;
+  std::vector<std::string> lines(row.size() + 1, std::string(names + 2, ' '));
   for (std::size_t i = 0; i < row.size(); ++i)
-    lines[i + 1] = harness::pad_right("  " + row[i].engine->name, 10);
+    lines[i + 1] = harness::pad_right("  " + row[i].engine->name, indent);
   for (const Column& column : columns()) {
     if (std::ranges::none_of(row, [&](const Measurement& m) { return worked(m) && column.told(m); }))
       continue;
@@ -142,7 +145,7 @@ std::string table(std::span<const Measurement> row, const harness::Style& style)
   out += style.paint(lines[0], Ink::Dim) + "\n";
   for (std::size_t i = 0; i < row.size(); ++i)
     out += (worked(row[i]) ? lines[i + 1]
-                           : harness::pad_right("  " + row[i].engine->name, 12) +
+                           : harness::pad_right("  " + row[i].engine->name, indent + 2) +
                                  style.paint(row[i].failure, Ink::Red)) +
            "\n";
   return out + "\n";

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/math/small_turn.h"
+
 namespace plumb {
 namespace {
 
@@ -31,6 +33,15 @@ double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const 
   if (r.b == s.a) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
   if (r.b == s.b) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
   return sum;
+}
+
+template <class Real>
+void move_body(BodyMotion<Real>& body, Rotation<Real>& rotation, Vec2<Real> push, Real turning_push) {
+  body.moved += body.inverse_mass * push;
+  const Real turn = body.inverse_inertia * turning_push;
+  if (turn == 0) return;
+  body.turned += turn;
+  rotation = turned_by(rotation, turn);
 }
 
 }  // namespace
@@ -172,6 +183,17 @@ void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
     motion[row.a].apply(impulse * row.linear_a, impulse * row.angular_a);
     motion[row.b].apply(impulse * row.linear_b, impulse * row.angular_b);
     *row.impulse += impulse;
+  }
+}
+
+template <class Real>
+void DirectRows<Real>::move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const {
+  for (int i = 0; i < matrix_.size(); ++i) {
+    const DirectRow<Real>& row = rows[sequence_[i]];
+    const Real push = static_cast<Real>(x_[i]);
+    if (push == 0) continue;
+    move_body(motion[row.a], rotation[row.a], push * row.linear_a, push * row.angular_a);
+    move_body(motion[row.b], rotation[row.b], push * row.linear_b, push * row.angular_b);
   }
 }
 

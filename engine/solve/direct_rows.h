@@ -60,6 +60,8 @@ class DirectRows {
   void correct();
   /// Applies what `find` found.
   void apply(BodyMotion<Real>* motion);
+  /// Moves and turns bodies by what `correct` found: one Newton step to where the rows hold.
+  void move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const;
 
  private:
   std::pmr::vector<int> sequence_;  // place -> row

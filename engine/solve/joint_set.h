@@ -93,6 +93,16 @@ class JointSet {
   /// put in. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
 
+  // For solvers that do not relax. None of the three allocates.
+  /// Evaluates all rows where bodies are now, within a step.
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Position-based solvers start each substep without impulses.
+  void begin_projection(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// One sweep over positions: moves and turns bodies (`rotation` is that of `bodies`) such that each joint
+  /// in turn holds. Velocities are, and stay, the way since the substep's start over h. Of `step.softness`
+  /// the rate is 1 / h: all of an error is taken back.
+  void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
+
   /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or
   /// `relax`); returns their number.
   int rigid_rows(int joint, RigidRow<Real> (&rows)[kMostRigidRows]);

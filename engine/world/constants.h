@@ -32,6 +32,14 @@ inline constexpr double kDirectCost = 20000;
 /// Islands with joints are so only when their heaviest body has more than this many times the mass of their
 /// lightest: sweeps hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;
+/// Solver::Direct: the most rows of an island whose joints and contacts are solved together; of a larger one,
+/// the joints alone; and not those either when their factorisation costs more multiplications than this.
+inline constexpr int kArticulatedRows = 512;
+inline constexpr double kArticulatedCost = 2e6;
+/// Solver::Direct closes joints after each substep by a Newton step; by up to this many while one was open by
+/// more than this share of its arms.
+inline constexpr int kClosings = 4;
+inline constexpr double kWideGap = 0.01;
 
 /// Gaps in such islands are pulled together while no body would turn by more than this for it in a substep,
 /// rad: rows that turn farther do not give back what the pull put in. Beyond, bodies are moved by a share of
@@ -44,6 +52,12 @@ inline constexpr double kLinkTurn = 0.125;
 /// damping.
 inline constexpr double kJointFrequencyShare = 0.25;
 inline constexpr double kJointDampingRatio = 2;
+
+/// Share of an overlap, and of a joint's error, that a substep of sequential impulses feeds back (Baumgarte,
+/// 1972): more would swing, as its speed stays in the velocities.
+inline constexpr double kFeedback = 0.2;
+/// Overlap that they leave, as a share of the smaller extent: contacts at rest do not come and go.
+inline constexpr double kSlop = 0.002;
 
 /// Fastest push out of an overlap, in extents of the smaller shape a second: deep overlaps dissolve without a
 /// burst.

@@ -8,6 +8,7 @@
 
 #include "engine/joints/definitions.h"
 #include "engine/scene/scene.h"
+#include "engine/world/solver.h"
 
 /// What bodies and shapes of a world are made from: plain data in SI units, y up, double precision.
 namespace plumb {
@@ -85,6 +86,9 @@ struct WorldDefinition {
   Combine combine_restitution = Combine::Maximum;
   bool sleeping = true;    ///< islands at rest stop being computed until something touches them
   bool continuous = true;  ///< nothing tunnels
+  Solver solver = Solver::SoftSteps;
+  int iterations = 10;         ///< sweeps a substep, 1..1000: SequentialImpulses and Jakobsen
+  bool direct_islands = true;  ///< SoftSteps solves small islands directly where sweeps would not do
 };
 
 }  // namespace plumb

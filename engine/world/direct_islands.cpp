@@ -1,6 +1,7 @@
 #include "engine/world/direct_islands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/world/constants.h"
@@ -49,7 +50,22 @@ void note_mass_ratios(WorldData<Real>& w) {
   });
 }
 
-// Islands by the body that stands for them, with the most rows that each may have in `w.scratch.island_size`.
+// In the size of an island of which only the joints are solved directly.
+constexpr int kJointsAlone = -1;
+
+// Takes all islands with joints into the choice, the largest with their joints alone.
+template <class Real>
+void choose_articulated(WorldData<Real>& w) {
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (!joint.active) return;
+    int& size =
+        w.scratch.island_size[w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b]];
+    size = size > tuning::kArticulatedRows ? kJointsAlone : std::min(size, tuning::kDirectRows);
+  });
+}
+
+// Islands by the body that stands for them, with the most rows that each may have in `w.scratch.island_size`:
+// beyond tuning::kDirectRows they are left to the sweeps.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
@@ -71,7 +87,11 @@ void find_islands(WorldData<Real>& w) {
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (joint.active) count(joint.body_a, joint.body_b, 2);
   });
-  note_mass_ratios(w);
+  if (w.settings.solver == Solver::Direct) {
+    choose_articulated(w);
+  } else {
+    note_mass_ratios(w);
+  }
 }
 
 template <class Real>
@@ -133,6 +153,35 @@ void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
   }
 }
 
+// The contacts and joints of islands that are small enough.
+template <class Real>
+void fill_islands(WorldData<Real>& w) {
+  const auto root_of = [&](int a, int b) { return w.scratch.island_of[w.gives_way(a) ? a : b]; };
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    const int root = root_of(c.body_a, c.body_b), rows = w.scratch.island_size[root];
+    if (rows > 2 && rows <= tuning::kDirectRows) island_at(w, root).contacts.push_back(&c);
+  });
+  if (w.joint_set.active_count() == 0) return;
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (!joint.active) return;
+    const int root = root_of(joint.body_a, joint.body_b);
+    if (w.scratch.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
+  });
+}
+
+// False when the island would cost too much to solve directly.
+template <class Real>
+bool make_system(WorldData<Real>& w, DirectIsland<Real>& island) {
+  add_rows(w, island);
+  const bool articulated = w.settings.solver == Solver::Direct && !island.joints.empty();
+  const double most = articulated ? tuning::kArticulatedCost : tuning::kDirectCost;
+  if (island.system.order(w.motion.data()) <= most) return true;
+  if (!articulated || island.contacts.empty()) return false;
+  island.contacts.clear();
+  add_rows(w, island);
+  return island.system.order(w.motion.data()) <= most;
+}
+
 // Joints turn with their bodies: their rows are those of the last evaluation.
 template <class Real>
 void refresh_joints(WorldData<Real>& w, DirectIsland<Real>& island) {
@@ -148,6 +197,17 @@ void refresh_joints(WorldData<Real>& w, DirectIsland<Real>& island) {
   }
 }
 
+// Whether a joint is open so wide that a Newton step may not close it.
+template <class Real>
+bool wide_open(const DirectIsland<Real>& island) {
+  for (int i = 0; i < island.joint_rows; ++i) {
+    const DirectRow<Real>& row = island.system.rows[i];
+    const Real arms = std::abs(row.angular_a) + std::abs(row.angular_b);
+    if (std::abs(row.gap) > Real(tuning::kWideGap) * arms) return true;
+  }
+  return false;
+}
+
 template <class Real>
 Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, Real at_start) {
   const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
@@ -160,26 +220,15 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   w.scratch.direct_count = 0;
-  if (w.graph.empty() && (w.joint_set.active_count() == 0 || masses_alike(w))) return;
+  const bool articulated = w.settings.solver == Solver::Direct;
+  if (!articulated && !w.settings.direct_islands) return;
+  if (w.graph.empty() && (w.joint_set.active_count() == 0 || (!articulated && masses_alike(w)))) return;
   if (w.ties_changed) find_islands(w);
   w.ties_changed = false;
-  w.graph.for_each([&](ContactConstraint<Real>& c) {
-    const int root = w.scratch.island_of[w.gives_way(c.body_a) ? c.body_a : c.body_b];
-    const int rows = w.scratch.island_size[root];
-    if (rows <= 2 || rows > tuning::kDirectRows) return;
-    island_at(w, root).contacts.push_back(&c);
-  });
-  if (w.joint_set.active_count() > 0) {
-    w.joints.for_each([&](int, const JointRecord& joint) {
-      if (!joint.active) return;
-      const int root = w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
-      if (w.scratch.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
-    });
-  }
+  fill_islands(w);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
-    add_rows(w, island);
-    if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
+    if (!make_system(w, island)) {
       island.contacts.clear(), island.joints.clear(), island.system.rows.clear(), island.links.clear();
       continue;
     }
@@ -223,6 +272,26 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
 }
 
 template <class Real>
+void close_direct_joints(WorldData<Real>& w, const JointStep<Real>& joints) {
+  if (w.settings.solver != Solver::Direct || w.scratch.direct_count == 0) return;
+  bool open = true;
+  for (int pass = 0; open && pass < tuning::kClosings; ++pass) {
+    open = false;
+    w.joint_set.evaluate(w.solver_bodies(), joints);
+    for (int i = 0; i < w.scratch.direct_count; ++i) {
+      DirectIsland<Real>& island = w.scratch.direct[i];
+      if (island.joint_rows == 0 || island.system.rows.empty()) continue;
+      // Points that press stay as they are: their gap is 0.
+      refresh_joints(w, island);
+      open = wide_open(island) || open;
+      island.system.factorise(w.motion.data());
+      island.system.correct();
+      island.system.move(w.motion.data(), w.rotation.data());
+    }
+  }
+}
+
+template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
@@ -235,6 +304,7 @@ void finish_direct_islands(WorldData<Real>& w) {
   template void prepare_direct_islands(WorldData<Real>&, const JointStep<Real>&);                        \
   template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, const JointStep<Real>&, \
                                      bool);                                                              \
+  template void close_direct_joints(WorldData<Real>&, const JointStep<Real>&);                           \
   template void finish_direct_islands(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -1,6 +1,9 @@
 #include "engine/world/free_motion.h"
 
+#include <cmath>
+
 #include "engine/math/small_turn.h"
+#include "engine/world/constants.h"
 
 namespace plumb {
 namespace {
@@ -136,11 +139,27 @@ void integrate_positions(WorldData<Real>& w, Real h) {
   }
 }
 
+template <class Real>
+void hold_locks(WorldData<Real>& w) {
+  for (const Kick<Real>& kick : w.scratch.kicks) {
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
+    if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
+  }
+}
+
+template <class Real>
+Real bounce_threshold(const WorldData<Real>& w, double dt) {
+  return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
+}
+
 #define PLUMB_FOR(Real)                                                   \
   template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
   template void integrate_velocities(WorldData<Real>&);                   \
   template void repeat_velocities(WorldData<Real>&);                      \
-  template void integrate_positions(WorldData<Real>&, Real);
+  template void integrate_positions(WorldData<Real>&, Real);              \
+  template void hold_locks(WorldData<Real>&);                             \
+  template Real bounce_threshold(const WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -30,4 +30,13 @@ void repeat_velocities(WorldData<Real>& w);
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h);
 
+/// Takes back what projections moved bodies along locked axes: nothing moves there in a step.
+template <class Real>
+void hold_locks(WorldData<Real>& w);
+
+/// m/s, the slowest approach that bounces in a step of `dt`: at rest bodies gain |gravity| dt before a
+/// contact answers.
+template <class Real>
+Real bounce_threshold(const WorldData<Real>& w, double dt);
+
 }  // namespace plumb

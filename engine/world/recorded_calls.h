@@ -43,7 +43,10 @@ namespace plumb {
   X(DestroyChain, destroy, void, ChainId)                                                     \
   X(CreateJoint, create_joint, JointId, BodyId, BodyId, const JointDefinition&)               \
   X(DestroyJoint, destroy, void, JointId)                                                     \
-  X(Change, change, void, JointId, const JointKind&)
+  X(Change, change, void, JointId, const JointKind&)                                          \
+  X(SetSolver, set_solver, void, Solver)                                                      \
+  X(SetIterations, set_iterations, void, int)                                                 \
+  X(SetDirectIslands, set_direct_islands, void, bool)
 
 enum class WorldCall : std::uint8_t {
 #define PLUMB_NAME(id, name, result, ...) id,

@@ -113,6 +113,18 @@ template <class Real>
 void RecordedWorld<Real>::set_continuous(bool on) {
   call<WorldCall::SetContinuous>(on);
 }
+template <class Real>
+void RecordedWorld<Real>::set_solver(Solver solver) {
+  call<WorldCall::SetSolver>(solver);
+}
+template <class Real>
+void RecordedWorld<Real>::set_iterations(int iterations) {
+  call<WorldCall::SetIterations>(iterations);
+}
+template <class Real>
+void RecordedWorld<Real>::set_direct_islands(bool on) {
+  call<WorldCall::SetDirectIslands>(on);
+}
 
 template <class Real>
 BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition,

@@ -40,6 +40,9 @@ class RecordedWorld {
   void set_gravity(Vec2d gravity);
   void set_sleeping(bool on);
   void set_continuous(bool on);
+  void set_solver(Solver solver);
+  void set_iterations(int iterations);
+  void set_direct_islands(bool on);
 
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
   BodyId create_body(const BodyDefinition& definition, const ShapeDefinition& shape);

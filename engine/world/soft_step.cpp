@@ -1,10 +1,8 @@
-#include <cmath>
-
 #include "engine/solve/soft_contacts.h"
 #include "engine/world/constants.h"
 #include "engine/world/direct_islands.h"
 #include "engine/world/free_motion.h"
-#include "engine/world/step.h"
+#include "engine/world/solvers.h"
 
 namespace plumb {
 namespace {
@@ -23,15 +21,13 @@ Softness<Real> contact_softness(double frequency_share, double h) {
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
-  const Vec2d gravity = w.settings.gravity;
   ContactStep<Real> contacts{.h = static_cast<Real>(h),
                              .inverse_h = static_cast<Real>(1 / h),
                              .softness = {{contact_softness<Real>(tuning::kContactFrequencyShare, h)},
                                           {contact_softness<Real>(tuning::kStiffFrequencyShare, h)},
                                           {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
                              .warm_start = warm_start,
-                             .bounce_threshold = static_cast<Real>(tuning::kRestingSteps * h * substeps *
-                                                                   std::sqrt(length_squared(gravity)))};
+                             .bounce_threshold = bounce_threshold(w, h * substeps)};
   JointStep<Real> joints{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
@@ -59,6 +55,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_contacts(bodies.motion, w.graph, contacts);
     if (strikes) bounce_positions(bodies.motion, w.scratch.bounces, contacts);
     integrate_positions(w, static_cast<Real>(h));
+    close_direct_joints(w, joints);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, joints, false);
     relax_contacts(bodies.motion, w.graph, contacts);

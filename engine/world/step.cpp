@@ -28,7 +28,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   const Stepping<Real> stepping(w);
   find_pairs(w);
   update_contacts(w, static_cast<Real>(dt));
-  solve_soft_steps(w, h, substeps);
+  solve_motion(w, h, substeps);
   if (w.reports_hits) report_hits(w);
   finish_motion(w, static_cast<Real>(dt));
   if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));

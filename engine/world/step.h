@@ -17,9 +17,9 @@ void find_pairs(WorldData<Real>& w);
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt);
 
-/// Soft steps: velocities and motion of the awake bodies over `substeps` substeps of length `h`.
+/// Velocities and motion of the awake bodies over `substeps` substeps of length `h`, by the world's solver.
 template <class Real>
-void solve_soft_steps(WorldData<Real>& w, double h, int substeps);
+void solve_motion(WorldData<Real>& w, double h, int substeps);
 
 /// Moves the bodies by what the solver found, and their boxes with them. Throws Error (Run) when a motion is
 /// not finite.

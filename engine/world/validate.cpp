@@ -77,7 +77,17 @@ void require_positive(const std::string& subject, const std::string& field, doub
   }
 }
 
-void validate(const WorldDefinition& definition) { require_finite("world", "gravity", definition.gravity); }
+void validate(const WorldDefinition& definition) {
+  require_finite("world", "gravity", definition.gravity);
+  if (static_cast<int>(definition.solver) >= static_cast<int>(std::size(kSolverNames))) {
+    throw Error(Error::Kind::Value, "world", "solver", std::to_string(static_cast<int>(definition.solver)),
+                "is no solver");
+  }
+  if (definition.iterations < 1 || definition.iterations > 1000) {
+    throw Error(Error::Kind::Value, "world", "iterations", std::to_string(definition.iterations),
+                "must be a number from 1 to 1000");
+  }
+}
 
 void validate(const BodyDefinition& definition) {
   const std::string subject = definition.name.empty() ? "body" : "body " + quoted(definition.name);

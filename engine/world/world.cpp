@@ -82,6 +82,34 @@ void BasicWorld<Real>::set_continuous(bool on) {
 }
 
 template <class Real>
+void BasicWorld<Real>::set_solver(Solver solver) {
+  WorldDefinition changed = data_->settings;
+  changed.solver = solver;
+  validate(changed);
+  data_->settings = changed;
+  data_->ties_changed = true;
+}
+template <class Real>
+Solver BasicWorld<Real>::solver() const {
+  return data_->settings.solver;
+}
+template <class Real>
+void BasicWorld<Real>::set_iterations(int iterations) {
+  WorldDefinition changed = data_->settings;
+  changed.iterations = iterations;
+  validate(changed);
+  data_->settings = changed;
+}
+template <class Real>
+int BasicWorld<Real>::iterations() const {
+  return data_->settings.iterations;
+}
+template <class Real>
+void BasicWorld<Real>::set_direct_islands(bool on) {
+  data_->settings.direct_islands = on;
+}
+
+template <class Real>
 WorldCounts BasicWorld<Real>::counts() const {
   const WorldData<Real>& w = *data_;
   return {w.bodies.count(),

@@ -65,6 +65,12 @@ class BasicWorld {
   Vec2d gravity() const;
   void set_sleeping(bool on);
   void set_continuous(bool on);
+  /// From the next step on; what the solver before knew of impulses is taken over.
+  void set_solver(Solver solver);
+  Solver solver() const;
+  void set_iterations(int iterations);  ///< sweeps a substep: SequentialImpulses and Jakobsen
+  int iterations() const;
+  void set_direct_islands(bool on);  ///< whether SoftSteps solves small islands directly
   WorldCounts counts() const;
 
   // Bodies.

@@ -11,13 +11,16 @@ inline constexpr int kEnumerators<BodyType> = 3;
 template <>
 inline constexpr int kEnumerators<Combine> = 5;
 template <>
+inline constexpr int kEnumerators<Solver> = 5;
+template <>
 inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 
-PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous)
+PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous, solver,
+              iterations, direct_islands)
 PLUMB_MEMBERS(Filter, category, mask, group)
 
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, awake_index,

@@ -68,6 +68,8 @@ Played play(Recorded& world) {
   world.set_gravity({0.5, -9});
   world.set_sleeping(false), world.set_sleeping(true);
   world.set_continuous(false), world.set_continuous(true);
+  world.set_solver(Solver::Xpbd), world.set_solver(Solver::SoftSteps);
+  world.set_iterations(7), world.set_direct_islands(false), world.set_direct_islands(true);
   world.set_position(it.kinematic, {-4, 1}, 0.1);
   world.move_towards(it.kinematic, {-3, 1}, 0.2, 0.5);
   world.set_velocity(it.a, {1, 2});

@@ -52,6 +52,22 @@ TEST(Program, HelpHasExamplesAndListHasAll) {
   EXPECT_THAT(list.out, HasSubstr("chipmunk"));
 }
 
+TEST(Program, SolversStandBesideEachOther) {
+  const Ran two =
+      run("chain_10 --quick --repeat 1 --engine plumb --solver xpbd,direct --format csv", "2>/dev/null");
+  EXPECT_EQ(two.code, 0);
+  EXPECT_THAT(two.out, HasSubstr("chain_10,plumb:xpbd,"));
+  EXPECT_THAT(two.out, HasSubstr("chain_10,plumb:direct,"));
+  const Ran all =
+      run("one_free_body --quick --repeat 1 --engine plumb --solver all --format json", "2>/dev/null");
+  EXPECT_EQ(all.code, 0);
+  for (const char* name : {"soft_steps", "sequential_impulses", "jakobsen", "xpbd", "direct"})
+    EXPECT_THAT(all.out, HasSubstr("\"solver\": \"" + std::string(name)));
+  const Ran unknown = run("empty --engine plumb --solver xpdb");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.out, HasSubstr("did you mean 'xpbd'?"));
+}
+
 TEST(Program, AnEngineThatIsMissingHasItsOwnCode) {
   for (const Engine& engine : engines()) {
     const Ran ran = run("empty --quick --repeat 1 --engine " + engine.name);

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "engine/solve/follow.h"
+#include "engine/solve/joint_constraint.h"
+#include "engine/solve/joint_hinge.h"
+
+/// Joints solved on positions. Within a substep a body's velocity is the way that it has come since the
+/// substep's start over h, so that a projection that moves it by dx changes its velocity by dx / h at once.
+/// The rules of a joint then read as they do for velocities, with the residual taken back to the substep's
+/// start: C(x) - h J v. What is rigid gets C(x + dx) = 0 to first order; a spring gets
+/// lambda = -(k C + c dC/dt) at the end, which is a compliance 1 / k (Macklin, Mueller and Chentanez, XPBD,
+/// 2016, eq. 18 and 26); motors, limits and bounds keep what they mean for the substep's impulse.
+namespace plumb {
+
+/// Writes the velocities back, and the positions that follow.
+template <class Real>
+void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, BodyMotion<Real>& a,
+                     BodyMotion<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
+  v.store(a, b);
+  if (v.m_a + v.i_a > 0) follow(a, rotation_a, before.v_a, before.w_a, h);
+  if (v.m_b + v.i_b > 0) follow(b, rotation_b, before.v_b, before.w_b, h);
+}
+
+/// Nothing has been applied in this substep.
+template <class Real, template <class> class Kind>
+void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
+                      const JointStep<Real>& step) {
+  using Joint = JointConstraint<Real, Kind>;
+  if constexpr (Kind<Real>::kTurn) joint.turn.scale(0);
+  for (auto& coordinate : joint.axial) coordinate.scale(0);
+  if constexpr (Joint::kBlock > 0)
+    for (Real& impulse : joint.block.impulse) impulse = 0;
+  if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
+  // A tooth has been passed where bodies come to be, not where they would go.
+  if constexpr (Joint::kRatchet) joint.evaluate(bodies, step);
+}
+
+template <class Real>
+void begin_projection(HingeConstraint<Real>& hinge, const SolverBodies<Real>&, const JointStep<Real>&) {
+  hinge.impulse = {};
+}
+
+/// Moves the two bodies such that the joint's rules hold where they are then.
+template <class Real, template <class> class Kind>
+void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
+             const JointStep<Real>& step) {
+  using Joint = JointConstraint<Real, Kind>;
+  BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  JointVelocities<Real> v(a, b);
+  if constexpr (Joint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  const JointVelocities<Real> before = v;
+  const Real h = step.h;
+
+  const JointPose<Real> at = joint.pose(bodies);
+  JointRows<Real> rows;
+  joint.kind.evaluate(at, rows);
+  joint.arm_b = rows.arm_b;
+  if constexpr (Kind<Real>::kTurn) joint.turn.evaluate(at.angle - h * (v.w_b - v.w_a), v, step, Real(1));
+  for (int i = 0; i < Joint::kAxial; ++i) {
+    joint.axial[i].row = rows.axial[i];
+    joint.axial[i].evaluate(rows.axial[i].residual - h * v.along(rows.axial[i]), v, step, Real(1));
+  }
+  if constexpr (Joint::kBlock > 0) {
+    for (int i = 0; i < Joint::kBlock; ++i) {
+      joint.block.row[i] = rows.block[i];
+      joint.block.row[i].residual -= h * v.along(rows.block[i]);
+    }
+    joint.block.factorise(v);
+  }
+  if constexpr (Kind<Real>::kPoint) {
+    AnchorPoint<Real> point = rows.point;
+    point.gap -= h * v.at(point.arm_a, point.arm_b);
+    joint.point.evaluate(point, v, step, Real(1));
+  }
+
+  if constexpr (Kind<Real>::kTurn) joint.turn.solve(v, kSolve);
+  for (auto& coordinate : joint.axial) coordinate.solve(v, kSolve);
+  if constexpr (Joint::kBlock > 0) joint.block.solve(v, step, kSolve, Real(1));
+  if constexpr (Kind<Real>::kPoint) joint.point.solve(v, kSolve);
+  store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
+}
+
+template <class Real>
+void project(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
+             const JointStep<Real>& step) {
+  BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
+  JointVelocities<Real> v(a, b);
+  const JointVelocities<Real> before = v;
+  const JointPose<Real> pose{.offset = hinge.offset + (b.moved - a.moved),
+                             .rotation_a = bodies.rotation[hinge.a],
+                             .rotation_b = bodies.rotation[hinge.b]};
+  const AnchorPoint<Real> point = anchor_point(pose, hinge.anchor_a, hinge.anchor_b).middle();
+  hinge.arm_a = point.arm_a, hinge.arm_b = point.arm_b;
+  const Vec2<Real> delta =
+      -(point_mass(v, point.arm_a, point.arm_b, Real(1)) * (step.softness.bias_rate * point.gap));
+  hinge.impulse += delta;
+  v.apply(delta, point.arm_a, point.arm_b);
+  store_projected(v, before, a, b, rotation[hinge.a], rotation[hinge.b], step.h);
+}
+
+}  // namespace plumb

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace plumb {
+
+/// How contacts and joints are held. Each is a file in engine/world; docs/guide/solvers.md compares them.
+enum class Solver : std::uint8_t {
+  SoftSteps,           ///< soft constraints with substeps and a relaxation; small islands directly
+  SequentialImpulses,  ///< Catto (2005): sweeps of accumulated impulses, errors fed back
+  Jakobsen,            ///< Jakobsen (2001): sweeps that project positions, velocities from positions
+  Xpbd,                ///< Macklin and Mueller (2016): a projection with compliance in each substep
+  Direct,              ///< soft steps; whatever joints tie together is solved at once
+};
+
+/// As command lines and tables write them, by Solver.
+inline constexpr const char* kSolverNames[] = {"soft_steps", "sequential_impulses", "jakobsen", "xpbd",
+                                               "direct"};
+
+constexpr const char* name_of(Solver solver) { return kSolverNames[static_cast<int>(solver)]; }
+
+constexpr std::optional<Solver> solver_of(std::string_view name) {
+  for (int i = 0; i < 5; ++i) {
+    if (name == kSolverNames[i]) return static_cast<Solver>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumb

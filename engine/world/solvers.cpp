@@ -1,0 +1,25 @@
+#include "engine/world/solvers.h"
+
+#include "engine/world/step.h"
+
+namespace plumb {
+
+template <class Real>
+void solve_motion(WorldData<Real>& w, double h, int substeps) {
+  switch (w.settings.solver) {
+    case Solver::SoftSteps:
+    case Solver::Direct:
+      return solve_soft_steps(w, h, substeps);
+    case Solver::SequentialImpulses:
+      return solve_sequential_impulses(w, h, substeps);
+    case Solver::Jakobsen:
+      return solve_jakobsen(w, h, substeps);
+    case Solver::Xpbd:
+      return solve_xpbd(w, h, substeps);
+  }
+}
+
+template void solve_motion(WorldData<float>&, double, int);
+template void solve_motion(WorldData<double>&, double, int);
+
+}  // namespace plumb

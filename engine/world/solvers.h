@@ -1,0 +1,25 @@
+#pragma once
+
+#include "engine/world/world_data.h"
+
+/// The solvers that a world chooses from, a file each. Each takes the awake bodies through `substeps`
+/// substeps of length `h`, and leaves the impulses of the last one in contacts and joints.
+namespace plumb {
+
+/// Soft constraints (Catto, 2024); with Solver::Direct, articulated islands at once.
+template <class Real>
+void solve_soft_steps(WorldData<Real>& w, double h, int substeps);
+
+/// Sequential impulses (Catto, 2005).
+template <class Real>
+void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps);
+
+/// Projection of positions (Jakobsen, 2001).
+template <class Real>
+void solve_jakobsen(WorldData<Real>& w, double h, int substeps);
+
+/// Extended position-based dynamics (Macklin, Mueller and Chentanez, 2016; Mueller et al., 2020).
+template <class Real>
+void solve_xpbd(WorldData<Real>& w, double h, int substeps);
+
+}  // namespace plumb
