@@ -79,6 +79,10 @@ struct JointDefinition {
   std::uint64_t user_data = 0;
 };
 
+/// A user's own rule for the coefficient of a contact, from those of its shapes. It has to be a pure
+/// function, symmetric in its arguments: a world is as deterministic as its rules.
+using CombineFunction = double (*)(double a, double b);
+
 /// How the world as a whole behaves.
 struct WorldDefinition {
   Vec2d gravity{0, -9.81};  ///< m/s^2

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "engine/collide/contact_manifold.h"
+#include "engine/scene/error.h"
 #include "engine/world/constants.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
@@ -122,13 +124,27 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
 }
 
+// What a rule of the user's says, when it can be a coefficient.
+double ask(CombineFunction rule, double a, double b, const char* what, double most) {
+  const double answer = rule(a, b);
+  if (answer >= 0 && answer <= most) return answer;
+  throw Error(
+      Error::Kind::Value, "combine rule", what, std::to_string(answer),
+      "must be in [0, " + std::to_string(most) + "] for " + std::to_string(a) + " and " + std::to_string(b));
+}
+
 // What follows from the shapes' materials.
 template <class Real>
 void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
   const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
   const ShapeForm<Real>&form_a = w.forms[contact.shape_a], &form_b = w.forms[contact.shape_b];
-  c.friction = static_cast<Real>(combine(w.settings.combine_friction, a.friction, b.friction));
-  c.restitution = static_cast<Real>(combine(w.settings.combine_restitution, a.restitution, b.restitution));
+  c.friction = static_cast<Real>(w.friction_rule == nullptr
+                                     ? combine(w.settings.combine_friction, a.friction, b.friction)
+                                     : ask(w.friction_rule, a.friction, b.friction, "friction", 1e9));
+  c.restitution =
+      static_cast<Real>(w.restitution_rule == nullptr
+                            ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
+                            : ask(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
   const Real radius = std::max(form_a.radius, form_b.radius);
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);

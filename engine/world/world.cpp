@@ -134,6 +134,11 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
 }
 
 template <class Real>
+void BasicWorld<Real>::combine_with(CombineFunction friction, CombineFunction restitution) {
+  data_->friction_rule = friction, data_->restitution_rule = restitution;
+}
+
+template <class Real>
 std::uint64_t BasicWorld<Real>::hash() const {
   const WorldData<Real>& w = *data_;
   std::uint64_t hash = 0xCBF29CE484222325u;

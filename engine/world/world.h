@@ -37,6 +37,12 @@ struct ContactReading {
   double approach = 0;         ///< m/s, along the normal at the step's start, negative: closing
 };
 
+/// What of a body's motion is held.
+struct BodyLocks {
+  bool x = false, y = false, rotation = false;
+  friend bool operator==(const BodyLocks&, const BodyLocks&) = default;
+};
+
 struct WorldCounts {
   int bodies = 0, awake = 0, shapes = 0, contacts = 0, touching = 0, joints = 0;
 };
@@ -60,6 +66,11 @@ class BasicWorld {
   double time() const;  ///< s
   std::int64_t step_count() const;
   const Events& events() const;  ///< of the last step
+
+  /// The user's own rules for contacts that begin from now on; null: the one of the definition. They are
+  /// code, and no part of snapshots: set them again in the world that one is restored into. Recorded worlds
+  /// cannot have them.
+  void combine_with(CombineFunction friction, CombineFunction restitution);
 
   void set_gravity(Vec2d gravity);
   Vec2d gravity() const;
@@ -115,6 +126,11 @@ class BasicWorld {
   bool awake(BodyId body) const;
   void set_awake(BodyId body, bool awake);  ///< with its whole island
   void set_may_sleep(BodyId body, bool may_sleep);
+  bool may_sleep(BodyId body) const;
+  double gravity_scale(BodyId body) const;
+  double linear_damping(BodyId body) const;   ///< 1/s
+  double angular_damping(BodyId body) const;  ///< 1/s
+  BodyLocks locks(BodyId body) const;
   std::uint64_t user_data(BodyId body) const;
   const std::string& name(BodyId body) const;
   std::vector<ShapeId> shapes(BodyId body) const;
@@ -130,6 +146,10 @@ class BasicWorld {
   Material material(ShapeId shape) const;
   void set_material(ShapeId shape, const Material& material);
   Filter filter(ShapeId shape) const;
+  double density(ShapeId shape) const;   ///< kg/m^2
+  bool sensor(ShapeId shape) const;      ///< whether it is one
+  bool hit_events(ShapeId shape) const;  ///< whether hard impacts on it are reported
+  bool pre_solve(ShapeId shape) const;   ///< whether its contacts are asked about
   void set_filter(ShapeId shape, const Filter& filter);
   std::vector<ShapeId> overlapping(ShapeId sensor) const;  ///< what a sensor saw in the last step
 
@@ -137,6 +157,7 @@ class BasicWorld {
   void destroy(ChainId chain);
   bool valid(ChainId chain) const;
   std::vector<ShapeId> segments(ChainId chain) const;
+  BodyId body(ChainId chain) const;
 
   // Joints.
   JointId create_joint(BodyId a, BodyId b, const JointDefinition& definition);
@@ -145,6 +166,8 @@ class BasicWorld {
   const JointKind& kind(JointId joint) const;
   void change(JointId joint, const JointKind& kind);  ///< new speeds, limits, targets; wakes the bodies
   JointReading read(JointId joint) const;
+  JointDefinition definition(JointId joint) const;  ///< as it is now
+  std::uint64_t user_data(JointId joint) const;
   std::pair<BodyId, BodyId> bodies(JointId joint) const;
 
   /// Called for contacts of shapes that ask for it, before they are solved; false: not in this step. It must

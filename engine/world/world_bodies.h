@@ -240,6 +240,27 @@ std::uint64_t BasicWorld<Real>::user_data(BodyId body) const {
   return data_->body_data.get(place(body));
 }
 template <class Real>
+bool BasicWorld<Real>::may_sleep(BodyId body) const {
+  return data_->bodies[place(body)].may_sleep;
+}
+template <class Real>
+double BasicWorld<Real>::gravity_scale(BodyId body) const {
+  return static_cast<double>(data_->uncommon_of(place(body)).gravity_scale);
+}
+template <class Real>
+double BasicWorld<Real>::linear_damping(BodyId body) const {
+  return static_cast<double>(data_->uncommon_of(place(body)).linear_damping);
+}
+template <class Real>
+double BasicWorld<Real>::angular_damping(BodyId body) const {
+  return static_cast<double>(data_->uncommon_of(place(body)).angular_damping);
+}
+template <class Real>
+BodyLocks BasicWorld<Real>::locks(BodyId body) const {
+  const BodyRecord<Real>& record = data_->bodies[place(body)];
+  return {record.lock_x, record.lock_y, record.lock_rotation};
+}
+template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
   return data_->uncommon_of(place(body)).name;
 }

@@ -246,6 +246,9 @@ struct WorldData {
   /// step.
   std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
 
+  /// The user's own rules, in place of those of the settings.
+  CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
+
   /// Where what happens now is told.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }

@@ -53,14 +53,15 @@ PLUMB_MEMBERS(JointEvent, joint)
 PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke)
 
 /// All of a world that its future depends on, and the events of its last step, as a tuple of references. Left
-/// out are the pre-solve hook, which is code, and what every step makes anew. A member that is new in
-/// WorldData has to be named here, and to be returned unless it is one of those.
+/// out are the pre-solve hook and the user's combine rules, which are code, and what every step makes anew. A
+/// member that is new in WorldData has to be named here, and to be returned unless it is one of those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains, moved_shapes,
          still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable,
-         events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve] = w;
+         events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve, friction_rule,
+         restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
                   moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,

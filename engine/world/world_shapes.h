@@ -53,6 +53,22 @@ Filter BasicWorld<Real>::filter(ShapeId shape) const {
   return data_->shapes[place(shape)].filter;
 }
 template <class Real>
+double BasicWorld<Real>::density(ShapeId shape) const {
+  return data_->shapes[place(shape)].density;
+}
+template <class Real>
+bool BasicWorld<Real>::sensor(ShapeId shape) const {
+  return data_->forms[place(shape)].sensor;
+}
+template <class Real>
+bool BasicWorld<Real>::hit_events(ShapeId shape) const {
+  return data_->shapes[place(shape)].hit_events;
+}
+template <class Real>
+bool BasicWorld<Real>::pre_solve(ShapeId shape) const {
+  return data_->shapes[place(shape)].pre_solve;
+}
+template <class Real>
 void BasicWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
   plumb::set_filter(*data_, place(shape), filter);
 }
@@ -151,6 +167,21 @@ std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
     return BodyId{static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
   };
   return {id(record.body_a), id(record.body_b)};
+}
+template <class Real>
+JointDefinition BasicWorld<Real>::definition(JointId joint) const {
+  const JointRecord& record = data_->joints[place(joint)];
+  return {data_->joint_set.definition(record.slot), record.collide, record.break_force, record.break_torque,
+          record.user_data};
+}
+template <class Real>
+std::uint64_t BasicWorld<Real>::user_data(JointId joint) const {
+  return data_->joints[place(joint)].user_data;
+}
+template <class Real>
+BodyId BasicWorld<Real>::body(ChainId chain) const {
+  const int body = data_->chains[place(chain)].body;
+  return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
 }
 
 }  // namespace plumb

@@ -335,6 +335,8 @@ TEST(RecordedCalls, AreAllThatChangeAWorld) {
   EXPECT_GT(world.size(), 25u);
   // What is reached by edit() and restore().
   EXPECT_EQ(world.erase("data"), 1u);
+  // Rules are code that a replay could not know.
+  EXPECT_EQ(world.erase("combine_with"), 1u);
   EXPECT_EQ(recorded.erase("edit"), 1u);
   EXPECT_EQ(recorded.erase("restore"), 1u);
   EXPECT_EQ(world, recorded);
