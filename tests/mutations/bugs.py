@@ -70,4 +70,8 @@ MUTATIONS = [
              "contact.friction * (impulse.normal + earlier.normal)", "contact.friction * earlier.normal"),
     Mutation("product for the geometric mean", "engine/scene/scene.cpp",
              "return std::sqrt(a * b);", "return a * b;"),
+
+    # The real-time world.
+    Mutation("world: a limit pulls", "engine/solve/joint_rule.h",
+             "return role == RowRole::Limit ? 0 : -most;", "return -most;", "world"),
 ]

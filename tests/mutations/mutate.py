@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Plants physics bugs in a copy of the engine, one at a time, and shows that the agreement tests catch each.
+"""Plants physics bugs in a copy of the engine, one at a time, and shows that tests catch each: those of
+agreement for what scenes show, the engine's own for its real-time world.
 
     mutate.py [--work DIR] [--only NAME]... [--compiler CXX] [-j N]
     mutate.py --list         names the bugs
@@ -37,6 +38,7 @@ class Mutation:
     file: str
     old: str
     new: str
+    suite: str = "agreement"
 
     def apply(self, text):
         place = re.compile(r"\s+".join(re.escape(word) for word in self.old.split()))
@@ -62,15 +64,23 @@ def mismatches(root, mutations):
     return problems
 
 
-class Tests:
-    """The agreement tests of a tree."""
+# Programs to build, and what ctest is to run of them.
+SUITES = {
+    "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
+    "world": (["test_collide", "test_joints", "test_solve", "test_world"],
+              ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
+}
 
-    def __init__(self, tree, arguments, target, select, jobs):
+
+class Tests:
+    """The tests of a suite of a tree."""
+
+    def __init__(self, tree, arguments, targets, select, jobs):
         self.build = checkout_copy.configure(tree, arguments)
-        self.target, self.select, self.jobs = target, select, jobs
+        self.targets, self.select, self.jobs = targets, select, jobs
 
     def compile(self):
-        return checkout_copy.run(["ninja", "-C", self.build, f"-j{self.jobs}", self.target], check=False)
+        return checkout_copy.run(["ninja", "-C", self.build, f"-j{self.jobs}", *self.targets], check=False)
 
     def failures(self):
         """Names of the tests that fail, and how many ran."""
@@ -146,7 +156,7 @@ def self_test():
             (root / path).write_text(text, encoding="utf-8")
 
         def tests_of(tree):
-            return Tests(tree, [], "all", ["-L", "agreement"], 1)
+            return Tests(tree, [], ["all"], ["-L", "agreement"], 1)
 
         assert mismatches(root, [caught, survives]) == []
         assert len(mismatches(root, [caught, lost, twice])) == 2
@@ -194,9 +204,12 @@ def main():
     # The flags of the checkout's own build: what a compiler cache has seen there is not compiled again.
     arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF",
                  *shlex.split(os.environ.get("PLUMB_CMAKE_FLAGS", ""))]
-    select = ["-L", "agreement", "-LE", "slow", "-R", "plumb"]
-    survivors = plant(root, options.work or root / "build" / "mutations", chosen,
-                      lambda tree: Tests(tree, arguments, "test_agreement", select, options.jobs))
+    survivors = []
+    for suite, (targets, select) in SUITES.items():
+        of_suite = [mutation for mutation in chosen if mutation.suite == suite]
+        if of_suite:
+            survivors += plant(root, options.work or root / "build" / "mutations", of_suite,
+                               lambda tree: Tests(tree, arguments, targets, select, options.jobs))
     print(f"{len(chosen) - len(survivors)} of {len(chosen)} caught" +
           (f"; survived: {', '.join(survivors)}" if survivors else ""))
     return 1 if survivors else 0
