@@ -295,7 +295,13 @@ class MujocoBackend final : public Backend {
                  {"contacts", "off; scenes in which shapes may touch are refused"},
                  {"forces",
                   chosen.stepper == Stepper::RungeKutta4 ? "at every stage" : "at the start of each substep"},
-                 {"damping", "0"},
+                 {"linear_damping", "0"},
+                 {"angular_damping", "0"},
+                 {"sleeping", "off"},
+                 {"filters", "the scene's"},
+                 {"linear_slop", "0 m"},
+                 {"continuous", "off"},
+                 {"max_rotation", "none"},
                  {"inertia", "the scene's"},
                  {"precision", "double"}};
     append_contact_rules(out, scene);

@@ -25,14 +25,14 @@ void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>
 template <class Real, template <class> class Kind>
 void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
                       const JointStep<Real>& step) {
-  using Joint = JointConstraint<Real, Kind>;
+  using Constraint = JointConstraint<Real, Kind>;
   if constexpr (Kind<Real>::kTurn) joint.turn.scale(0);
   for (auto& coordinate : joint.axial) coordinate.scale(0);
-  if constexpr (Joint::kBlock > 0)
+  if constexpr (Constraint::kBlock > 0)
     for (Real& impulse : joint.block.impulse) impulse = 0;
   if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
   // A tooth has been passed where bodies come to be, not where they would go.
-  if constexpr (Joint::kRatchet) joint.evaluate(bodies, step);
+  if constexpr (Constraint::kRatchet) joint.evaluate(bodies, step);
 }
 
 template <class Real>
@@ -44,10 +44,10 @@ void begin_projection(HingeConstraint<Real>& hinge, const SolverBodies<Real>&, c
 template <class Real, template <class> class Kind>
 void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
              const JointStep<Real>& step) {
-  using Joint = JointConstraint<Real, Kind>;
+  using Constraint = JointConstraint<Real, Kind>;
   BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
   JointVelocities<Real> v(a, b);
-  if constexpr (Joint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  if constexpr (Constraint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
   const JointVelocities<Real> before = v;
   const Real h = step.h;
 
@@ -56,12 +56,12 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
   joint.kind.evaluate(at, rows);
   joint.arm_b = rows.arm_b;
   if constexpr (Kind<Real>::kTurn) joint.turn.evaluate(at.angle - h * (v.w_b - v.w_a), v, step, Real(1));
-  for (int i = 0; i < Joint::kAxial; ++i) {
+  for (int i = 0; i < Constraint::kAxial; ++i) {
     joint.axial[i].row = rows.axial[i];
     joint.axial[i].evaluate(rows.axial[i].residual - h * v.along(rows.axial[i]), v, step, Real(1));
   }
-  if constexpr (Joint::kBlock > 0) {
-    for (int i = 0; i < Joint::kBlock; ++i) {
+  if constexpr (Constraint::kBlock > 0) {
+    for (int i = 0; i < Constraint::kBlock; ++i) {
       joint.block.row[i] = rows.block[i];
       joint.block.row[i].residual -= h * v.along(rows.block[i]);
     }
@@ -75,7 +75,7 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
 
   if constexpr (Kind<Real>::kTurn) joint.turn.solve(v, kSolve);
   for (auto& coordinate : joint.axial) coordinate.solve(v, kSolve);
-  if constexpr (Joint::kBlock > 0) joint.block.solve(v, step, kSolve, Real(1));
+  if constexpr (Constraint::kBlock > 0) joint.block.solve(v, step, kSolve, Real(1));
   if constexpr (Kind<Real>::kPoint) joint.point.solve(v, kSolve);
   store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
 }

@@ -99,7 +99,8 @@ DirectIsland<Real>& island_at(WorldData<Real>& w, int root) {
   int& place = w.scratch.island_place[root];
   if (place == kNone) {
     place = w.scratch.direct_count++;
-    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size())) w.scratch.direct.emplace_back(&w.scratch.room);
+    if (w.scratch.direct_count > static_cast<int>(w.scratch.direct.size()))
+      w.scratch.direct.emplace_back(&w.scratch.room);
     w.scratch.direct[place].contacts.clear(), w.scratch.direct[place].joints.clear();
     w.scratch.direct[place].root = root;
   }

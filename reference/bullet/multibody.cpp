@@ -225,6 +225,10 @@ class MultibodyBackend final : public Backend {
                  {"angular_damping", "0"},
                  {"sleeping", "off"},
                  {"inertia", "the scene's"},
+                 {"filters", "the scene's"},
+                 {"linear_slop", "0 m"},
+                 {"continuous", "off"},
+                 {"max_rotation", "none"},
                  {"precision", sizeof(btScalar) == sizeof(float) ? "float" : "double"}};
     append_contact_rules(out, scene);
     return out;

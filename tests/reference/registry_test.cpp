@@ -39,8 +39,8 @@ std::vector<const Backend*> available() {
 TEST(Registry, ListsPlumbFirstThenByName) {
   std::vector<std::string> names;
   for (const Backend* backend : backends()) names.emplace_back(backend->name());
-  const std::vector<std::string> expected{"plumb", "plumb-float", "plumb-precise", "ballistic",
-                                          "box2d", "bullet",      "bullet-double"};
+  const std::vector<std::string> expected{"plumb",  "plumb-float",   "plumb-precise",    "ballistic", "box2d",
+                                          "bullet", "bullet-double", "bullet-multibody", "mujoco"};
   EXPECT_EQ(names, expected);
 }
 
@@ -136,7 +136,9 @@ TEST(Settings, EffectiveSettingsListEveryOptionAndWhatIsEqualised) {
   for (const Backend* backend : available()) {
     if (backend->name() == "ballistic") continue;
     std::set<std::string> names;
-    for (const auto& [name, value] : backend->effective_settings(scene, {})) {
+    // Engines without contacts are asked about a scene that they run.
+    const bool touches = backend->unsupported(scene, {}).empty();
+    for (const auto& [name, value] : backend->effective_settings(touches ? scene : testing::pendulum(), {})) {
       EXPECT_TRUE(names.insert(name).second) << backend->name() << " prints " << name << " twice";
       EXPECT_FALSE(value.empty()) << backend->name() << " " << name;
     }

@@ -57,6 +57,13 @@ inline Scene falling(std::vector<Body> bodies) {
   return out;
 }
 
+/// A disc on a hinge that lies at the origin, out to the right of it.
+inline Scene pendulum() {
+  Scene out = falling({disc("bob", {1, 0})});
+  out.joints = {RevoluteJoint{.name = "hinge", .body_a = "world", .body_b = "bob", .anchor_b = {-1, 0}}};
+  return out;
+}
+
 /// Two discs of 1 kg on the x axis, 1 m apart, that approach each other at 1 m/s; `a` has 0.2, `b` 0.8 of
 /// restitution.
 inline Scene head_on() {
