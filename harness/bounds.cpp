@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/pulls.h"
+
 namespace plumb::harness {
 namespace {
 
@@ -81,6 +83,12 @@ Tolerances::Bound Tolerances::energy(int sample) const {
     const double off_v = *velocity(sample, i), off_w = *angular_velocity(sample, i);
     sum += body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
            body.mass * magnitude(problem_.scene.gravity) * *position(sample, i);
+  }
+  // A potential is off by its force times the way, and half its stiffness times the way's square: by the two
+  // ends' ways together, (a + b)^2/2 <= a^2 + b^2.
+  for (const Pull& pull : pulls_in(problem_.scene, truth_.at(sample))) {
+    const double off = *position(sample, pull.body) + pull.arm * *angle(sample, pull.body);
+    sum += pull.force * off + pull.stiffness * off * off;
   }
   return sum / scale_.energy + rounding;
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "harness/pulls.h"
+
 namespace plumb::harness {
 namespace {
 
@@ -100,6 +102,9 @@ class Growth {
     if (method.order == 1) start_joints();
     has_turning_force_.resize(bodies, false);
     for (const ForceLaw& law : problem.scene.forces)
+      has_pulls_ = has_pulls_ || std::holds_alternative<SpringForce>(law) ||
+                   std::holds_alternative<AttractionForce>(law);
+    for (const ForceLaw& law : problem.scene.forces)
       if (const auto* force = std::get_if<PointForce>(&law))
         if (const auto body = find_body(problem.scene, force->body)) has_turning_force_[*body] = true;
   }
@@ -146,6 +151,8 @@ class Growth {
       growth_[body] = moves ? growth_of(body, before[body], after[body], from, to) : Parts{};
     }
     for (const std::vector<std::size_t>& group : groups_) share(group);
+    if (has_pulls_)
+      for (const Pull& pull : pulls_in(problem_.scene, before)) feed_back(pull, to - from);
     for (std::size_t body = 0; body < now_.size(); ++body) grow(body, from, to);
     while (next_impact_ < impacts_.size() && impacts_[next_impact_].time <= to + kImpactMargin)
       collide(impacts_[next_impact_++]);
@@ -213,6 +220,24 @@ class Growth {
     last.acceleration = acceleration;
     last.angular_acceleration = angular_acceleration;
     return growth;
+  }
+
+  // What a law makes of the errors that there are: their share of its force, on velocity and spin.
+  void feed_back(const Pull& pull, double span) {
+    const Body& body = problem_.scene.bodies[pull.body];
+    if (body.type != BodyType::Dynamic) return;
+    const auto error = [&](std::size_t of, double arm) {
+      const Parts& bound = now_[of];
+      return pull.stiffness * (magnitude(bound.position) + arm * bound.angle) +
+             pull.damping * (magnitude(bound.velocity) + arm * bound.angular_velocity);
+    };
+    const double off =
+        error(pull.body, pull.arm) + (pull.partner ? error(*pull.partner, pull.partner_arm) : 0);
+    now_[pull.body].velocity += span * off / body.mass * Vec2d{1, 1};
+    const double inertia = inertia_of(body);
+    if (inertia > 0)
+      now_[pull.body].angular_velocity +=
+          span * pull.arm * (off + pull.force * now_[pull.body].angle) / inertia;
   }
 
   void grow(std::size_t body, double from, double to) {
@@ -298,6 +323,7 @@ class Growth {
   std::vector<Parts> growth_;
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> has_turning_force_;
+  bool has_pulls_ = false;
   std::vector<Window> windows_;
 };
 

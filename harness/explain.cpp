@@ -37,9 +37,9 @@ double share_of(const Stage& stage, double total) { return total > 0 ? stage.nan
 }  // namespace
 
 Accuracy accuracy_of(const reference::Backend& backend, const reference::StepSettings& settings) {
-  if (!backend.name().starts_with("plumb")) {
+  if (!backend.name().starts_with("plumb") || backend.name().starts_with("plumb-world")) {
     throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", backend.name()), "", "",
-                "has no plan to explain: only plumb's own engines have one, see `plumb engines`");
+                "has no plan to explain: only 'plumb', 'plumb-float' and 'plumb-precise' have one");
   }
   const reference::Method method = backend.method(settings);
   if (method.scheme == reference::Scheme::Adaptive) {

@@ -38,8 +38,9 @@ struct Identity {
   std::string reason{};  ///< why it is not available and what to install
 };
 
-/// How an engine's time stepping works: what error bounds are derived from.
-enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4, Adaptive };
+/// How an engine's time stepping works: what error bounds are derived from. `SoftStep`: semi-implicit Euler
+/// with constraints as damped springs, in which bodies that nothing holds move by the midpoint method.
+enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4, SoftStep, Adaptive };
 
 struct Method {
   Scheme scheme = Scheme::SemiImplicitEuler;

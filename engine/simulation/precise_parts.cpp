@@ -219,7 +219,7 @@ namespace plumb {
 
 std::string precise_unsupported(const Scene& scene) {
   if (const std::string feature = unusual_feature(scene); !feature.empty())
-    return feature + ", which Precise does not have; a World runs it";
+    return feature + ", which Precise does not have; 'plumb-world' runs it";
   // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(scene);

@@ -223,7 +223,7 @@ template class RealtimeDriver<double>;
 
 std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy) {
   if (const std::string feature = unusual_feature(scene); !feature.empty())
-    return feature + ", which Realtime does not have; a World runs it";
+    return feature + ", which Realtime does not have; 'plumb-world' runs it";
   if (accuracy.precision != Precision::Float) return "";
   constexpr double kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
   const auto fits = [](double value) {

@@ -16,11 +16,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::pair<Scheme, const char*>, 5> kSchemes{
+constexpr std::array<std::pair<Scheme, const char*>, 6> kSchemes{
     {{Scheme::ExplicitEuler, "explicit_euler"},
      {Scheme::SemiImplicitEuler, "semi_implicit_euler"},
      {Scheme::VelocityVerlet, "velocity_verlet"},
      {Scheme::RungeKutta4, "runge_kutta_4"},
+     {Scheme::SoftStep, "soft_step"},
      {Scheme::Adaptive, "adaptive"}}};
 
 constexpr std::array<std::pair<Error::Kind, const char*>, 6> kKinds{
@@ -296,7 +297,7 @@ std::optional<std::pair<std::string, std::string>> pair_that_may_touch(const Sce
 std::string missing_capability(const Scene& scene, const Hello& hello) {
   const std::string lacks = ", which it does not declare";
   if (const std::string field = unusual_field(scene); !field.empty())
-    return field + ", which the protocol's engines do not have; a World runs it";
+    return field + ", which the protocol's engines do not have; 'plumb-world' runs it";
   for (const Body& body : scene.bodies) {
     const std::string missing = missing_of_body(body, hello);
     if (!missing.empty()) return missing + lacks;

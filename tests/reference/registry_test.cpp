@@ -39,8 +39,10 @@ std::vector<const Backend*> available() {
 TEST(Registry, ListsPlumbFirstThenByName) {
   std::vector<std::string> names;
   for (const Backend* backend : backends()) names.emplace_back(backend->name());
-  const std::vector<std::string> expected{"plumb",  "plumb-float",   "plumb-precise",    "ballistic", "box2d",
-                                          "bullet", "bullet-double", "bullet-multibody", "mujoco"};
+  const std::vector<std::string> expected{
+      "plumb",     "plumb-float", "plumb-precise", "plumb-world",   "plumb-world-double",
+      "ballistic", "box2d",       "bullet",        "bullet-double", "bullet-multibody",
+      "mujoco"};
   EXPECT_EQ(names, expected);
 }
 
