@@ -15,7 +15,7 @@ namespace {
 
 using Ink = Style::Ink;
 
-constexpr int kEngineWidth = 15, kFigureWidth = 10, kVerdictWidth = 30;
+constexpr int kEngineWidth = 19, kFigureWidth = 10, kVerdictWidth = 30;
 
 /// A column of figures.
 struct Column {
