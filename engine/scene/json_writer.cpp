@@ -174,7 +174,7 @@ class Writer {
           write("name", any.name);
           write("body_a", any.body_a);
           write("body_b", any.body_b);
-          const auto field = [this](std::string_view key, const auto& value, const FieldRule&) {
+          const auto field = [&](std::string_view key, const auto& value, const FieldRule&) {
             write(key, value);
           };
           anchor_fields(any, field);
