@@ -187,7 +187,7 @@ def main():
     root = HERE.parent.parent
     if options.list:
         for mutation in MUTATIONS:
-            print(f"{mutation.name:45} {mutation.file}")
+            print(f"{mutation.name:48}  {mutation.file}")
         return 0
     problems = mismatches(root, MUTATIONS)
     if problems:
@@ -196,10 +196,11 @@ def main():
     if options.match:
         print(f"{len(MUTATIONS)} mutations have their place")
         return 0
-    chosen = [mutation for mutation in MUTATIONS if not options.only or mutation.name in options.only]
-    if not chosen:
-        print(f"no mutation is called {' or '.join(options.only)}; see --list", file=sys.stderr)
+    unknown = set(options.only or []) - {mutation.name for mutation in MUTATIONS}
+    if unknown:
+        print(f"no mutation is called {' or '.join(sorted(unknown))}; see --list", file=sys.stderr)
         return 2
+    chosen = [mutation for mutation in MUTATIONS if not options.only or mutation.name in options.only]
 
     # The flags of the checkout's own build: what a compiler cache has seen there is not compiled again.
     arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF",
