@@ -14,8 +14,9 @@ namespace {
 template <class Real>
 class Drawing {
  public:
-  Drawing(const WorldData<Real>& w, DebugDraw& out, const DrawOptions& options)
-      : w_(w), out_(out), options_(options) {}
+  Drawing(const WorldData<Real>& w, const PastPoses<Real>& before, double fraction, DebugDraw& out,
+          const DrawOptions& options)
+      : w_(w), before_(before), fraction_(fraction), out_(out), options_(options) {}
 
   void draw() const {
     for_each_used(w_.bodies, [&](int body) {
@@ -28,7 +29,7 @@ class Drawing {
     for_each_used(w_.bodies, [&](int body) {
       if (options_.centres) draw_centre(body);
       if (options_.names && !w_.uncommon_of(body).name.empty())
-        out_.text(w_.position[body], w_.uncommon_of(body).name, DrawRole::Name);
+        out_.text(centre(body), w_.uncommon_of(body).name, DrawRole::Name);
     });
   }
 
@@ -40,11 +41,12 @@ class Drawing {
     }
   }
 
+  Pose<double> pose(int body) const { return before_.between(w_, body, fraction_); }
+  Vec2d centre(int body) const { return pose(body).position; }
+
   // A point of the body's frame, whose origin is the centre of mass, in the world.
-  Vec2d to_world(int body, Vec2d point) const {
-    const Rotation<Real> q = w_.rotation[body];
-    return w_.position[body] + Rotation<double>{q.c, q.s} * point;
-  }
+  static Vec2d placed(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
+  Vec2d to_world(int body, Vec2d point) const { return placed(pose(body), point); }
   // An anchor stands in the frame of the body's origin.
   Vec2d anchor(int body, Vec2d point) const {
     return to_world(body, point - w_.bodies[body].centre.template as<double>());
@@ -59,16 +61,16 @@ class Drawing {
   }
 
   void draw_shapes(int body) const {
+    const Pose<double> place = pose(body);
     for (int shape = w_.bodies[body].first_shape; shape != kNone; shape = w_.shapes[shape].next) {
       const Convex<Real> convex = w_.convex(shape);
       const double radius = static_cast<double>(convex.radius);
       const DrawRole role = role_of(body, shape);
       Vec2d corners[kMaxCorners];
       for (int i = 0; i < convex.count; ++i)
-        corners[i] = to_world(body, convex.corners[i].point.template as<double>());
-      const Rotation<Real> q = w_.rotation[body];
+        corners[i] = placed(place, convex.corners[i].point.template as<double>());
       if (convex.count == 1) {
-        out_.circle(corners[0], radius, {static_cast<double>(q.c), static_cast<double>(q.s)}, role);
+        out_.circle(corners[0], radius, {place.rotation.c, place.rotation.s}, role);
       } else if (convex.count > 2) {
         out_.polygon(std::span(corners, static_cast<std::size_t>(convex.count)), radius, role);
       } else if (radius > 0) {
@@ -94,8 +96,10 @@ class Drawing {
     const ContactConstraint<Real>& constraint =
         parked ? w_.parked[contact.index] : w_.graph.at({contact.colour, contact.index});
     const ContactReading reading = reading_of(w_, contact, constraint);
+    const int body = contact.body_a;
+    const Vec2d moved = centre(body) - w_.position[body];
     for (int i = 0; i < reading.count; ++i) {
-      const Vec2d at = reading.points[i];
+      const Vec2d at = reading.points[i] + moved;
       if (options_.contacts) out_.point(at, DrawRole::Contact);
       if (options_.normals) out_.segment(at, at + options_.normal_length * reading.normal, DrawRole::Normal);
       if (options_.impulses && reading.impulses[i] > 0) {
@@ -106,7 +110,7 @@ class Drawing {
   }
 
   void draw_centre(int body) const {
-    const Vec2d at = w_.position[body];
+    const Vec2d at = centre(body);
     const double length = w_.extents[body] > 0 ? 0.3 * static_cast<double>(w_.extents[body]) : 0.1;
     out_.segment(at, to_world(body, {length, 0}), DrawRole::Centre);
     out_.segment(at, to_world(body, {0, length}), DrawRole::Centre);
@@ -119,7 +123,7 @@ class Drawing {
   };
 
   Ends ends_of(int a, int b, const JointKind& kind) const {
-    Ends ends{w_.position[a], w_.position[b]};
+    Ends ends{centre(a), centre(b)};
     std::visit(
         [&](const auto& definition) {
           if constexpr (requires { definition.anchor_a; }) ends.a = anchor(a, definition.anchor_a);
@@ -146,8 +150,9 @@ class Drawing {
     // From body to anchor, from anchor to anchor, and on to the other body. A static body has no middle that
     // would say anything.
     const auto arm = [&](int body, Vec2d end) {
-      if (w_.bodies[body].type != BodyType::Static && !(w_.position[body] == end))
-        out_.segment(w_.position[body], end, DrawRole::JointLine);
+      const Vec2d middle = centre(body);
+      if (w_.bodies[body].type != BodyType::Static && !(middle == end))
+        out_.segment(middle, end, DrawRole::JointLine);
     };
     arm(a, ends.a);
     if (!(ends.a == ends.b)) out_.segment(ends.a, ends.b, DrawRole::JointLine);
@@ -155,6 +160,8 @@ class Drawing {
   }
 
   const WorldData<Real>& w_;
+  const PastPoses<Real>& before_;
+  const double fraction_;
   DebugDraw& out_;
   const DrawOptions& options_;
 };
@@ -163,10 +170,19 @@ class Drawing {
 
 template <class Real>
 void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& options) {
-  Drawing<Real>(world.data(), out, options).draw();
+  draw(world, PastPoses<Real>{}, 1, out, options);
+}
+
+template <class Real>
+void draw(const BasicWorld<Real>& world, const PastPoses<Real>& before, double fraction, DebugDraw& out,
+          const DrawOptions& options) {
+  Drawing<Real>(world.data(), before, fraction, out, options).draw();
 }
 
 template void draw(const BasicWorld<float>&, DebugDraw&, const DrawOptions&);
 template void draw(const BasicWorld<double>&, DebugDraw&, const DrawOptions&);
+template void draw(const BasicWorld<float>&, const PastPoses<float>&, double, DebugDraw&, const DrawOptions&);
+template void draw(const BasicWorld<double>&, const PastPoses<double>&, double, DebugDraw&,
+                   const DrawOptions&);
 
 }  // namespace plumb

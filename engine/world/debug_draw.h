@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/world/past_poses.h"
 #include "engine/world/world.h"
 
 namespace plumb {
@@ -21,6 +22,11 @@ enum class DrawRole {
   Centre,     ///< of mass, with the body's axes
   JointLine,  ///< anchors, and what is between them
   Name,       ///< of bodies
+  // What a program draws over the world:
+  Highlight,  ///< shapes that stand out just now
+  Force,      ///< arrows of forces
+  Aim,        ///< where something would go
+  Trail,      ///< where something has been
 };
 
 /// Somewhere to draw: a window, a picture, a test. All lengths in m, in the world's frame, y up.
@@ -54,5 +60,10 @@ struct DrawOptions {
 /// Draws the world as it is after the last step: shapes in the order of their bodies' places, then the rest.
 template <class Real>
 void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& options = {});
+
+/// Likewise, but `fraction` (0..1) of the way from where bodies were to where they are.
+template <class Real>
+void draw(const BasicWorld<Real>& world, const PastPoses<Real>& before, double fraction, DebugDraw& out,
+          const DrawOptions& options = {});
 
 }  // namespace plumb

@@ -26,6 +26,10 @@ constexpr Style kStyles[] = {
     {"centre", "stroke:#000000"},
     {"joint", "stroke:#00838f;stroke-width:1.6"},
     {"name", "fill:#222222;stroke:none"},
+    {"highlight", "fill:#ffeb3b;fill-opacity:0.7;stroke:#f57f17"},
+    {"force", "fill:none;stroke:#2e7d32;stroke-width:2"},
+    {"aim", "fill:none;stroke:#555555;stroke-dasharray:6 4"},
+    {"trail", "fill:none;stroke:#9e9e9e;stroke-width:0.8"},
 };
 
 constexpr int kDigits = 6;

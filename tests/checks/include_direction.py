@@ -24,8 +24,9 @@ RULES = {
     "harness": ["harness/", "scenarios/", "reference/", "engine/"],
     "app": ["app/"] + EVERYTHING,
     "demos": ["demos/"] + EVERYTHING,
+    "demos/core": ["demos/core/", "engine/"],
     "bench": ["bench/"] + EVERYTHING,
-    "tests": ["tests/", "app/"] + EVERYTHING,
+    "tests": ["tests/", "app/", "demos/"] + EVERYTHING,
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
@@ -125,6 +126,7 @@ def self_test():
         ("reference/other.cpp", '#include "harness/run.h"\n'),
         ("harness/run.cpp", '#include "app/main.cpp"\n'),
         ("app/other.cpp", '#include "run.h"\n'),
+        ("demos/core/other.cpp", '#include "harness/run.h"\n'),
     ]
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)

@@ -71,6 +71,38 @@ class Drawn : public testing::Test {};
 using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(Drawn, Precisions);
 
+// Between two steps bodies, what hangs on them and contacts lie between where they were and where they are;
+// a body that came since is where it is.
+TYPED_TEST(Drawn, LiesBetweenTwoSteps) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}});
+  const double quarter = std::acos(0.0);
+  const BodyId body = world.create_body({.position = {1, 2}, .velocity = {60, -30}, .angular_velocity = 60},
+                                        {.geometry = Circle{0.5}, .position = {1, 0}});
+  PastPoses<TypeParam> before;
+  before.keep(world);
+  const BodyId young = world.create_body({.position = {-9, 0}, .velocity = {60, 0}}, {.geometry = Circle{2}});
+  world.step(quarter / 60);
+  const auto circles = [&](double fraction) {
+    Log log;
+    draw(world, before, fraction, log);
+    return log.of("circle", DrawRole::Awake);
+  };
+  const double travel = quarter, tolerance = 1e-5;  // m a step at 60 m/s; float's
+  for (const double fraction : {0.0, 0.5, 1.0}) {
+    const std::vector<Item> drawn = circles(fraction);
+    ASSERT_EQ(drawn.size(), 2u);
+    const double angle = fraction * quarter;
+    const Vec2d centre{1 + 1 + fraction * travel, 2 - fraction * travel / 2};  // of mass
+    expect_near(drawn[0].points[0], centre, tolerance);
+    expect_near(drawn[0].points[1], {std::cos(angle), std::sin(angle)}, tolerance);
+    expect_near(drawn[1].points[0], world.position(young), tolerance);
+  }
+  // Another body in the place of one that is gone has no past.
+  world.destroy(body);
+  world.create_body({.position = {5, 5}}, {.geometry = Circle{1}});
+  expect_near(circles(0)[0].points[0], {5, 5});
+}
+
 // A body at (3, 4), turned by a quarter: a local point (x, y) is at (3 - y, 4 + x).
 TYPED_TEST(Drawn, ShapesStandWhereTheirBodiesPutThem) {
   BasicWorld<TypeParam> world;

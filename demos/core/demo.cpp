@@ -1,0 +1,182 @@
+#include "demos/core/demo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/error.h"
+#include "engine/scene/suggest.h"
+#include "engine/scene/text.h"
+
+namespace plumb::demos {
+namespace {
+
+std::string subject_of(const Control& control) { return "control " + quoted(control.name); }
+
+double value_of(const std::variant<double*, int*, bool*>& target) {
+  return std::visit([](const auto* member) { return static_cast<double>(*member); }, target);
+}
+
+// Throws unless the control can have the value.
+void check(const Control& control, double value) {
+  const bool in_range = value >= control.low && value <= control.high;
+  const bool whole = !control.whole || value == std::floor(value);
+  if (in_range && whole) return;
+  throw Error(Error::Kind::Value, subject_of(control), "value", shortest(value),
+              std::string("must be ") + (control.whole ? "a whole number" : "a number") + " from " +
+                  shortest(control.low) + " to " + shortest(control.high));
+}
+
+}  // namespace
+
+void Demo::add(Control control, Target target) {
+  control.value = control.initial = value_of(target);
+  controls_.push_back(std::move(control));
+  targets_.push_back(target);
+}
+
+void Demo::add_slider(std::string name, std::string unit, double low, double high, double& target,
+                      std::string about) {
+  add({.name = std::move(name), .unit = std::move(unit), .low = low, .high = high, .about = std::move(about)},
+      &target);
+}
+
+void Demo::add_slider(std::string name, std::string unit, int low, int high, int& target, std::string about) {
+  add({.name = std::move(name),
+       .unit = std::move(unit),
+       .low = static_cast<double>(low),
+       .high = static_cast<double>(high),
+       .whole = true,
+       .about = std::move(about)},
+      &target);
+}
+
+void Demo::add_choice(std::string name, std::vector<std::string> choices, int& target, std::string about) {
+  const double last = static_cast<double>(choices.size()) - 1;
+  add({.name = std::move(name),
+       .kind = Control::Kind::Choice,
+       .high = last,
+       .whole = true,
+       .choices = std::move(choices),
+       .about = std::move(about)},
+      &target);
+}
+
+void Demo::add_switch(std::string name, bool& target, std::string about) {
+  add({.name = std::move(name), .kind = Control::Kind::Switch, .whole = true, .about = std::move(about)},
+      &target);
+}
+
+std::size_t Demo::place_of(std::string_view name) const {
+  const auto found = std::ranges::find(controls_, name, &Control::name);
+  if (found != controls_.end()) return static_cast<std::size_t>(found - controls_.begin());
+  std::vector<std::string> names;
+  for (const Control& each : controls_) names.push_back(each.name);
+  throw Error(Error::Kind::Name, "demo " + quoted(about_.name), "control", std::string(name),
+              "is not a control of this demo" + did_you_mean(name, names));
+}
+
+const Control& Demo::control(std::string_view name) const { return controls_[place_of(name)]; }
+
+void Demo::put(std::size_t place, double value) {
+  controls_[place].value = value;
+  std::visit(
+      [&](auto* member) {
+        using Member = std::remove_pointer_t<decltype(member)>;
+        if constexpr (std::is_same_v<Member, bool>) {
+          *member = value != 0;
+        } else {
+          *member = static_cast<Member>(value);
+        }
+      },
+      targets_[place]);
+}
+
+void Demo::set(std::string_view name, double value) {
+  const std::size_t place = place_of(name);
+  check(controls_[place], value);
+  const double before = controls_[place].value;
+  put(place, value);
+  try {
+    changed(controls_[place].name);
+  } catch (...) {
+    put(place, before);
+    throw;
+  }
+}
+
+void Demo::set(std::string_view name, std::string_view choice) {
+  const Control& control = controls_[place_of(name)];
+  const auto found = std::ranges::find(control.choices, choice);
+  if (found == control.choices.end()) {
+    throw Error(Error::Kind::Value, subject_of(control), "choice", std::string(choice),
+                control.choices.empty() ? "is given, but the control takes a number"
+                                        : "is none of its choices" + did_you_mean(choice, control.choices));
+  }
+  set(name, static_cast<double>(found - control.choices.begin()));
+}
+
+int Demo::advance(double seconds) {
+  if (!(seconds > 0)) return 0;
+  waiting_ += std::min(seconds, kLongestFrame);
+  // Frames that add up to a step but for rounding are a step.
+  constexpr double kRounding = 1e-9;
+  int taken = 0;
+  for (; waiting_ >= dt_ * (1 - kRounding); ++taken) {
+    waiting_ -= dt_;
+    step_once();
+  }
+  return taken;
+}
+
+void Demo::step_once() {
+  step();
+  ++steps_;
+  time_ += dt_;
+}
+
+void Demo::restart() {
+  waiting_ = time_ = 0;
+  steps_ = 0;
+  build();
+}
+
+double Demo::fraction() const { return std::clamp(waiting_ / dt_, 0.0, 1.0); }
+
+std::vector<std::byte> Demo::save() const {
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  out.text(about_.name);
+  out.value(static_cast<std::uint64_t>(controls_.size()));
+  for (const Control& control : controls_) out.value(control.value);
+  out.value(time_);
+  out.value(steps_);
+  write(out);
+  return bytes;
+}
+
+void Demo::restore(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  in.require(in.text("demo") == about_.name, "demo", "is another one");
+  in.require(in.value<std::uint64_t>("controls") == controls_.size(), "controls", "are others");
+  std::vector<double> values, before;
+  for (const Control& control : controls_) {
+    values.push_back(in.value<double>("controls"));
+    before.push_back(control.value);
+    check(control, values.back());
+  }
+  const auto time = in.value<double>("time");
+  const auto steps = in.value<std::int64_t>("steps");
+  const auto put_all = [&](const std::vector<double>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) put(i, all[i]);
+  };
+  put_all(values);
+  try {
+    read(in);
+  } catch (...) {
+    put_all(before);
+    throw;
+  }
+  time_ = time, steps_ = steps, waiting_ = 0;
+}
+
+}  // namespace plumb::demos

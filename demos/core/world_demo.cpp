@@ -1,0 +1,114 @@
+#include "demos/core/world_demo.h"
+
+#include <cmath>
+
+#include "engine/world/queries.h"
+#include "engine/world/snapshot.h"
+#include "engine/world/world_data.h"
+
+namespace plumb::demos {
+
+void WorldDemo::add_step_controls() {
+  add_slider("dt", "s", 0.001, 0.05, dt_, "length of a step");
+  add_slider("substeps", "", 1, 20, substeps_, "parts that a step is solved in");
+}
+
+void WorldDemo::build() {
+  world_ = DemoWorld(definition());
+  band_ = {};
+  frame_ = world_.create_body({.name = "frame", .type = BodyType::Static});
+  fill();
+  before_.keep(world_);
+}
+
+void WorldDemo::step() {
+  before_.keep(world_);
+  before_step();
+  world_.step(dt_, substeps_);
+  after_step();
+}
+
+void WorldDemo::draw(DebugDraw& out, const DrawOptions& options) const {
+  plumb::draw(world_, before_, fraction(), out, options);
+  draw_over(out);
+}
+
+Pose<double> WorldDemo::drawn_pose(BodyId body) const {
+  return before_.between(world_.data(), static_cast<int>(body.index), fraction());
+}
+Vec2d WorldDemo::drawn_centre(BodyId body) const { return drawn_pose(body).position; }
+
+void WorldDemo::write(ByteWriter& out) const {
+  out.value(band_.index), out.value(band_.generation);
+  out.values(own());
+  std::vector<std::byte> world;
+  plumb::save(world_, world);
+  out.values(world);
+}
+
+void WorldDemo::read(ByteReader& in) {
+  JointId band;
+  band.index = in.value<std::uint32_t>("band");
+  band.generation = in.value<std::uint32_t>("band");
+  std::vector<double> own;
+  in.values(own, "own");
+  std::vector<std::byte> world;
+  in.values(world, "world");
+  plumb::restore(world_, world);
+  band_ = band;
+  set_own(own);
+  let_go();
+  before_.keep(world_);
+}
+
+bool WorldDemo::grab(Vec2d point, double reach, double strength) {
+  let_go();
+  const auto moves = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
+  const std::optional<NearestResult> found = nearest(world_, point, reach, {.condition = moves});
+  if (!found) return false;
+  const BodyId body = found->body;
+  const double weight = world_.mass(body) * std::fmax(9.81, std::sqrt(length_squared(world_.gravity())));
+  world_.set_awake(body, true);
+  band_ = world_.create_joint(
+      frame_, body,
+      {.kind = MouseDefinition{
+           .anchor_b = world_.local_point(body, point), .target = point, .max_force = strength * weight}});
+  return true;
+}
+
+void WorldDemo::pull(Vec2d point) {
+  if (!world_.valid(band_)) return;
+  MouseDefinition mouse = std::get<MouseDefinition>(world_.kind(band_));
+  mouse.target = point;
+  world_.change(band_, mouse);
+}
+
+void WorldDemo::let_go() {
+  if (world_.valid(band_)) world_.destroy(band_);
+  band_ = {};
+}
+
+BodyId WorldDemo::held() const { return world_.valid(band_) ? world_.bodies(band_).second : BodyId{}; }
+
+void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
+  const Vec2d back = 0.2 * (from - to);
+  const Vec2d aside = 0.5 * perpendicular(back);
+  out.segment(from, to, role);
+  out.segment(to, to + back + aside, role);
+  out.segment(to, to + back - aside, role);
+}
+
+Totals totals_of(const DemoWorld& world) {
+  Totals totals;
+  for (const BodyId body : world.bodies()) {
+    const double mass = world.mass(body);
+    if (mass == 0) continue;
+    const Vec2d velocity = world.velocity(body);
+    const double spin = world.angular_velocity(body);
+    totals.momentum += mass * velocity;
+    totals.energy += 0.5 * (mass * length_squared(velocity) + world.inertia(body) * spin * spin);
+  }
+  return totals;
+}
+
+}  // namespace plumb::demos

@@ -1,0 +1,170 @@
+#include "demos/core/demo.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "demos/core/registry.h"
+#include "engine/scene/error.h"
+
+// What every demo has to do, whatever it shows.
+namespace plumb::demos {
+namespace {
+
+class EveryDemo : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Demo> demo_ = make(GetParam());
+};
+
+std::vector<std::string> names() {
+  std::vector<std::string> out;
+  for (const Entry& entry : all()) out.push_back(entry.about.name);
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Demos, EveryDemo, testing::ValuesIn(names()),
+                         [](const auto& each) { return each.param; });
+
+// Frames of any length, even and uneven, take the same steps.
+TEST_P(EveryDemo, SameOnAnyFrameRate) {
+  constexpr int kSteps = 60;
+  for (int i = 0; i < kSteps; ++i) demo_->step_once();
+  const std::uint64_t expected = demo_->hash();
+  const std::vector<std::vector<double>> frames = {
+      {1.0 / 60}, {1.0 / 30}, {1.0 / 144}, {0.003, 0.031, 0.0, 0.017}};
+  for (const std::vector<double>& pattern : frames) {
+    const std::unique_ptr<Demo> other = make(GetParam());
+    double passed = 0;
+    for (std::size_t i = 0; other->step_count() < kSteps; ++i) {
+      const double left = (kSteps + 0.5) * other->dt() - passed;  // the last frame ends between two steps
+      const double frame = std::min(pattern[i % pattern.size()], left);
+      other->advance(frame);
+      passed += frame;
+    }
+    EXPECT_EQ(other->step_count(), kSteps);
+    EXPECT_EQ(other->hash(), expected) << "frames of " << pattern[0] << " s";
+  }
+}
+
+TEST_P(EveryDemo, LongFramesDoNotPileUp) {
+  const int most = static_cast<int>(Demo::kLongestFrame / demo_->dt()) + 1;
+  EXPECT_LE(demo_->advance(10), most);
+  EXPECT_LE(demo_->advance(1e-6), 1);
+}
+
+// What is restored goes on as what was never stopped.
+TEST_P(EveryDemo, ComesBack) {
+  for (int i = 0; i < 40; ++i) demo_->step_once();
+  const std::vector<std::byte> saved = demo_->save();
+  const std::uint64_t then = demo_->hash();
+  for (int i = 0; i < 40; ++i) demo_->step_once();
+  const std::uint64_t later = demo_->hash();
+  EXPECT_NE(later, then);
+  demo_->restore(saved);
+  EXPECT_EQ(demo_->hash(), then);
+  EXPECT_EQ(demo_->step_count(), 40);
+  for (int i = 0; i < 40; ++i) demo_->step_once();
+  EXPECT_EQ(demo_->hash(), later);
+  const std::unique_ptr<Demo> other = make(GetParam());
+  other->restore(saved);
+  EXPECT_EQ(other->hash(), then);
+}
+
+TEST_P(EveryDemo, RefusesDamagedBytes) {
+  std::vector<std::byte> saved = demo_->save();
+  for (int i = 0; i < 10; ++i) demo_->step_once();
+  const std::uint64_t before = demo_->hash();
+  saved.resize(saved.size() - 9);
+  EXPECT_THROW(demo_->restore(saved), Error);
+  EXPECT_THROW(demo_->restore({}), Error);
+  EXPECT_EQ(demo_->hash(), before);
+}
+
+TEST_P(EveryDemo, Restarts) {
+  const std::uint64_t start = demo_->hash();
+  for (int i = 0; i < 30; ++i) demo_->step_once();
+  EXPECT_NE(demo_->hash(), start);
+  demo_->restart();
+  EXPECT_EQ(demo_->hash(), start);
+  EXPECT_EQ(demo_->time(), 0);
+}
+
+// Every control goes from end to end while the demo runs.
+TEST_P(EveryDemo, ControlsMayBeSetAtAnyTime) {
+  const std::vector<Control> controls = demo_->controls();
+  EXPECT_FALSE(controls.empty());
+  for (const Control& control : controls) {
+    SCOPED_TRACE(control.name);
+    EXPECT_FALSE(control.about.empty());
+    EXPECT_LE(control.low, control.value);
+    EXPECT_LE(control.value, control.high);
+    for (const double value : {control.low, control.high, control.initial}) {
+      demo_->set(control.name, value);
+      EXPECT_EQ(demo_->control(control.name).value, value);
+      for (int i = 0; i < 5; ++i) demo_->step_once();
+    }
+    EXPECT_THROW(demo_->set(control.name, control.high + 1), Error);
+    EXPECT_THROW(demo_->set(control.name, std::nan("")), Error);
+    EXPECT_THROW(demo_->set(control.name, "no such choice"), Error);
+    EXPECT_EQ(demo_->control(control.name).value, control.initial);
+  }
+}
+
+// A pointer that runs wild, and keys, harm nothing.
+TEST_P(EveryDemo, BearsAnyInput) {
+  const Aabb<double> view = demo_->view();
+  const Vec2d size = view.upper - view.lower;
+  std::uint32_t seed = 1;
+  const auto random = [&] { return (seed = seed * 1664525u + 1013904223u) >> 8; };
+  const auto point = [&] {
+    const double x = random() % 1000 / 900.0 - 0.05;
+    const double y = random() % 1000 / 900.0 - 0.05;
+    return view.lower + Vec2d{x * size.x, y * size.y};
+  };
+  for (int i = 0; i < 60; ++i) {
+    demo_->hover(point());
+    demo_->press(point());
+    for (int k = 0; k < 4; ++k) {
+      demo_->drag(point());
+      demo_->step_once();
+    }
+    demo_->release(point());
+    for (const Key& key : demo_->about().keys) {
+      if (random() % 8 == 0) demo_->key(key.key);
+    }
+    demo_->advance(0.02);
+  }
+  for (const Figure& figure : demo_->figures()) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
+}
+
+TEST_P(EveryDemo, SaysWhatItIs) {
+  EXPECT_EQ(demo_->about().name, GetParam());
+  EXPECT_FALSE(demo_->about().summary.empty());
+  EXPECT_FALSE(demo_->about().play.empty());
+  EXPECT_FALSE(demo_->figures().empty());
+  // Keys that windows have for themselves.
+  for (const Key& key : demo_->about().keys)
+    EXPECT_EQ(std::string("por[]bs\t").find(key.key), std::string::npos);
+}
+
+TEST(Registry, NamesTheNearest) {
+  try {
+    make("bouncing_bal");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::Name);
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'bouncing_ball'"));
+  }
+}
+
+TEST(Control, NamesTheNearest) {
+  const std::unique_ptr<Demo> demo = make("bouncing_ball");
+  try {
+    demo->set("gravty", 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'gravity'"));
+  }
+}
+
+}  // namespace
+}  // namespace plumb::demos
