@@ -1,6 +1,7 @@
 #include "engine/joints/distance_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -36,5 +37,6 @@ void validate(const DistanceDefinition& definition) {
 
 template struct DistanceRows<float>;
 template struct DistanceRows<double>;
+template struct DistanceRows<Dual>;
 
 }  // namespace plumb

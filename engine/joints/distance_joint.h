@@ -18,7 +18,8 @@ struct DistanceRows : JointTraits<0, 1> {
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
-    const Real length = std::sqrt(length_squared(point.gap));
+    using std::sqrt;
+    const Real length = sqrt(length_squared(point.gap));
     // Anchors that coincide have no direction; any one moves them apart.
     const Vec2<Real> u = length > 0 ? (1 / length) * point.gap : Vec2<Real>{1, 0};
     out.axial[0] = point.row(u, length);

@@ -1,6 +1,7 @@
 #include "engine/joints/gear_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -25,5 +26,6 @@ void validate(const GearDefinition& definition) {
 
 template struct GearRows<float>;
 template struct GearRows<double>;
+template struct GearRows<Dual>;
 
 }  // namespace plumb

@@ -39,7 +39,7 @@ Joints<Real> compile_joints(const Scene& scene) {
     if (const auto* hinge = std::get_if<RevoluteJoint>(&joint)) {
       joints.revolute.push_back({index.at(hinge->body_a), index.at(hinge->body_b), hinge->anchor_a.as<Real>(),
                                  hinge->anchor_b.as<Real>()});
-    } else if (const auto* rod = std::get_if<DistanceJoint>(&joint)) {
+    } else if (const auto* rod = std::get_if<DistanceJoint>(&joint); rod && !rod->spring && !rod->range) {
       joints.distance.push_back({index.at(rod->body_a), index.at(rod->body_b), rod->anchor_a.as<Real>(),
                                  rod->anchor_b.as<Real>(), static_cast<Real>(rod->length)});
     }

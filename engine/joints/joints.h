@@ -30,7 +30,7 @@ struct Distance {
             const Twist<Real>& twist_b, Row<Real>* out) const;
 };
 
-/// All joints of a scene, one array a kind; rows are numbered revolute joints first.
+/// The hinges and rods of a scene, one array a kind; rows are numbered revolute joints first.
 template <class Real>
 struct Joints {
   std::vector<Revolute<Real>> revolute;
@@ -43,7 +43,7 @@ struct Joints {
             std::span<Row<Real>> out) const;
 };
 
-/// The scene's joints with names resolved to body indices. The scene is valid.
+/// The scene's hinges and rods (not springs and ropes) with names resolved to body indices. The scene is valid.
 template <class Real>
 Joints<Real> compile_joints(const Scene& scene);
 

@@ -1,6 +1,7 @@
 #include "engine/joints/motor_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -28,5 +29,6 @@ void validate(const MotorDefinition& definition) {
 
 template struct MotorRows<float>;
 template struct MotorRows<double>;
+template struct MotorRows<Dual>;
 
 }  // namespace plumb

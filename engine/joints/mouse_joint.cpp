@@ -1,6 +1,7 @@
 #include "engine/joints/mouse_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -26,5 +27,6 @@ void validate(const MouseDefinition& definition) {
 
 template struct MouseRows<float>;
 template struct MouseRows<double>;
+template struct MouseRows<Dual>;
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "engine/joints/prismatic_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -34,5 +35,6 @@ void validate(const PrismaticDefinition& definition) {
 
 template struct PrismaticRows<float>;
 template struct PrismaticRows<double>;
+template struct PrismaticRows<Dual>;
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "engine/joints/pulley_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -30,5 +31,6 @@ void validate(const PulleyDefinition& definition) {
 
 template struct PulleyRows<float>;
 template struct PulleyRows<double>;
+template struct PulleyRows<Dual>;
 
 }  // namespace plumb

@@ -22,7 +22,8 @@ struct PulleyRows : JointTraits<0, 1> {
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const Vec2<Real> arm_a = pose.rotation_a * anchor_a, arm_b = pose.rotation_b * anchor_b;
     const Vec2<Real> to_a = pose.offset_a + arm_a, to_b = pose.offset + arm_b;
-    const Real length_a = std::sqrt(length_squared(to_a)), length_b = std::sqrt(length_squared(to_b));
+    using std::sqrt;
+    const Real length_a = sqrt(length_squared(to_a)), length_b = sqrt(length_squared(to_b));
     // At a pulley the rope has no direction, and pulls nowhere.
     const Vec2<Real> u_a = length_a > 0 ? (1 / length_a) * to_a : Vec2<Real>{};
     const Vec2<Real> u_b = length_b > 0 ? (ratio / length_b) * to_b : Vec2<Real>{};

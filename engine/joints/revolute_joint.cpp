@@ -1,6 +1,7 @@
 #include "engine/joints/revolute_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -31,5 +32,6 @@ void validate(const RevoluteDefinition& definition) {
 
 template struct RevoluteRows<float>;
 template struct RevoluteRows<double>;
+template struct RevoluteRows<Dual>;
 
 }  // namespace plumb

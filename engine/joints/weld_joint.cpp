@@ -1,6 +1,7 @@
 #include "engine/joints/weld_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -36,7 +37,9 @@ void validate(const WeldDefinition& definition) {
 
 template struct WeldRows<float>;
 template struct WeldRows<double>;
+template struct WeldRows<Dual>;
 template struct SoftWeldRows<float>;
 template struct SoftWeldRows<double>;
+template struct SoftWeldRows<Dual>;
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "engine/joints/wheel_joint.h"
 
 #include "engine/joints/joint_check.h"
+#include "engine/math/dual.h"
 
 namespace plumb {
 
@@ -31,5 +32,6 @@ void validate(const WheelDefinition& definition) {
 
 template struct WheelRows<float>;
 template struct WheelRows<double>;
+template struct WheelRows<Dual>;
 
 }  // namespace plumb

@@ -14,36 +14,28 @@
 namespace plumb::precise {
 namespace {
 
-/// The scene with the laws on integrated bodies alone: those on bodies that fly are in their polynomials.
-Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
-  Scene part = scene;
-  std::erase_if(part.forces, [&](const ForceLaw& law) {
-    const auto ends = ends_of(law);
-    return std::none_of(ends.begin(), ends.end(), [&](std::string_view name) {
-      const auto body = find_body(scene, name);
-      return body && std::binary_search(bodies.begin(), bodies.end(), *body);
-    });
-  });
-  return part;
-}
-
-std::vector<std::string> joint_names_by_row(const Scene& scene) {
+std::vector<std::string> joint_names_by_row(const Scene& scene, const KindJoints& others) {
   std::vector<std::string> names;
   for (const Joint& joint : scene.joints) {
     if (const auto* revolute = std::get_if<RevoluteJoint>(&joint))
       names.insert(names.end(), 2, revolute->name);
   }
   for (const Joint& joint : scene.joints) {
-    if (const auto* distance = std::get_if<DistanceJoint>(&joint)) names.push_back(distance->name);
+    if (const auto* rod = std::get_if<DistanceJoint>(&joint); rod && !rod->spring && !rod->range)
+      names.push_back(rod->name);
   }
+  names.insert(names.end(), others.row_names().begin(), others.row_names().end());
   return names;
 }
 
-std::vector<Row<double>> pattern(const Joints<double>& joints, std::size_t bodies) {
-  std::vector<Row<double>> rows(joints.row_count());
+/// Which bodies each row has: the numbers are those of bodies that lie on each other.
+std::vector<Row<double>> pattern(const Joints<double>& joints, const KindJoints& others, std::size_t bodies) {
+  std::vector<Row<double>> rows(joints.row_count() + others.row_count());
   const std::vector<Pose<double>> poses(bodies);
+  const std::vector<double> angles(bodies);
   const std::vector<Twist<double>> twists(bodies);
   joints.rows(poses, twists, rows);
+  others.rows({poses, angles, twists}, std::span(rows).subspan(joints.row_count()));
   return rows;
 }
 
@@ -79,20 +71,22 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       gravity_(scene.gravity),
       forces_(with_laws_on(scene, parts.integrated)),
       joints_(compile_joints<double>(scene)),
-      joint_of_row_(joint_names_by_row(scene)),
-      rows_(pattern(joints_, scene.bodies.size())),
+      kind_joints_(scene),
+      joint_of_row_(joint_names_by_row(scene, kind_joints_)),
+      rows_(pattern(joints_, kind_joints_, scene.bodies.size())),
       inverse_mass_(inverse_masses(scene).mass),
       inverse_inertia_(inverse_masses(scene).inertia),
       joint_inverse_mass_(only(inverse_mass_, parts.integrated)),
       joint_inverse_inertia_(only(inverse_inertia_, parts.integrated)),
       poses_(scene.bodies.size()),
+      angles_(scene.bodies.size()),
       twists_(scene.bodies.size()),
       accelerations_(scene.bodies.size()),
       wrenches_(scene.bodies.size()),
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
-      has_forces_(!forces_.empty() || every_stage),
+      has_forces_(!forces_.empty() || kind_joints_.has_springs() || every_stage),
       has_joints_(!rows_.empty() || every_stage),
       length_(scales_of(scene, parts).length) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
@@ -101,18 +95,25 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
     for (const int body : {row.a, row.b}) {
       if (body == kFixedFrame) continue;
       const auto i = static_cast<std::size_t>(body);
-      if (flight_.holds(i)) {
-        guides_.push_back(i);
-      } else {
-        lightest = std::max(lightest, inverse_mass_[i]);
-        heaviest = std::min(heaviest, inverse_mass_[i]);
-      }
+      if (flight_.holds(i)) continue;
+      lightest = std::max(lightest, inverse_mass_[i]);
+      heaviest = std::min(heaviest, inverse_mass_[i]);
     }
   }
   for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {
     for (const std::string_view name : ends_of(law)) {
       if (const auto body = find_body(scene, name); body && flight_.holds(*body)) guides_.push_back(*body);
     }
+  }
+  for (const Joint& joint : scene.joints) {
+    std::visit(
+        [&](const auto& j) {
+          for (const std::string& name : {j.body_a, j.body_b}) {
+            if (const auto body = find_body(scene, name); body && flight_.holds(*body))
+              guides_.push_back(*body);
+          }
+        },
+        joint);
   }
   std::sort(guides_.begin(), guides_.end());
   guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
@@ -134,17 +135,25 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = state(y, slot);
     poses_[bodies_[slot]] = {now.position, rotation_of(now.angle)};
+    angles_[bodies_[slot]] = now.angle;
     twists_[bodies_[slot]] = {now.velocity, now.angular_velocity};
   }
   for (const std::size_t body : guides_) {
     const BodyState now = flight_.at(body, time).state;
     poses_[body] = {now.position, rotation_of(now.angle)};
+    angles_[body] = now.angle;
     twists_[body] = {now.velocity, now.angular_velocity};
   }
 }
 
+/// Residuals, Jacobian and the accelerations that its change asks for, where bodies are placed.
+void EquationsOfMotion::find_rows(std::span<Row<double>> out) const {
+  joints_.rows(poses_, twists_, out);
+  if (kind_joints_.row_count() > 0) kind_joints_.rows(bodies_now(), out.subspan(joints_.row_count()));
+}
+
 void EquationsOfMotion::linearise() {
-  joints_.rows(poses_, twists_, rows_);
+  find_rows(rows_);
   dependent_rows_ = std::max(dependent_rows_, system_.factor(rows_));
   weakest_ = std::min(weakest_, system_.weakest());
 }
@@ -199,6 +208,7 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
   if (has_forces_) {
     const Clock clock(cost.on, cost.forces);
     forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
+    if (kind_joints_.has_springs()) kind_joints_.add_springs(bodies_now(), wrenches_);
   }
   for (const std::size_t body : bodies_) {
     out[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
@@ -259,7 +269,7 @@ double EquationsOfMotion::gap_response(double time, std::span<const double> y, s
   if (!has_joints_) return 0;
   place(time, y);
   rows_elsewhere_.resize(rows_.size());
-  joints_.rows(poses_, twists_, rows_elsewhere_);
+  find_rows(rows_elsewhere_);
   double largest = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     right_side_[r] = -rows_elsewhere_[r].residual;
@@ -290,7 +300,7 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     place(time, y.value());
-    if (has_joints_) joints_.rows(poses_, twists_, rows_);
+    if (has_joints_) find_rows(rows_);
     const WorstGap worst = worst_gap();
     const bool stuck = worst.gap > 0.5 * before || i == kMost;
     if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;

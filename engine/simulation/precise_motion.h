@@ -12,6 +12,7 @@
 #include "engine/scene/scene.h"
 #include "engine/simulation/precise_active.h"
 #include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_joints.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/solve/dense_system.h"
 #include "engine/solve/joint_system.h"
@@ -100,6 +101,8 @@ class EquationsOfMotion final : public Flow {
   std::span<const Row<double>> rows() const { return rows_; }
   std::span<const double> multipliers() const { return multipliers_; }
   const Joints<double>& joints() const { return joints_; }
+  const KindJoints& kind_joints() const { return kind_joints_; }
+  BodiesNow bodies_now() const { return {poses_, angles_, twists_}; }
   const std::string& name(std::size_t body) const { return names_[body]; }
   static BodyState state(std::span<const double> y, std::size_t slot);
   static void set_state(Compensated& y, std::size_t slot, const BodyState& state);
@@ -113,6 +116,7 @@ class EquationsOfMotion final : public Flow {
 
  private:
   void place(double time, std::span<const double> y);
+  void find_rows(std::span<Row<double>> out) const;
   void linearise();
   void close_gaps(double time, Compensated& y);
   struct WorstGap {
@@ -140,12 +144,14 @@ class EquationsOfMotion final : public Flow {
   Vec2d gravity_;
   Forces<double> forces_;
   Joints<double> joints_;
+  KindJoints kind_joints_;
   std::vector<std::string> joint_of_row_, names_;
   std::vector<Row<double>> rows_, rows_elsewhere_;
   // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
   // integrated ones alone: joints do not move what flies.
   std::vector<double> inverse_mass_, inverse_inertia_, joint_inverse_mass_, joint_inverse_inertia_;
   std::vector<Pose<double>> poses_;
+  std::vector<double> angles_;
   std::vector<Twist<double>> twists_, accelerations_;
   std::vector<Wrench<double>> wrenches_;
   JointSystem<double> system_;

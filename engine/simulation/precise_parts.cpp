@@ -9,8 +9,7 @@
 
 #include "engine/forces/attraction_force.h"
 #include "engine/math/trigonometry.h"
-#include "engine/scene/features.h"
-#include "engine/simulation/precise.h"
+#include "engine/simulation/precise_joints.h"
 
 namespace plumb::precise {
 namespace {
@@ -145,7 +144,44 @@ class LawScales {
   const Index& index_;
 };
 
+/// m/s^2: what the springs of joints give at the start, to points at a distance of `arm` at most.
+double acceleration_by_springs(const Scene& scene, double arm) {
+  const KindJoints joints(scene);
+  if (!joints.has_springs()) return 0;
+  std::vector<Pose<double>> poses;
+  std::vector<double> angles;
+  std::vector<Twist<double>> twists;
+  for (const Body& body : scene.bodies) {
+    poses.push_back({body.position, rotation_of(body.angle)});
+    angles.push_back(body.angle);
+    twists.push_back({body.velocity, body.angular_velocity});
+  }
+  std::vector<Wrench<double>> wrenches(scene.bodies.size());
+  joints.add_springs({poses, angles, twists}, wrenches);
+  double most = 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.type != BodyType::Dynamic) continue;
+    const double inertia = inertia_of(body);
+    most = std::max(most, length(wrenches[i].force) / body.mass);
+    if (inertia > 0) most = std::max(most, arm * std::abs(wrenches[i].torque) / inertia);
+  }
+  return most;
+}
+
 }  // namespace
+
+Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
+  Scene part = scene;
+  std::erase_if(part.forces, [&](const ForceLaw& law) {
+    const auto ends = ends_of(law);
+    return std::none_of(ends.begin(), ends.end(), [&](std::string_view name) {
+      const auto body = find_body(scene, name);
+      return body && std::binary_search(bodies.begin(), bodies.end(), *body);
+    });
+  });
+  return part;
+}
 
 Parts divide(const Scene& scene) {
   const Index index = index_of_bodies(scene);
@@ -205,6 +241,7 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
   }
   Scales scales;
   if (largest > 0) scales.length = largest;
+  acceleration = std::max(acceleration, acceleration_by_springs(scene, scales.length));
   for (const std::size_t i : parts.integrated) {
     speed = std::max(speed, scales.length * std::abs(scene.bodies[i].angular_velocity));
   }
@@ -214,24 +251,3 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
 }
 
 }  // namespace plumb::precise
-
-namespace plumb {
-
-std::string precise_unsupported(const Scene& scene) {
-  if (const std::string feature = unusual_feature(scene); !feature.empty())
-    return feature + ", which Precise does not have; 'plumb-world' runs it";
-  // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
-  constexpr std::size_t kMostBodies = 300;
-  const precise::Parts parts = precise::divide(scene);
-  std::vector<char> touches(scene.bodies.size(), 0);
-  for (const precise::Outline& outline : parts.outlines) {
-    if (scene.bodies[outline.body].type == BodyType::Dynamic) touches[outline.body] = 1;
-  }
-  const auto count = static_cast<std::size_t>(std::count(touches.begin(), touches.end(), 1));
-  if (count <= kMostBodies) return {};
-  return std::to_string(count) + " dynamic bodies have shapes that may touch, and Precise is meant for " +
-         std::to_string(kMostBodies) +
-         " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8, .iterations = 8}, or filter pairs out";
-}
-
-}  // namespace plumb

@@ -29,6 +29,9 @@ struct Parts {
 
 Parts divide(const Scene& scene);
 
+/// The scene with the laws alone that act on one of `bodies`, which ascend.
+Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies);
+
 /// Whether the pair's shapes may touch as far as body types, filters and joints go.
 bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const Filter& a, std::size_t body_b,
               const Filter& b);

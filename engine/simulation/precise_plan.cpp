@@ -4,6 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "engine/simulation/precise_joints.h"
+
 namespace plumb::precise {
 namespace {
 
@@ -36,8 +38,10 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
       kContacts, "contacts", contacts,
       "shapes that meet get Newton's restitution and Coulomb's friction; contacts that last are constraints",
       "no shapes may touch");
-  stage(kForces, "forces", laws > 0, count(laws, "force law", "force laws") + " on integrated bodies",
-        "no force depends on the motion");
+  const bool springs = KindJoints(scene).has_springs();
+  std::string forces = laws > 0 ? count(laws, "force law", "force laws") + " on integrated bodies" : "";
+  if (springs) forces += (laws > 0 ? ", and " : "") + std::string("springs of joints");
+  stage(kForces, "forces", laws > 0 || springs, forces, "no force depends on the motion");
   stage(kJointAccelerations, "joint_accelerations", joints,
         count(scene.joints.size(), "joint is", "joints are") + " held by accelerations, solved directly",
         "no joints");

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
-#include <variant>
 
 namespace plumb::precise {
 namespace {
@@ -14,18 +12,6 @@ constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 /// What holds a multiplier that rows depending on each other leave free, relative to what a row's own impulse
 /// moves.
 constexpr double kRedundant = 1e-12;
-
-Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies) {
-  Scene part = scene;
-  std::erase_if(part.forces, [&](const ForceLaw& law) {
-    const auto ends = ends_of(law);
-    return std::none_of(ends.begin(), ends.end(), [&](std::string_view name) {
-      const auto body = find_body(scene, name);
-      return body && std::binary_search(bodies.begin(), bodies.end(), *body);
-    });
-  });
-  return part;
-}
 
 }  // namespace
 
@@ -46,6 +32,10 @@ void StiffMotion::linearise(double time, std::span<const double> y) {
   force_jacobian_.evaluate(time, equations_.poses(), equations_.twists(), blocks_);
   rows_.assign(equations_.rows().begin(), equations_.rows().end());
   add_tension();
+  const BodiesNow now = equations_.bodies_now();
+  const KindJoints& others = equations_.kind_joints();
+  others.add_spring_blocks(now, blocks_);
+  others.add_tension_blocks(now, equations_.multipliers().subspan(equations_.joints().row_count()), blocks_);
   if (!order_is_known()) find_order();
 }
 

@@ -100,6 +100,10 @@ std::string symplectic_unsupported(const Scene& scene) {
              "= automatic";
     }
   }
+  if (precise::KindJoints(scene).has_springs()) {
+    return "a joint has a spring, whose stiffness changes with its bodies' effective mass; use method = "
+           "automatic";
+  }
   if (!precise::divide(scene).outlines.empty()) {
     return "shapes may touch, and impacts would cut the symplectic method's steps; use method = automatic";
   }

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/forces/force_jacobian.h"
+#include "engine/forces/wrench.h"
+#include "engine/joints/distance_joint.h"
+#include "engine/joints/friction_joint.h"
+#include "engine/joints/gear_joint.h"
+#include "engine/joints/motor_joint.h"
+#include "engine/joints/mouse_joint.h"
+#include "engine/joints/prismatic_joint.h"
+#include "engine/joints/pulley_joint.h"
+#include "engine/joints/ratchet_joint.h"
+#include "engine/joints/revolute_joint.h"
+#include "engine/joints/row.h"
+#include "engine/joints/weld_joint.h"
+#include "engine/joints/wheel_joint.h"
+#include "engine/math/dual.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// How all bodies of the scene stand and move, by body.
+struct BodiesNow {
+  std::span<const Pose<double>> poses;
+  std::span<const double> angles;  ///< rad, whole turns counted
+  std::span<const Twist<double>> twists;
+};
+
+/// The joints of a scene beside its plain hinges and rods: their rigid rows, and their springs as forces.
+/// Residuals and Jacobians are those of engine/joints; how they change along a motion, which accelerations
+/// and implicit methods want, is their derivative by `Dual`.
+class KindJoints {
+ public:
+  /// The scene is valid.
+  explicit KindJoints(const Scene& scene);
+
+  std::size_t row_count() const { return row_names_.size(); }
+  /// By row: the joint's name.
+  const std::vector<std::string>& row_names() const { return row_names_; }
+  bool has_springs() const { return has_springs_; }
+
+  /// The rigid rows; `out` has `row_count` elements.
+  void rows(const BodiesNow& now, std::span<Row<double>> out) const;
+
+  /// Adds the forces of springs, N and N m: with J the row of a coordinate C and m = 1 / (J M^-1 J^T) the
+  /// bodies' own effective mass there,
+  ///   lambda = -m (w^2 C + 2 zeta w J v),   w = 2 pi hertz,
+  /// bounded where the joint has a bound; that of a point the same with the 2 x 2 matrix m.
+  void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
+
+  /// Adds how those forces change with the bodies' positions and velocities.
+  void add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const;
+
+  /// Adds how J^T lambda of the rigid rows changes with the bodies' positions, for fixed multipliers.
+  void add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
+                          std::vector<ForceBlock>& out) const;
+
+ private:
+  using Kind = std::variant<DistanceRows<Dual>, RevoluteRows<Dual>, PrismaticRows<Dual>, WeldRows<Dual>,
+                            SoftWeldRows<Dual>, WheelRows<Dual>, MotorRows<Dual>, MouseRows<Dual>,
+                            GearRows<Dual>, PulleyRows<Dual>>;
+  struct Entry {
+    Kind kind{};
+    JointRules rules{};
+    int a = kFixedFrame, b = kFixedFrame;
+    double mass_a = 0, mass_b = 0, inertia_a = 0, inertia_b = 0;  // inverse
+    double ratio = 1, angle_offset = 0;  // the joint's angle: angle_b - ratio angle_a + offset, rad
+    bool rigid_elsewhere = false;        // its rigid rows are among `Joints`
+    bool has_springs = false;
+    std::size_t first_row = 0, rows = 0;
+  };
+  struct Ends;
+  struct Directions;
+  struct Pull;
+
+  static void add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries);
+  static Ends ends_of(const Entry& entry, const BodiesNow& now, const Directions& along);
+  template <class Visit>
+  static void each_coordinate(const Entry& entry, const Ends& ends, const Visit& visit);
+  static Pull pull_of_springs(const Entry& entry, const Ends& ends);
+  static Pull pull_of_rows(const Entry& entry, const Ends& ends, std::span<const double> multipliers);
+  template <class Evaluate>
+  static void add_blocks(const Entry& entry, const BodiesNow& now, int directions, const Evaluate& evaluate,
+                         std::vector<ForceBlock>& out);
+
+  std::vector<Entry> entries_;
+  std::vector<std::string> row_names_;
+  bool has_springs_ = false;
+};
+
+}  // namespace plumb::precise
