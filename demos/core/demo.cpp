@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/scene/error.h"
 #include "engine/scene/suggest.h"
 #include "engine/scene/text.h"
+#include "engine/world/checksum.h"
 
 namespace plumb::demos {
 namespace {
@@ -151,11 +153,17 @@ std::vector<std::byte> Demo::save() const {
   out.value(time_);
   out.value(steps_);
   write(out);
+  out.value(checksum(bytes));
   return bytes;
 }
 
 void Demo::restore(std::span<const std::byte> bytes) {
-  ByteReader in(bytes);
+  std::uint64_t sum = 0;
+  ByteReader::require(bytes.size() > sizeof(sum), "demo", "is cut off");
+  const std::span<const std::byte> content = bytes.first(bytes.size() - sizeof(sum));
+  std::memcpy(&sum, bytes.data() + content.size(), sizeof(sum));
+  ByteReader::require(sum == checksum(content), "demo", "is damaged");
+  ByteReader in(content);
   in.require(in.text("demo") == about_.name, "demo", "is another one");
   in.require(in.value<std::uint64_t>("controls") == controls_.size(), "controls", "are others");
   std::vector<double> values, before;

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "demos/core/registry.h"
 #include "engine/scene/error.h"
 
@@ -24,15 +27,28 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(Demos, EveryDemo, testing::ValuesIn(names()),
                          [](const auto& each) { return each.param; });
 
+// Clicks all over: some of them set something going.
+void stir(Demo& demo) {
+  const Aabb<double> view = demo.view();
+  const Vec2d size = view.upper - view.lower;
+  for (int i = 0; i < 63; ++i) {
+    const Vec2d point = view.lower + Vec2d{(0.5 + i % 9) / 9 * size.x, (0.5 + i / 9) / 7 * size.y};
+    demo.press(point);
+    demo.release(point);
+  }
+}
+
 // Frames of any length, even and uneven, take the same steps.
 TEST_P(EveryDemo, SameOnAnyFrameRate) {
   constexpr int kSteps = 60;
+  stir(*demo_);
   for (int i = 0; i < kSteps; ++i) demo_->step_once();
   const std::uint64_t expected = demo_->hash();
   const std::vector<std::vector<double>> frames = {
       {1.0 / 60}, {1.0 / 30}, {1.0 / 144}, {0.003, 0.031, 0.0, 0.017}};
   for (const std::vector<double>& pattern : frames) {
     const std::unique_ptr<Demo> other = make(GetParam());
+    stir(*other);
     double passed = 0;
     for (std::size_t i = 0; other->step_count() < kSteps; ++i) {
       const double left = (kSteps + 0.5) * other->dt() - passed;  // the last frame ends between two steps
@@ -53,6 +69,7 @@ TEST_P(EveryDemo, LongFramesDoNotPileUp) {
 
 // What is restored goes on as what was never stopped.
 TEST_P(EveryDemo, ComesBack) {
+  stir(*demo_);
   for (int i = 0; i < 40; ++i) demo_->step_once();
   const std::vector<std::byte> saved = demo_->save();
   const std::uint64_t then = demo_->hash();
@@ -67,12 +84,19 @@ TEST_P(EveryDemo, ComesBack) {
   const std::unique_ptr<Demo> other = make(GetParam());
   other->restore(saved);
   EXPECT_EQ(other->hash(), then);
+  for (int i = 0; i < 40; ++i) other->step_once();
+  EXPECT_EQ(other->hash(), later);
 }
 
 TEST_P(EveryDemo, RefusesDamagedBytes) {
   std::vector<std::byte> saved = demo_->save();
   for (int i = 0; i < 10; ++i) demo_->step_once();
   const std::uint64_t before = demo_->hash();
+  for (std::size_t i = 0; i < saved.size(); i += 1 + saved.size() / 50) {
+    std::vector<std::byte> damaged = saved;
+    damaged[i] ^= std::byte{0x10};
+    EXPECT_THROW(demo_->restore(damaged), Error) << "byte " << i;
+  }
   saved.resize(saved.size() - 9);
   EXPECT_THROW(demo_->restore(saved), Error);
   EXPECT_THROW(demo_->restore({}), Error);
@@ -81,6 +105,7 @@ TEST_P(EveryDemo, RefusesDamagedBytes) {
 
 TEST_P(EveryDemo, Restarts) {
   const std::uint64_t start = demo_->hash();
+  stir(*demo_);
   for (int i = 0; i < 30; ++i) demo_->step_once();
   EXPECT_NE(demo_->hash(), start);
   demo_->restart();
@@ -134,6 +159,40 @@ TEST_P(EveryDemo, BearsAnyInput) {
     demo_->advance(0.02);
   }
   for (const Figure& figure : demo_->figures()) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
+}
+
+// What is drawn is finite, and lies between the last two steps: at their ends it is one and the other.
+class Counter : public DebugDraw {
+ public:
+  void polygon(std::span<const Vec2d> corners, double, DrawRole) override {
+    for (const Vec2d corner : corners) add(corner);
+  }
+  void circle(Vec2d centre, double, Vec2d, DrawRole) override { add(centre); }
+  void capsule(Vec2d start, Vec2d end, double, DrawRole) override { add(start), add(end); }
+  void segment(Vec2d start, Vec2d end, DrawRole) override { add(start), add(end); }
+  void point(Vec2d point, DrawRole) override { add(point); }
+  void text(Vec2d point, std::string_view, DrawRole) override { add(point); }
+  std::vector<Vec2d> points;
+
+ private:
+  void add(Vec2d point) {
+    EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y));
+    points.push_back(point);
+  }
+};
+
+TEST_P(EveryDemo, DrawsItself) {
+  stir(*demo_);
+  for (int i = 0; i < 20; ++i) demo_->step_once();
+  const DrawOptions everything{true, true, true, true, true, true, true, true};
+  Counter all, shapes;
+  demo_->draw(all, everything);
+  demo_->draw(shapes);
+  EXPECT_GT(shapes.points.size(), 4u);
+  EXPECT_GE(all.points.size(), shapes.points.size());
+  const Aabb<double> view = demo_->view();
+  const auto inside = [&](Vec2d p) { return view.contains({p, p}); };
+  EXPECT_GT(std::ranges::count_if(shapes.points, inside), 4);
 }
 
 TEST_P(EveryDemo, SaysWhatItIs) {

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "demos/core/doll.h"
+#include "demos/core/registry.h"
+#include "demos/core/world_demo.h"
+
+namespace plumb::demos {
+namespace {
+
+constexpr double kHalfWidth = 7, kHeight = 7;  // m, of the room above the ground
+constexpr double kReach = 0.2;                 // m, that the hand reaches beside the pointer
+constexpr int kMostDolls = 6;
+constexpr Vec2d kStart{2.2, 4.6};  // m, of the first figure's hip
+
+constexpr Vec2d kRopeHook{-5.5, 5.5}, kChainHook{-3.5, 5.5};
+constexpr int kRopeParts = 16, kChainParts = 10;
+constexpr double kRopePart = 0.25, kRopeRadius = 0.04, kRopePartMass = 0.2;  // m, m, kg
+constexpr double kChainLink = 0.3, kChainRadius = 0.12, kChainMass = 1;      // m, m, kg
+
+enum Joints { kHinges, kSticks };
+
+const About kAbout{
+    "ragdoll",
+    "a figure of jointed parts to pick up and fling, a rope and a chain of circles",
+    "Drag a body with the pointer and let go to fling it. Hinges hold rigid parts; sticks hold points "
+    "apart by moving them, some times a step.",
+    {{'n', "another figure"}, {'j', "hinges or sticks"}}};
+
+class Ragdoll final : public WorldDemo {
+ public:
+  Ragdoll() : WorldDemo(kAbout) {
+    add_choice("joints", {"hinges", "sticks"}, joints_,
+               "rigid parts and hinges, or points and sticks; starts anew");
+    add_slider("iterations", "", 1, 30, iterations_, "how often sticks are gone through in a substep");
+    add_slider("gravity", "m/s^2", 0.0, 20.0, gravity_, "how fast falling speeds up");
+    add_step_controls();
+    restart();
+  }
+
+  void press(Vec2d point) override { grab(point, kReach); }
+  void drag(Vec2d point) override { pull(point); }
+  void release(Vec2d point) override {
+    pull(point);
+    let_go();
+  }
+  void key(char key) override {
+    if (key == 'j') set("joints", joints_ == kHinges ? kSticks : kHinges);
+    if (key == 'n' && dolls_ < kMostDolls) add_doll({-0.5 + 0.7 * (dolls_ % 3), 5.2});
+  }
+
+  std::vector<Figure> figures() const override {
+    return {{"time", time(), "s"},
+            {"figures", static_cast<double>(dolls_), ""},
+            {"joints", static_cast<double>(world_.counts().joints), ""},
+            {"widest gap of a joint", 1000 * widest_gap(), "mm"},
+            {"kinetic energy", totals_of(world_).energy, "J"}};
+  }
+
+  Aabb<double> view() const override { return {{-kHalfWidth - 0.3, -0.4}, {kHalfWidth + 0.3, kHeight}}; }
+
+ private:
+  WorldDefinition definition() const override {
+    return {.gravity = {0, -gravity_},
+            .solver = joints_ == kSticks ? Solver::Jakobsen : Solver::Direct,
+            .iterations = iterations_};
+  }
+
+  void fill() override {
+    dolls_ = 0;
+    add_room();
+    add_rope();
+    add_chain();
+    add_doll(kStart);
+  }
+
+  void add_room() {
+    const auto block = [](Vec2d middle, double width, double height, double angle = 0) {
+      return ShapeDefinition{.geometry = Box{width, height}, .position = middle, .angle = angle};
+    };
+    const auto peg = [](Vec2d middle, double radius) {
+      return ShapeDefinition{.geometry = Circle{radius}, .position = middle};
+    };
+    const ShapeDefinition shapes[] = {
+        block({0, -0.5}, 2 * kHalfWidth + 2, 1),
+        block({-kHalfWidth - 0.5, 10}, 1, 20),
+        block({kHalfWidth + 0.5, 10}, 1, 20),
+        peg({2.3, 2.8}, 0.35),
+        peg({1.2, 1.6}, 0.3),
+        peg({3.4, 1.7}, 0.3),
+        block({5.2, 1.3}, 2.4, 0.2, 0.4),
+        block({-0.9, 0.2}, 1.2, 0.4),
+        block({-0.7, 0.5}, 0.8, 0.3),
+    };
+    world_.create_body({.name = "room", .type = BodyType::Static}, shapes);
+  }
+
+  // Parts of a line do not touch those of the same one.
+  BodyId add_bead(const char* name, Vec2d position, double radius, double mass, int group) {
+    return world_.create_body({.name = name, .position = position},
+                              {.geometry = Circle{radius},
+                               .density = mass / extent_of(Circle{radius}).area,
+                               .filter = {.group = -group}});
+  }
+
+  // A stick from the hook to the middle of a body.
+  void hang(Vec2d hook, BodyId body) {
+    const double length = std::sqrt(length_squared(world_.centre(body) - hook));
+    world_.create_joint(frame_, body, {.kind = DistanceDefinition{.anchor_a = hook, .length = length}});
+  }
+
+  static constexpr int kRopeGroup = 1, kChainGroup = 2, kFirstDollGroup = 3;
+
+  // Of rods that hinges join, or of beads on sticks.
+  void add_rope() {
+    BodyId last = frame_;
+    for (int i = 0; i < kRopeParts; ++i) {
+      const Vec2d top = kRopeHook - Vec2d{0, i * kRopePart}, end = top - Vec2d{0, kRopePart};
+      if (joints_ == kSticks) {
+        const BodyId bead = add_bead("rope", end, kRopeRadius, kRopePartMass, kRopeGroup);
+        if (i == 0) hang(kRopeHook, bead);
+        if (i > 0) add_stick(world_, last, bead);
+        last = bead;
+        continue;
+      }
+      const Vec2d half{0, kRopePart / 2};
+      const Capsule rod{half, -half, kRopeRadius};
+      const BodyId part = world_.create_body({.name = "rope", .position = top - half},
+                                             {.geometry = rod,
+                                              .density = kRopePartMass / extent_of(rod).area,
+                                              .filter = {.group = -kRopeGroup}});
+      const Vec2d anchor = world_.local_point(last, top);
+      world_.create_joint(last, part, {.kind = RevoluteDefinition{.anchor_a = anchor, .anchor_b = half}});
+      last = part;
+    }
+  }
+
+  // Circles whose middles keep their distance, whatever joins the rest.
+  void add_chain() {
+    BodyId last{};
+    for (int i = 0; i < kChainParts; ++i) {
+      const Vec2d place = kChainHook - Vec2d{0, (i + 1) * kChainLink};
+      const BodyId bead = add_bead("chain", place, kChainRadius, kChainMass, kChainGroup);
+      if (i == 0) hang(kChainHook, bead);
+      if (i > 0) add_stick(world_, last, bead);
+      last = bead;
+    }
+  }
+
+  void add_doll(Vec2d hip) {
+    const int group = kFirstDollGroup + dolls_++;
+    if (joints_ == kSticks) {
+      add_stick_doll(world_, hip, group);
+    } else {
+      add_jointed_doll(world_, hip, group);
+    }
+  }
+
+  void changed(std::string_view control) override {
+    if (control == "joints") return restart();
+    world_.set_gravity({0, -gravity_});
+    world_.set_iterations(iterations_);
+  }
+
+  double widest_gap() const {
+    double widest = 0;
+    for (const BodyId body : world_.bodies()) {
+      for (const JointId joint : world_.joints(body)) {
+        if (!std::holds_alternative<MouseDefinition>(world_.kind(joint)))
+          widest = std::max(widest, world_.read(joint).linear_error);
+      }
+    }
+    return widest;
+  }
+
+  std::vector<double> own() const override { return {static_cast<double>(dolls_)}; }
+  void set_own(std::span<const double> in) override { dolls_ = static_cast<int>(in[0]); }
+
+  int joints_ = kHinges, iterations_ = 8;
+  double gravity_ = 9.81;
+  int dolls_ = 0;
+};
+
+const Register kEntry{5, kAbout, [] { return std::unique_ptr<Demo>(new Ragdoll); }};
+
+}  // namespace
+}  // namespace plumb::demos
