@@ -15,7 +15,6 @@ constexpr double kCushion = 0.1;                    // m, how thick it is drawn
 constexpr double kPocket = 0.05;                    // m: a ball whose centre is so near to one falls in
 constexpr Vec2d kCueSpot{-kLength / 4, 0}, kFootSpot{kLength / 4, 0};
 constexpr double kGap = 1e-4;  // m, between the balls of the rack
-constexpr int kRows = 5;
 constexpr double kHardness = 8, kFastest = 12;  // 1/s, m/s: the cue ball's speed for a metre of aim
 constexpr double kGlow = 0.25;                  // s, that a ball lights up for
 constexpr int kBalls = 16;                      // the cue ball is the first
