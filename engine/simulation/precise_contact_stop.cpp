@@ -40,7 +40,9 @@ void Contacts::stop() {
   if (const auto change = first_change(until)) event = change;
   if (!event) {
     // Pairs that have come apart are looked for again like any other.
-    std::erase_if(touching_, [&](const OutlinePair& pair) { return search_.distance(pair, until) > near_; });
+    const auto apart = [&](const OutlinePair& pair) { return search_.distance(pair, until) > near_; };
+    std::erase_if(touching_, apart);
+    std::erase_if(passing_, apart);
     return;
   }
   smooth_.cut(std::max(event->time, std::nextafter(smooth_.start(), event->time + 1)));
@@ -69,7 +71,11 @@ std::optional<Contacts::Event> Contacts::first_meeting(double until) {
   for (const OutlinePair& pair : near_pairs(finder_, paths_)) {
     if (std::binary_search(held_.begin(), held_.end(), pair)) continue;
     double from = paths_.start();
-    if (std::binary_search(touching_.begin(), touching_.end(), pair)) {
+    if (std::binary_search(passing_.begin(), passing_.end(), pair)) {
+      const auto apart = search_.departure(pair, until, near_, ContactSearch::Overlap::Allowed).apart;
+      if (!apart) continue;
+      from = *apart;
+    } else if (std::binary_search(touching_.begin(), touching_.end(), pair)) {
       const ContactSearch::Departure departure = search_.departure(pair, until, near_);
       if (departure.pressed) {
         until = *departure.pressed;
@@ -215,6 +221,8 @@ void Contacts::save(SnapshotWriter& out) const {
   }
   out.put(static_cast<std::uint64_t>(touching_.size()));
   for (const OutlinePair& pair : touching_) out.put(pair);
+  out.put(static_cast<std::uint64_t>(passing_.size()));
+  for (const OutlinePair& pair : passing_) out.put(pair);
   out.put(near_);
   out.put(force_scale_);
   out.put(std::int64_t{settled_});
@@ -247,6 +255,8 @@ void Contacts::restore(SnapshotReader& in) {
   }
   touching_.assign(in.count(sizeof(OutlinePair)), {});
   for (OutlinePair& each : touching_) each = pair();
+  passing_.assign(in.count(sizeof(OutlinePair)), {});
+  for (OutlinePair& each : passing_) each = pair();
   near_ = in.get<double>();
   force_scale_ = in.get<double>();
   settled_ = in.get<std::int64_t>() != 0;

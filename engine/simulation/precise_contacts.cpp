@@ -68,7 +68,7 @@ void Contacts::settle() {
   look_at_states();
   near_ = kTouching * finder_.near(states_);
   for (int round = 0;; ++round) {
-    std::vector<Touch> touches = finder_.touches(states_, near_);
+    std::vector<Touch> touches = finder_.touches(states_, near_, passing_);
     if (round == 0 && touches.empty() && held_.empty()) {  // the motion goes on as it was
       touching_.clear();
       settled_ = true;

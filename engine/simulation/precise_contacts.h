@@ -96,6 +96,7 @@ class Contacts {
 
   std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order
   std::vector<OutlinePair> touching_;  // that touch and are not held; ascending
+  std::vector<OutlinePair> passing_;   // that touch where a chain does not push; ascending
   std::vector<Watched> watched_;
   std::vector<double> tolerance_;
   double force_scale_ = 0;

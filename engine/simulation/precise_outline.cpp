@@ -5,12 +5,16 @@
 #include <limits>
 #include <variant>
 
+#include "engine/geometry/convex_hull.h"
 #include "engine/math/trigonometry.h"
 
 namespace plumb::precise {
 namespace {
 
 using Kind = Feature::Kind;
+
+/// Normals of a chain whose sine is less than this are one.
+constexpr double kAlike = 1e-12;
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
@@ -107,24 +111,69 @@ double Outline::edge_length(int edge) const {
   return length(corners[next(edge)].point - corners[edge].point);
 }
 
-Outline outline_of(std::size_t body, const Shape& shape) {
+namespace {
+
+/// Corners of each geometry but chains, in its own frame, and its radius.
+struct CornersOf {
+  double& radius;
+
+  Corners operator()(const Circle& circle) const {
+    radius = circle.radius;
+    return disc_corner({});
+  }
+  Corners operator()(const Box& box) const { return box_corners(0.5 * box.width, 0.5 * box.height); }
+  Corners operator()(const Capsule& capsule) const {
+    radius = capsule.radius;
+    return capsule_corners(capsule.start, capsule.end);
+  }
+  Corners operator()(const Polygon& polygon) const {
+    radius = polygon.radius;
+    return convex_hull(polygon.points);
+  }
+  Corners operator()(const Segment& segment) const { return capsule_corners(segment.start, segment.end); }
+  Corners operator()(const Chain&) const { return {}; }
+};
+
+/// The segments of a chain.
+std::vector<Outline> links_of(const Outline& common, const Chain& chain, const Pose<double>& pose) {
+  std::vector<Outline> links;
+  const std::size_t points = chain.points.size(), count = chain.closed ? points : points - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    Outline& link = links.emplace_back(common);
+    const Vec2d from = world(pose, chain.points[i]), to = world(pose, chain.points[(i + 1) % points]);
+    link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the way
+    link.link.front_only = true;
+    link.link.goes_on[0] = chain.closed || i > 0;
+    link.link.goes_on[1] = chain.closed || i + 1 < count;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!links[i].link.goes_on[1]) continue;
+    const Vec2d own = links[i].corners[0].normal, next = links[(i + 1) % count].corners[0].normal;
+    if (cross(own, next) >= -kAlike) links[i].link.next_normal = next;
+  }
+  return links;
+}
+
+}  // namespace
+
+std::vector<Outline> outlines_of(std::size_t body, const Shape& shape) {
   Outline outline;
   outline.body = body;
   outline.friction = shape.friction;
   outline.restitution = shape.restitution;
   outline.filter = shape.filter;
-  if (const Circle* circle = std::get_if<Circle>(&shape.geometry)) {
-    outline.corners = {{shape.position, {}}};
-    outline.radius = circle->radius;
-  } else if (const Box* box = std::get_if<Box>(&shape.geometry)) {
-    const Rotation<double> q = shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle);
-    const double x = 0.5 * box->width, y = 0.5 * box->height;
-    const Vec2d corners[] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-    const Vec2d normals[] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-    for (int i = 0; i < 4; ++i) outline.corners.push_back({shape.position + q * corners[i], q * normals[i]});
+  const Pose<double> pose{shape.position, shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle)};
+  std::vector<Outline> outlines;
+  if (const Chain* chain = std::get_if<Chain>(&shape.geometry)) {
+    outlines = links_of(outline, *chain, pose);
+  } else {
+    outline.corners = transformed(std::visit(CornersOf{outline.radius}, shape.geometry), pose);
+    outlines = {outline};
   }
-  for (const Corner<double>& c : outline.corners) outline.reach = std::max(outline.reach, length(c.point));
-  return outline;
+  for (Outline& o : outlines) {
+    for (const Corner<double>& c : o.corners) o.reach = std::max(o.reach, length(c.point));
+  }
+  return outlines;
 }
 
 Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
@@ -148,6 +197,22 @@ Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const
   gap.point =
       world(*view.pose_c, view.cornered->corners[view.corner].point) - view.cornered->radius * outward;
   return gap;
+}
+
+bool admits(const Feature& f, const Gap& gap, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+            const Pose<double>& pose_b, double near) {
+  constexpr double kDeep = 64;
+  const auto side = [&](const Outline& o, const Pose<double>& pose, bool edge, int index, Vec2d outward) {
+    if (!o.link.front_only) return true;
+    if (gap.value < -kDeep * near) return false;
+    if (edge) return index == 0;
+    if (!o.link.goes_on[index]) return true;
+    if (index == 0 || o.link.next_normal == Vec2d{}) return false;
+    const Vec2d own = pose.rotation * o.corners[0].normal, next = pose.rotation * o.link.next_normal;
+    return dot(own + next, outward) > 0 && cross(own, outward) >= -kAlike && cross(outward, next) >= -kAlike;
+  };
+  return side(a, pose_a, f.kind == Kind::CornerOfB, f.a, gap.normal) &&
+         side(b, pose_b, f.kind == Kind::CornerOfA, f.b, -gap.normal);
 }
 
 // With the normal n, its turning rate W, the contact point p and the velocities of the bodies v, w,

@@ -19,6 +19,14 @@ struct Outline {
   double reach = 0;   ///< m, of the farthest corner from the body's centre of mass
   double friction = 0, restitution = 0;
   Filter filter{};
+  /// Of a segment of a chain: its back, edge 1, touches nothing, and where the chain goes on its ends belong
+  /// to what touches the chain as a whole there (`admits`).
+  struct Link {
+    bool front_only = false;
+    bool goes_on[2] = {};  ///< by corner
+    Vec2d next_normal{};   ///< of the segment that follows; where it bends to the back, and zero else
+  };
+  Link link{};
 
   int count() const { return static_cast<int>(corners.size()); }
   int edges() const { return corners.size() > 1 ? count() : 0; }
@@ -27,7 +35,8 @@ struct Outline {
   double edge_length(int edge) const;
 };
 
-Outline outline_of(std::size_t body, const Shape& shape);
+/// One outline; of a chain one for each segment.
+std::vector<Outline> outlines_of(std::size_t body, const Shape& shape);
 
 /// Where two outlines touch, or come closest.
 struct Feature {
@@ -51,6 +60,12 @@ struct Gap {
 };
 Gap gap_of(const Feature& feature, const Outline& a, const Pose<double>& pose_a, const Outline& b,
            const Pose<double>& pose_b);
+
+/// Whether a feature with this gap may push, as far as chains go: they are touched from the front, and at a
+/// vertex where they bend to the back along the normals between those of the two segments; it belongs to the
+/// first of them. `near`: what is no gap, m; what overlaps by much more came from the back.
+bool admits(const Feature& feature, const Gap& gap, const Outline& a, const Pose<double>& pose_a,
+            const Outline& b, const Pose<double>& pose_b, double near);
 
 /// The gap's rate and second derivative, and the slip's rate and derivative, as rows of the bodies' motions:
 /// `normal`: gap' = J v, gap'' = J a + bias; `tangent`: slip = J v, slip' = J a + bias, the velocity of b

@@ -191,7 +191,7 @@ Parts divide(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (const Shape& shape : scene.bodies[i].shapes) {
       if (partner(scene, parts, i, shape) == i) continue;
-      parts.outlines.push_back(outline_of(i, shape));
+      for (Outline& outline : outlines_of(i, shape)) parts.outlines.push_back(std::move(outline));
       if (scene.bodies[i].type == BodyType::Dynamic) integrated[i] = 1;
     }
   }

@@ -117,7 +117,8 @@ std::optional<double> ContactSearch::first(const OutlinePair& pair, double from,
   }
 }
 
-ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, double until, double near) const {
+ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, double until, double near,
+                                                  Overlap overlap) const {
   constexpr int kSamples = 14;
   Departure found;
   const double start = paths_.start(), h = until - start;
@@ -132,7 +133,7 @@ ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, doubl
       found.apart = time;
       return found;
     }
-    if (d < deepest) {
+    if (overlap == Overlap::Pressed && d < deepest) {
       // The first time that it is as deep, to rounding.
       double low = before, high = time;
       for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {

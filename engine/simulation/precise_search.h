@@ -37,7 +37,9 @@ class ContactSearch {
   struct Departure {
     std::optional<double> apart, pressed;
   };
-  Departure departure(const OutlinePair& pair, double until, double near) const;
+  enum class Overlap { Pressed, Allowed };
+  Departure departure(const OutlinePair& pair, double until, double near,
+                      Overlap overlap = Overlap::Pressed) const;
 
   /// The separation at a time.
   double distance(const OutlinePair& pair, double time) const;

@@ -64,7 +64,9 @@ double TouchFinder::near(std::span<const BodyState> states) const {
   return 32 * kEpsilon * extent;
 }
 
-std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, double near) const {
+std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, double near,
+                                        std::vector<OutlinePair>& passing) const {
+  passing.clear();
   std::vector<Pose<double>> poses;
   std::vector<Aabb<double>> boxes;
   for (const Outline& o : outlines_) {
@@ -82,7 +84,12 @@ std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, doubl
     touch.restitution = restitution(pair);
     for (const Feature& f : touching_features(a, poses[pair.a], twist_of(states[a.body]), b, poses[pair.b],
                                               twist_of(states[b.body]), near)) {
-      touch.features[touch.count++] = f;
+      const Gap gap = gap_of(f, a, poses[pair.a], b, poses[pair.b]);
+      if (admits(f, gap, a, poses[pair.a], b, poses[pair.b], near)) touch.features[touch.count++] = f;
+    }
+    if (touch.count == 0) {
+      passing.push_back(pair);
+      continue;
     }
     measure(states, touch);
     found.push_back(touch);

@@ -40,8 +40,10 @@ class TouchFinder {
   /// What rounding can make of a gap, m, with bodies at the given states.
   double near(std::span<const BodyState> states) const;
 
-  /// What touches, pairs in ascending order. `states` by body of the scene.
-  std::vector<Touch> touches(std::span<const BodyState> states, double near) const;
+  /// What touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs that
+  /// touch where a chain may not push: at its back, and where an end belongs to the next segment.
+  std::vector<Touch> touches(std::span<const BodyState> states, double near,
+                             std::vector<OutlinePair>& passing) const;
 
   /// Rates of a touch anew, after velocities have changed.
   void measure(std::span<const BodyState> states, Touch& touch) const;

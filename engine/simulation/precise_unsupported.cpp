@@ -46,7 +46,7 @@ std::string precise_unsupported(const Scene& scene) {
   constexpr const char* kElsewhere = ", which Precise does not have; 'plumb-world' runs it";
   Scene bodies = scene;
   bodies.joints.clear();
-  if (const std::string feature = unusual_feature(bodies); !feature.empty()) return feature + kElsewhere;
+  if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
   for (const Joint& joint : scene.joints) {
     const std::string missing = missing_in(joint);
     if (missing.empty()) continue;

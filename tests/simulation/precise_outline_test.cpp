@@ -32,9 +32,9 @@ double along(const Row<double>& row, const Twist<double>& a, const Twist<double>
 TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const Outline box = outline_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3});
-  const Outline disc = outline_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}});
-  const Outline box_b = outline_of(1, {.geometry = Box{0.7, 0.9}});
+  const Outline box = outlines_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3})[0];
+  const Outline disc = outlines_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}})[0];
+  const Outline box_b = outlines_of(1, {.geometry = Box{0.7, 0.9}})[0];
   const auto motion = [&](Vec2d at) {
     return Moving{at,
                   {unit(random), unit(random)},
@@ -72,8 +72,8 @@ TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
 
 TEST(PreciseOutline, SeparationIsTheDistance) {
   // Against the least distance of points sampled on both outlines.
-  const Outline a = outline_of(0, {.geometry = Box{1, 0.6}});
-  const Outline b = outline_of(1, {.geometry = Box{0.8, 0.8}});
+  const Outline a = outlines_of(0, {.geometry = Box{1, 0.6}})[0];
+  const Outline b = outlines_of(1, {.geometry = Box{0.8, 0.8}})[0];
   const auto edge_points = [](const Outline& o, const Pose<double>& pose) {
     std::vector<Vec2d> points;
     for (int i = 0; i < o.count(); ++i) {
@@ -97,7 +97,8 @@ TEST(PreciseOutline, SeparationIsTheDistance) {
 }
 
 TEST(PreciseOutline, EdgesThatLieOnEachOtherTouchInTheEndsOfWhatTheyShare) {
-  const Outline low = outline_of(0, {.geometry = Box{2, 1}}), high = outline_of(1, {.geometry = Box{2, 1}});
+  const Outline low = outlines_of(0, {.geometry = Box{2, 1}})[0];
+  const Outline high = outlines_of(1, {.geometry = Box{2, 1}})[0];
   const auto touching = [&](double x) {
     return touching_features(low, {{0, 0}, {}}, {}, high, {{x, 1}, {}}, {}, 1e-12);
   };
