@@ -53,6 +53,13 @@ inline constexpr double kLinkTurn = 0.125;
 inline constexpr double kJointFrequencyShare = 0.25;
 inline constexpr double kJointDampingRatio = 2;
 
+/// Impacts drive limits of revolute joints in farther than sweeps over velocities can stop. What has passed a
+/// limit by more than this, rad, is turned back after the motion, by at most so much in a sweep (what was
+/// placed beyond a limit comes back smoothly), in up to so many sweeps.
+inline constexpr double kLimitSlack = 0.01;
+inline constexpr double kLimitTurn = 0.1;
+inline constexpr int kLimitSweeps = 4;
+
 /// Share of an overlap, and of a joint's error, that a substep of sequential impulses feeds back (Baumgarte,
 /// 1972): more would swing, as its speed stays in the velocities.
 inline constexpr double kFeedback = 0.2;

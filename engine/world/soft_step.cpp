@@ -16,6 +16,17 @@ Softness<Real> contact_softness(double frequency_share, double h) {
   return soft;
 }
 
+// Joints that an impact has driven past their limits.
+template <class Real>
+void turn_back(WorldData<Real>& w) {
+  bool any = true;
+  for (int sweep = 0; any && sweep < tuning::kLimitSweeps; ++sweep) {
+    any = w.joint_set.turn_back(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
+                                Real(tuning::kLimitTurn));
+    if (any) hold_locks(w);
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -55,6 +66,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_contacts(bodies.motion, w.graph, contacts);
     if (strikes) bounce_positions(bodies.motion, w.scratch.bounces, contacts);
     integrate_positions(w, static_cast<Real>(h));
+    if (jointed) turn_back(w);
     close_direct_joints(w, joints);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, joints, false);

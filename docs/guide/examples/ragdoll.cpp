@@ -27,7 +27,7 @@ int main() {
                             attach(part(0.15, 3.2, 0.2, 0.8), {0.15, 3.6}, {-0.6, 1})};
   double past_limit = 0;
   for (int i = 0; i < 900; ++i) {
-    world.step(1.0 / 60, 8);
+    world.step();
     for (const JointId joint : joints) {
       const Range limits = *std::get<RevoluteDefinition>(world.kind(joint)).limits;
       const double angle = world.read(joint).angle;

@@ -1,0 +1,92 @@
+#include "tests/world/ragdoll.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/world/support.h"
+
+namespace plumb {
+namespace {
+
+constexpr double kDegree = 3.14159265358979324 / 180;
+
+// rad, how far a joint of the torso is beyond its limits.
+double past_limits(const World& world, BodyId torso) {
+  double worst = 0;
+  for (const JointId joint : world.joints(torso)) {
+    const Range limits = *std::get<RevoluteDefinition>(world.kind(joint)).limits;
+    const double angle = world.read(joint).angle;
+    worst = std::max({worst, limits.lower - angle, angle - limits.upper});
+  }
+  return worst;
+}
+
+void add_heap(World& world) {
+  add_ground(world);
+  for (int i = 0; i < 20; ++i) add_box(world, {-2 + 0.9 * (i % 5), 0.4 + 0.8 * (i / 5)}, 1, 0.7, 0.7);
+}
+
+// rad, the largest overshoot of a ragdoll that falls onto a heap of boxes.
+double drop(World& world, const RagdollStart& start, int substeps, int steps) {
+  const BodyId torso = add_ragdoll(world, start)[0];
+  double worst = 0;
+  for (int i = 0; i < steps; ++i) {
+    world.step(1.0 / 60, substeps);
+    worst = std::max(worst, past_limits(world, torso));
+  }
+  return worst;
+}
+
+// However it comes down: from 3, 6, 10 and 15 m above the heap, at up to 17 m/s, in any attitude.
+TEST(Ragdoll, OvershootsItsLimitsByLessThanTwoDegrees) {
+  for (const double height : {3.0, 6.0, 10.0, 15.0}) {
+    for (int i = 0; i < 12; ++i) {
+      World world;
+      add_heap(world);
+      const RagdollStart start{.at = {-0.8 + 0.15 * i, 4 + height},
+                               .tilt = i * 30 * kDegree,
+                               .velocity = {2 - 0.4 * i, 0},
+                               .spin = (i * 5) % 12 - 5.0};
+      EXPECT_LT(drop(world, start, 4, 240), 2 * kDegree) << height << " m, attitude " << i;
+    }
+  }
+}
+
+TEST(Ragdoll, TwoSubstepsHoldItsLimitsToo) {
+  for (int i = 0; i < 12; ++i) {
+    World world;
+    add_heap(world);
+    EXPECT_LT(drop(world, {.at = {0, 10}, .tilt = i * 30 * kDegree}, 2, 240), 2 * kDegree) << i;
+  }
+}
+
+TEST(Ragdoll, SettlesOnAHeapAndSleeps) {
+  World world;
+  add_heap(world);
+  drop(world, {.at = {0, 6}}, 4, 1200);
+  EXPECT_EQ(world.counts().awake, 0);
+}
+
+// An angle that starts far beyond its limits comes back within a second, without a burst, and about the
+// joint.
+TEST(Ragdoll, WhatIsPlacedBeyondALimitComesBackGently) {
+  World world(weightless());
+  const BodyId a = add_box(world, {0, 0}), b = add_box(world, {1, 0});
+  const JointId joint = world.create_joint(
+      a, b,
+      {.kind = RevoluteDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .limits = Range{1.0, 2.0}}});
+  double gap = 0;
+  for (int i = 0; i < 12; ++i) {
+    world.step();
+    gap = std::max(gap, world.read(joint).linear_error);
+  }
+  EXPECT_GT(world.read(joint).angle, 1 - 0.6 * kDegree);
+  EXPECT_LT(gap, 0.01);
+  // Nobody pushes from outside: the centre of mass stays where it was.
+  EXPECT_NEAR(world.centre(a).x + world.centre(b).x, 1, 1e-5);
+  EXPECT_NEAR(world.centre(a).y + world.centre(b).y, 0, 1e-5);
+}
+
+}  // namespace
+}  // namespace plumb
