@@ -14,6 +14,10 @@
 #include "engine/world/debug_draw.h"
 #include "engine/world/world.h"
 
+namespace plumb {
+class Simulation;
+}
+
 /// The demos, without a window: what a player does comes in as calls, what there is to see goes out through
 /// DebugDraw. They need the engine alone. SI units, y up.
 namespace plumb::demos {
@@ -99,6 +103,7 @@ class Demo {
 
   /// For a look inside; null where the demo has none.
   virtual const DemoWorld* world() const { return nullptr; }
+  virtual const Simulation* simulation() const { return nullptr; }
 
   static constexpr double kLongestFrame = 0.1;  ///< s
 

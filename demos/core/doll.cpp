@@ -28,16 +28,21 @@ struct Doll {
   Vec2d hip;
   int group;
 
-  BodyId part(const char* name, Vec2d middle, double mass, const ShapeGeometry& geometry) {
-    return world.create_body({.name = name, .position = hip + middle, .angular_damping = 0.5},
-                             {.geometry = geometry,
-                              .density = mass / area_of(geometry),
-                              .material = {.friction = 0.5, .restitution = 0.1},
-                              .filter = {.group = -group}});
+  BodyId part(const char* name, Vec2d middle, double mass, const ShapeGeometry& geometry, bool turns = true) {
+    return world.create_body(
+        {.name = name, .position = hip + middle, .angular_damping = 0.5, .lock_rotation = !turns},
+        {.geometry = geometry,
+         .density = mass / area_of(geometry),
+         .material = {.friction = 0.5, .restitution = 0.1},
+         .filter = {.group = -group}});
   }
   BodyId limb(const char* name, Vec2d from, Vec2d to, double radius, double mass) {
     const Vec2d half = 0.5 * (to - from);
     return part(name, from + half, mass, Capsule{-half, half, radius});
+  }
+  // It has no angle, or the figure would roll on its hands and feet.
+  BodyId point(const char* name, Vec2d place, double mass, double radius) {
+    return part(name, place, mass, Circle{radius}, false);
   }
   void hinge(BodyId a, BodyId b, Vec2d at, const Range& turns) {
     world.create_joint(a, b,
@@ -84,12 +89,12 @@ JointId add_stick(DemoWorld& world, BodyId a, BodyId b, double least) {
 
 void add_stick_doll(DemoWorld& world, Vec2d hip, int group) {
   Doll doll{world, hip, group};
-  const BodyId head = doll.part("head", kHead, kHeadMass, Circle{kHeadRadius});
+  const BodyId head = doll.point("head", kHead, kHeadMass, kHeadRadius);
   BodyId shoulders[2], hips[2];
   for (const int i : {0, 1}) {
     const double side = 2 * i - 1;
-    shoulders[i] = doll.part("shoulder", on_side(side, kShoulder), kShoulderMass, Circle{kArmRadius});
-    hips[i] = doll.part("hip", on_side(side, kHip), kHipMass, Circle{kThighRadius});
+    shoulders[i] = doll.point("shoulder", on_side(side, kShoulder), kShoulderMass, kArmRadius);
+    hips[i] = doll.point("hip", on_side(side, kHip), kHipMass, kThighRadius);
   }
   // The torso: a frame with both diagonals. The head stands on it, and does not sink into it.
   add_stick(world, shoulders[0], shoulders[1]), add_stick(world, hips[0], hips[1]);
@@ -99,12 +104,12 @@ void add_stick_doll(DemoWorld& world, Vec2d hip, int group) {
   }
   for (const int i : {0, 1}) {
     const double side = 2 * i - 1;
-    const BodyId elbow = doll.part("elbow", on_side(side, kElbow), kElbowMass, Circle{kArmRadius});
-    const BodyId hand = doll.part("hand", on_side(side, kHand), kHandMass, Circle{kArmRadius});
+    const BodyId elbow = doll.point("elbow", on_side(side, kElbow), kElbowMass, kArmRadius);
+    const BodyId hand = doll.point("hand", on_side(side, kHand), kHandMass, kArmRadius);
     add_stick(world, shoulders[i], elbow), add_stick(world, elbow, hand);
     add_stick(world, shoulders[i], hand, 0.4);
-    const BodyId knee = doll.part("knee", on_side(side, kKnee), kKneeMass, Circle{kShinRadius});
-    const BodyId foot = doll.part("foot", on_side(side, kFoot), kFootMass, Circle{kShinRadius});
+    const BodyId knee = doll.point("knee", on_side(side, kKnee), kKneeMass, kShinRadius);
+    const BodyId foot = doll.point("foot", on_side(side, kFoot), kFootMass, kShinRadius);
     add_stick(world, hips[i], knee), add_stick(world, knee, foot);
     add_stick(world, hips[i], foot, 0.5);
   }

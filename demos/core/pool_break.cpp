@@ -14,7 +14,7 @@ constexpr double kRadius = 0.028575, kMass = 0.17;  // m, kg, of a ball
 constexpr double kCushion = 0.1;                    // m, how thick it is drawn
 constexpr double kPocket = 0.05;                    // m: a ball whose centre is so near to one falls in
 constexpr Vec2d kCueSpot{-kLength / 4, 0}, kFootSpot{kLength / 4, 0};
-constexpr double kGap = 1e-4;  // m, between the balls of the rack
+constexpr double kGap = 1e-4;                   // m, between the balls of the rack
 constexpr double kHardness = 8, kFastest = 12;  // 1/s, m/s: the cue ball's speed for a metre of aim
 constexpr double kGlow = 0.25;                  // s, that a ball lights up for
 constexpr int kBalls = 16;                      // the cue ball is the first
@@ -32,6 +32,7 @@ class PoolBreak final : public WorldDemo {
  public:
   PoolBreak() : WorldDemo(kAbout) {
     dt_ = 1.0 / 240;
+    add_slider("balls", "", 1, kBalls - 1, racked_, "in the rack; starts anew");
     add_slider("restitution", "", 0.0, 1.0, restitution_, "of balls and cushions, now");
     add_slider("cue mass", "kg", kMass / 10, kMass * 10, cue_mass_,
                "of the cue ball; the others have 0.17 kg");
@@ -64,7 +65,7 @@ class PoolBreak final : public WorldDemo {
             {"momentum y", totals.momentum.y, "kg m/s"},
             {"kinetic energy", totals.energy, "J"},
             {"cue ball's speed", std::sqrt(length_squared(world_.velocity(cue()))), "m/s"},
-            {"contacts so far", contacts_, ""},
+            {"collisions", collisions_, ""},
             {"balls in pockets", static_cast<double>(in_pockets()), ""}};
   }
 
@@ -78,11 +79,12 @@ class PoolBreak final : public WorldDemo {
   Material material() const { return {.friction = 0, .restitution = restitution_}; }
 
   void fill() override {
-    contacts_ = 0;
+    collisions_ = 0;
     std::ranges::fill(touched_, -kGlow);
     add_cushions();
-    for (int ball = 0; ball < kBalls; ++ball)
-      balls_[ball] = add_ball(ball, ball == 0 ? kCueSpot : spot(ball));
+    std::ranges::fill(balls_, BodyId{});
+    balls_[0] = add_ball(0, kCueSpot);
+    for (int ball = 1; ball <= racked_; ++ball) balls_[ball] = add_ball(ball, spot(ball));
     changed("");
   }
 
@@ -110,18 +112,19 @@ class PoolBreak final : public WorldDemo {
          .position = position,
          .mass = MassProperties{.mass = kMass, .inertia = kMass * kRadius * kRadius / 2},
          .user_data = static_cast<std::uint64_t>(ball)},
-        {.geometry = Circle{kRadius}, .material = material()});
+        {.geometry = Circle{kRadius}, .material = material(), .hit_events = true});
   }
 
   BodyId cue() const { return balls_[0]; }
   bool on_table(int ball) const { return world_.valid(balls_[ball]); }
   int in_pockets() const {
     int count = 0;
-    for (int ball = 0; ball < kBalls; ++ball) count += on_table(ball) ? 0 : 1;
+    for (int ball = 0; ball <= racked_; ++ball) count += on_table(ball) ? 0 : 1;
     return count;
   }
 
-  void changed(std::string_view) override {
+  void changed(std::string_view control) override {
+    if (control == "balls") return restart();
     world_.set_mass(cue(), {.mass = cue_mass_, .inertia = cue_mass_ * kRadius * kRadius / 2});
     for (const BodyId body : world_.bodies()) {
       if (world_.type(body) == BodyType::Dynamic) world_.set_damping(body, cloth_, cloth_);
@@ -135,13 +138,22 @@ class PoolBreak final : public WorldDemo {
   }
   void shoot(Vec2d way) { world_.apply_impulse(cue(), cue_mass_ * speed_for(way)); }
 
+  // Fast balls meet and part within a step, of which hits tell; others press on each other for a while.
+  void touch(ShapeId shape) {
+    const std::uint64_t ball = world_.valid(shape) ? world_.user_data(world_.body(shape)) : kBalls;
+    if (ball < kBalls) touched_[ball] = time();
+  }
+  bool is_pressed(BodyId body) const {
+    return std::ranges::any_of(world_.contacts(body), [](const ContactReading& contact) {
+      return contact.count > 0 && contact.impulses[0] > 0;
+    });
+  }
+
   void after_step() override {
-    for (const TouchEvent& touch : world_.events().begin) {
-      ++contacts_;
-      for (const ShapeId shape : {touch.shape_a, touch.shape_b}) {
-        const std::uint64_t ball = world_.valid(shape) ? world_.user_data(world_.body(shape)) : kBalls;
-        if (ball < kBalls) touched_[ball] = time();
-      }
+    collisions_ += static_cast<double>(world_.events().hits.size());
+    for (const HitEvent& hit : world_.events().hits) touch(hit.shape_a), touch(hit.shape_b);
+    for (int ball = 0; ball < kBalls; ++ball) {
+      if (on_table(ball) && is_pressed(balls_[ball])) touched_[ball] = time();
     }
     if (pockets_) drop_into_pockets();
   }
@@ -183,7 +195,7 @@ class PoolBreak final : public WorldDemo {
   }
 
   std::vector<double> own() const override {
-    std::vector<double> out = {contacts_};
+    std::vector<double> out = {collisions_};
     for (int ball = 0; ball < kBalls; ++ball) {
       for (const double each : {touched_[ball], static_cast<double>(balls_[ball].index),
                                 static_cast<double>(balls_[ball].generation)})
@@ -192,7 +204,7 @@ class PoolBreak final : public WorldDemo {
     return out;
   }
   void set_own(std::span<const double> in) override {
-    contacts_ = in[0];
+    collisions_ = in[0];
     for (int ball = 0; ball < kBalls; ++ball) {
       touched_[ball] = in[1 + 3 * ball];
       balls_[ball] = {static_cast<std::uint32_t>(in[2 + 3 * ball]),
@@ -201,11 +213,12 @@ class PoolBreak final : public WorldDemo {
     aim_.reset();
   }
 
+  int racked_ = kBalls - 1;
   double restitution_ = 0.95, cue_mass_ = kMass, cloth_ = 0.3;
   bool pockets_ = true;
   BodyId balls_[kBalls];
   double touched_[kBalls] = {};  // s, when they last did
-  double contacts_ = 0;
+  double collisions_ = 0;
   std::optional<Vec2d> aim_;
 };
 

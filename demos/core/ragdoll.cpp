@@ -12,7 +12,7 @@ namespace {
 constexpr double kHalfWidth = 7, kHeight = 7;  // m, of the room above the ground
 constexpr double kReach = 0.2;                 // m, that the hand reaches beside the pointer
 constexpr int kMostDolls = 6;
-constexpr Vec2d kStart{2.2, 4.6};  // m, of the first figure's hip
+constexpr Vec2d kStart{2.2, 5.0};  // m, of the first figure's hip
 
 constexpr Vec2d kRopeHook{-5.5, 5.5}, kChainHook{-3.5, 5.5};
 constexpr int kRopeParts = 16, kChainParts = 10;
@@ -47,7 +47,7 @@ class Ragdoll final : public WorldDemo {
   }
   void key(char key) override {
     if (key == 'j') set("joints", joints_ == kHinges ? kSticks : kHinges);
-    if (key == 'n' && dolls_ < kMostDolls) add_doll({-0.5 + 0.7 * (dolls_ % 3), 5.2});
+    if (key == 'n' && dolls_ < kMostDolls) add_doll({1.5 + 0.7 * (dolls_ % 3), 5.2});
   }
 
   std::vector<Figure> figures() const override {
@@ -76,22 +76,22 @@ class Ragdoll final : public WorldDemo {
   }
 
   void add_room() {
-    const auto block = [](Vec2d middle, double width, double height, double angle = 0) {
-      return ShapeDefinition{.geometry = Box{width, height}, .position = middle, .angle = angle};
+    const auto block = [](Vec2d middle, double width, double height, double angle, double friction) {
+      return ShapeDefinition{.geometry = Box{width, height},
+                             .position = middle,
+                             .angle = angle,
+                             .material = {.friction = friction}};
     };
-    const auto peg = [](Vec2d middle, double radius) {
-      return ShapeDefinition{.geometry = Circle{radius}, .position = middle};
-    };
+    constexpr double kRough = 0.6, kSmooth = 0.15;
     const ShapeDefinition shapes[] = {
-        block({0, -0.5}, 2 * kHalfWidth + 2, 1),
-        block({-kHalfWidth - 0.5, 10}, 1, 20),
-        block({kHalfWidth + 0.5, 10}, 1, 20),
-        peg({2.3, 2.8}, 0.35),
-        peg({1.2, 1.6}, 0.3),
-        peg({3.4, 1.7}, 0.3),
-        block({5.2, 1.3}, 2.4, 0.2, 0.4),
-        block({-0.9, 0.2}, 1.2, 0.4),
-        block({-0.7, 0.5}, 0.8, 0.3),
+        block({0, -0.5}, 2 * kHalfWidth + 2, 1, 0, kRough),
+        block({-kHalfWidth - 0.5, 10}, 1, 20, 0, kSmooth),
+        block({kHalfWidth + 0.5, 10}, 1, 20, 0, kSmooth),
+        block({5.3, 1.9}, 2.6, 0.2, 0.5, kSmooth),
+        block({0.9, 1.4}, 2.2, 0.2, 0.4, kSmooth),
+        block({-1.4, 0.2}, 1.2, 0.4, 0, kRough),
+        block({-1.2, 0.5}, 0.8, 0.3, 0, kRough),
+        {.geometry = Circle{0.3}, .position = {2.5, 3.2}, .material = {.friction = kSmooth}},
     };
     world_.create_body({.name = "room", .type = BodyType::Static}, shapes);
   }

@@ -26,8 +26,8 @@ const About kAbout{
     "spinning_boxes",
     "push boxes at a corner or in the middle, square and thin ones of one mass",
     "Click a box near its middle or a corner to push it there, upwards; drag for another direction. Click "
-    "elsewhere for a new box. A push in the middle does not spin; the same at a corner does, and thin "
-    "boxes turn less readily.",
+    "elsewhere for a new box. A push in the middle does not spin; the same at a corner does. A thin box of "
+    "the same mass has twice the inertia of a square one, and its corners are twice as far out.",
     {{'1', "new boxes are square"}, {'2', "new boxes are thin"}}};
 
 /// A force at a point of a box while a push lasts.
