@@ -17,8 +17,13 @@ void add_run(CLI::App& app, Action& chosen);
 void add_scene(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
+void add_window(CLI::App& app);  ///< demo
 
 /// Replaces this program by the benchmarks beside it. Returns only when that fails: throws `Error` (Io).
 int run_bench(int argc, char** argv);
+
+/// Replaces this program by the one beside it that has the window. Returns only when that fails: throws
+/// `Error` (Io) that says what to install.
+int run_window(int argc, char** argv);
 
 }  // namespace plumb::app

@@ -49,6 +49,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
     return kUsage;
   }
   if (first == "bench") return run_bench(argc, argv);
+  if (first == "demo") return run_window(argc, argv);
   if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
     throw UsageError(
         fmt::format("there is no subcommand '{}'{}; see `plumb --help`", first, did_you_mean(first, names)));
@@ -86,6 +87,7 @@ int main(int argc, char** argv) {
   add_scene(app, action);
   add_compare(app, action);
   add_bench(app);
+  add_window(app);
   return reporting_errors([&] { return parse_and_run(app, action, argc, argv); });
 }
 

@@ -22,7 +22,7 @@ RULES = {
     "scenarios": ["scenarios/", "engine/scene/", "engine/math/", "reference/backend.h"],
     "reference": ["reference/", "engine/"],
     "harness": ["harness/", "scenarios/", "reference/", "engine/"],
-    "app": ["app/"] + EVERYTHING,
+    "app": ["app/", "demos/"] + EVERYTHING,
     "demos": ["demos/"] + EVERYTHING,
     "demos/core": ["demos/core/", "engine/"],
     "bench": ["bench/"] + EVERYTHING,

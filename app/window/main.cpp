@@ -1,0 +1,147 @@
+// `plumb demo`: the program that has the window. `plumb` starts it.
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "app/report_error.h"
+#include "app/source.h"
+#include "app/usage.h"
+#include "demos/core/registry.h"
+#include "demos/window/run.h"
+#include "engine/scene/error.h"
+
+namespace plumb::app {
+namespace {
+
+using window::Item;
+using window::Player;
+
+// What both subcommands take, as it is given.
+struct Given {
+  std::string name, script, screenshot, seconds, dt, theme = "dark";
+  std::vector<std::string> settings, drawings;
+  int width = 1280, height = 800, colours = 0, frames = 0, size = 0;
+  bool list = false, headless = false, bare = false;
+};
+
+void add_options(CLI::App& command, Given& given) {
+  command.add_flag("--headless", given.headless, "no window: needs no display");
+  command.add_option("--seconds", given.seconds, "how long, of real time (headless: of the show's)")
+      ->type_name("T");
+  command.add_option("--screenshot", given.screenshot, "write the last frame to this PNG file")
+      ->type_name("FILE");
+  command.add_option("--width", given.width, "px")->check(CLI::Range(64, 8192));
+  command.add_option("--height", given.height, "px")->check(CLI::Range(64, 8192));
+  command.add_option("--colours", given.colours, "at most so many in pictures: smaller files")
+      ->check(CLI::Range(2, 256));
+  command.add_option("--theme", given.theme, "dark or light")->check(CLI::IsMember({"dark", "light"}));
+  command.add_flag("--no-panel", given.bare, "start without the panel");
+  command.add_option("--dt", given.dt, "length of a step, s: short for --set dt=DT")->type_name("DT");
+  command.add_option("--set", given.settings, "a control, as NAME=VALUE (again for more)");
+  command.add_option("--show", given.drawings,
+                     "contacts, normals, impulses, boxes, centres or names (again for more)");
+  command
+      .add_option("--script", given.script,
+                  "what the player does: lines like '0.5 press 1 2' (docs/demos.md)")
+      ->type_name("FILE");
+  command.add_option("--measure-frames", given.frames, "draw so many frames and say how long they took")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(Error::Kind::Io, "file '" + file + "'", "", "", "cannot be read");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+window::Options options_of(const Given& given) {
+  window::Options options{.width = given.width,
+                          .height = given.height,
+                          .screenshot = given.screenshot,
+                          .colours = given.colours,
+                          .measured_frames = given.frames};
+  if (!given.seconds.empty()) options.seconds = parse_number("--seconds", given.seconds);
+  if (!given.script.empty()) options.script = window::parse_script(text_of(given.script), given.script);
+  if (given.headless && given.seconds.empty() && given.frames == 0)
+    throw UsageError("--headless needs an end: give --seconds T");
+  return options;
+}
+
+int play(Player& player, const Given& given) {
+  const window::Options options = options_of(given);
+  player.panel = !given.bare;
+  player.theme.dark = given.theme == "dark";
+  for (const std::string& drawing : given.drawings) window::show(player.options, drawing);
+  if (!given.dt.empty()) player.demo().set("dt", parse_positive("--dt", given.dt));
+  for (const std::string& setting : given.settings) window::assign(player.demo(), setting);
+  // What was set shapes the start, too.
+  if (!given.dt.empty() || !given.settings.empty()) player.restart();
+  if (given.headless) {
+    window::run_headless(player, options);
+    print(window::report(player));
+  } else {
+    window::run_in_window(player, options);
+  }
+  return kOk;
+}
+
+std::vector<Item> demo_items() {
+  std::vector<Item> items;
+  for (const demos::Entry& entry : demos::all())
+    items.push_back({entry.about.name, entry.about.summary, [&entry] { return window::Show{entry.make()}; }});
+  return items;
+}
+
+int run_demo(const Given& given) {
+  const std::vector<Item> items = demo_items();
+  if (given.list) {
+    for (const Item& item : items) print(fmt::format("{:<16} {}\n", item.name, item.summary));
+    return kOk;
+  }
+  std::size_t first = 0;
+  if (!given.name.empty()) {
+    demos::make(given.name);  // throws for what there is not
+    while (items[first].name != given.name) ++first;
+  }
+  Player player(items, first);
+  return play(player, given);
+}
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App app("plumb's window", "plumb");
+  app.require_subcommand(1);
+  Given given;
+  CLI::App* demo = app.add_subcommand("demo", "play the demos of the course");
+  demo->add_option("name", given.name, "which; see --list");
+  demo->add_flag("--list", given.list, "the demos");
+  add_options(*demo, given);
+  demo->footer(
+      "Examples:\n  plumb demo\n  plumb demo ragdoll --theme light\n"
+      "  plumb demo bouncing_ball --headless --seconds 2 --screenshot ball.png");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return reporting_errors([&]() -> int {
+      const std::string where = argc > 1 ? fmt::format("plumb {}", argv[1]) : "plumb";
+      throw UsageError(fmt::format("{}; see `{} --help`", error.what(), where));
+    });
+  }
+  return reporting_errors([&] { return run_demo(given); });
+}
+
+}  // namespace
+}  // namespace plumb::app
+
+int main(int argc, char** argv) { return plumb::app::main(argc, argv); }

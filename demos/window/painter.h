@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "demos/window/camera.h"
+#include "demos/window/theme.h"
+#include "engine/world/debug_draw.h"
+
+namespace plumb::window {
+
+/// A word that stands in the picture.
+struct Label {
+  Vec2d pixel{};
+  std::string text;
+  Colour colour{};
+};
+
+/// Paints what a world draws of itself. Words are collected: whoever has a font writes them.
+class Painter : public DebugDraw {
+ public:
+  Painter(Canvas& canvas, const Camera& camera, const Theme& theme)
+      : canvas_(canvas), camera_(camera), theme_(theme) {}
+
+  bool sleep_shows = true;  ///< whether bodies that sleep have a colour of their own
+  /// In place of the roles' colours: outlines of this colour. Alpha 0: none.
+  Colour outline{0, 0, 0, 0};
+
+  void polygon(std::span<const Vec2d> corners, double radius, DrawRole role) override;
+  void circle(Vec2d centre, double radius, Vec2d axis, DrawRole role) override;
+  void capsule(Vec2d start, Vec2d end, double radius, DrawRole role) override;
+  void segment(Vec2d start, Vec2d end, DrawRole role) override;
+  void point(Vec2d point, DrawRole role) override;
+  void text(Vec2d point, std::string_view text, DrawRole role) override;
+
+  /// Lines a whole number of 1, 2 or 5 times a power of ten m apart, and how long one such step is.
+  void grid();
+
+  const std::vector<Label>& labels() const { return labels_; }
+
+ private:
+  Paint paint_of(DrawRole role) const;
+  void shape(std::span<const Vec2d> corners, double radius, DrawRole role);
+
+  Canvas& canvas_;
+  const Camera& camera_;
+  const Theme& theme_;
+  std::vector<Label> labels_;
+  std::vector<Vec2d> pixels_;
+};
+
+}  // namespace plumb::window

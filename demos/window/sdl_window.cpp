@@ -1,0 +1,236 @@
+#include <SDL.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "demos/window/run.h"
+#include "demos/window/stage.h"
+#include "engine/scene/error.h"
+
+namespace plumb::window {
+namespace {
+
+constexpr double kFrame = 1000.0 / 60;  // ms
+
+[[noreturn]] void fail(const std::string& subject, const std::string& problem, const std::string& why) {
+  throw Error(Error::Kind::Io, subject, "", "",
+              fmt::format("{}: {}; without one: --headless --seconds T --screenshot FILE", problem, why));
+}
+
+struct Destroy {
+  void operator()(SDL_Window* window) const { SDL_DestroyWindow(window); }
+  void operator()(SDL_Renderer* renderer) const { SDL_DestroyRenderer(renderer); }
+  void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
+};
+
+struct Video {
+  Video() {
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("the display", "cannot be used", SDL_GetError());
+    // Where there is no display SDL takes a driver that shows nothing.
+    const std::string driver = SDL_GetCurrentVideoDriver();
+    const bool nowhere = driver == "offscreen" || driver == "dummy" || driver == "evdev";
+    if (!nowhere || SDL_getenv("SDL_VIDEODRIVER") != nullptr) return;
+    SDL_Quit();
+    fail("the display", "is not there", "neither DISPLAY nor WAYLAND_DISPLAY is set");
+  }
+  ~Video() { SDL_Quit(); }
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
+};
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  return text;
+}
+
+std::string name_of(const SDL_Keysym& key) {
+  if (key.sym == SDLK_RETURN || key.sym == SDLK_KP_ENTER) return "enter";
+  return lower(SDL_GetKeyName(key.sym));
+}
+
+// A window that shows a canvas and turns events into what the player does.
+class Window {
+ public:
+  Window(Player& player, const Options& options, bool vsync) : player_(player), stage_(player, options) {
+    window_.reset(SDL_CreateWindow("plumb", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, options.width,
+                                   options.height, SDL_WINDOW_RESIZABLE));
+    if (window_ == nullptr) fail("a window", "cannot be opened", SDL_GetError());
+    renderer_.reset(SDL_CreateRenderer(window_.get(), -1, vsync ? SDL_RENDERER_PRESENTVSYNC : 0));
+    if (renderer_ == nullptr) fail("a window", "cannot be drawn to", SDL_GetError());
+    SDL_RendererInfo info{};
+    SDL_GetRendererInfo(renderer_.get(), &info);
+    vsync_ = (info.flags & SDL_RENDERER_PRESENTVSYNC) != 0;
+    fit_texture();
+    SDL_StartTextInput();
+  }
+
+  bool vsync() const { return vsync_; }
+  Stage& stage() { return stage_; }
+
+  // False: the player has had enough.
+  bool handle_events() {
+    input_.wheel = 0;
+    typed_.clear();
+    SDL_Event event;
+    while (SDL_PollEvent(&event) != 0)
+      if (!handle(event)) return false;
+    return true;
+  }
+
+  void draw(double seconds) {
+    input_.seconds = seconds;
+    input_.text = typed_;
+    stage_.frame(input_);
+    if (title_ != player_.demo().about().name) {
+      title_ = player_.demo().about().name;
+      SDL_SetWindowTitle(window_.get(), ("plumb: " + title_).c_str());
+    }
+  }
+
+  void show() {
+    const Canvas& canvas = stage_.canvas;
+    SDL_UpdateTexture(texture_.get(), nullptr, canvas.pixels().data(), canvas.width() * 4);
+    SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, nullptr);
+    SDL_RenderPresent(renderer_.get());
+  }
+
+ private:
+  void fit_texture() {
+    int width = 0, height = 0;
+    SDL_GetWindowSize(window_.get(), &width, &height);
+    stage_.canvas.resize(width, height);
+    texture_.reset(SDL_CreateTexture(renderer_.get(), SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING,
+                                     stage_.canvas.width(), stage_.canvas.height()));
+    if (texture_ == nullptr) fail("a window", "cannot be drawn to", SDL_GetError());
+  }
+
+  bool handle(const SDL_Event& event) {
+    switch (event.type) {
+      case SDL_QUIT:
+        return false;
+      case SDL_WINDOWEVENT:
+        if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) fit_texture();
+        break;
+      case SDL_MOUSEBUTTONDOWN:
+      case SDL_MOUSEBUTTONUP:
+        handle_button(event.button);
+        break;
+      case SDL_MOUSEMOTION:
+        handle_motion(event.motion);
+        break;
+      case SDL_MOUSEWHEEL:
+        input_.wheel += event.wheel.preciseY;
+        if (over_world(input_.pointer.x)) player_.zoom(input_.pointer, zoom_factor(event.wheel.preciseY));
+        break;
+      case SDL_TEXTINPUT:
+        return handle_text(event.text.text);
+      case SDL_KEYDOWN:
+      case SDL_KEYUP:
+        return handle_key(event.key);
+      default:
+        break;
+    }
+    return true;
+  }
+
+  void handle_button(const SDL_MouseButtonEvent& button) {
+    const bool down = button.state == SDL_PRESSED;
+    input_.pointer = {1.0 * button.x, 1.0 * button.y};
+    const bool ours = over_world(button.x);
+    const Vec2d point = player_.camera.to_world(input_.pointer);
+    if (button.button == SDL_BUTTON_LEFT) {
+      input_.left = down;
+      if (!down) {
+        player_.release(point);
+      } else if (ours) {
+        player_.press(point);
+      }
+    } else if (button.button == SDL_BUTTON_RIGHT) {
+      input_.right = down;
+      panning_ = down && ours;
+    }
+    // What moves outside the window is still ours while a button is down.
+    SDL_CaptureMouse(player_.pressed() || panning_ ? SDL_TRUE : SDL_FALSE);
+  }
+
+  bool over_world(double x) const { return !player_.panel || x >= Ui::kPanelWidth; }
+
+  void handle_motion(const SDL_MouseMotionEvent& motion) {
+    input_.pointer = {1.0 * motion.x, 1.0 * motion.y};
+    if (panning_) player_.pan({1.0 * motion.xrel, 1.0 * motion.yrel});
+    const Vec2d point = player_.camera.to_world(input_.pointer);
+    if (player_.pressed()) {
+      player_.drag(point);
+    } else if (!panning_ && over_world(motion.x)) {
+      player_.hover(point);
+    }
+  }
+
+  // Characters as the keyboard's layout has them.
+  bool handle_text(const char* text) {
+    if (stage_.ui.wants_keys()) {
+      typed_ += text;
+      return true;
+    }
+    return !stage_.carry_out(player_.key(lower(text)));
+  }
+
+  bool handle_key(const SDL_KeyboardEvent& event) {
+    const std::string name = name_of(event.keysym);
+    const bool down = event.state == SDL_PRESSED;
+    stage_.ui.edit_key(name, down && stage_.ui.wants_keys());
+    // Single characters come as text.
+    if (!down || event.repeat != 0 || stage_.ui.wants_keys() || name.size() < 2) return true;
+    return !stage_.carry_out(player_.key(name));
+  }
+
+  Player& player_;
+  Stage stage_;
+  std::unique_ptr<SDL_Window, Destroy> window_;
+  std::unique_ptr<SDL_Renderer, Destroy> renderer_;
+  std::unique_ptr<SDL_Texture, Destroy> texture_;
+  PanelInput input_;
+  std::string typed_, title_;
+  bool panning_ = false, vsync_ = false;
+};
+
+void measure(Player& player, Window& window, int frames) {
+  FrameTimes times;
+  while (times.count() < static_cast<std::size_t>(frames) && window.handle_events()) {
+    const double start = now_ms();
+    player.advance(kFrame / 1000);
+    const double stepped = now_ms();
+    window.draw(kFrame / 1000);
+    const double drawn = now_ms();
+    window.show();
+    times.add({stepped - start, drawn - stepped, now_ms() - drawn});
+  }
+  fmt::print("{}", times.report());
+}
+
+}  // namespace
+
+void run_in_window(Player& player, const Options& options) {
+  const Video video;
+  Window window(player, options, options.measured_frames == 0);
+  if (options.measured_frames > 0) return measure(player, window, options.measured_frames);
+  const double start = now_ms();
+  double last = start;
+  while (window.handle_events()) {
+    const double now = now_ms(), shown = (now - start) / 1000;
+    player.advance((now - last) / 1000);
+    if (window.stage().follow_script(shown)) break;
+    window.draw((now - last) / 1000);
+    window.show();
+    last = now;
+    if (options.seconds >= 0 && shown >= options.seconds) break;
+    const double left = kFrame - (now_ms() - now);
+    if (!window.vsync() && left > 1) SDL_Delay(static_cast<Uint32>(left));
+  }
+  if (!options.screenshot.empty()) window.stage().take_picture(options.screenshot);
+}
+
+}  // namespace plumb::window

@@ -1,0 +1,98 @@
+#include "demos/window/ui.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "demos/window/panel.h"
+#include "demos/window/rasteriser.h"
+
+namespace plumb::window {
+namespace {
+
+struct EditKey {
+  std::string_view name;
+  ImGuiKey key;
+};
+constexpr std::array kEditKeys = {
+    EditKey{"enter", ImGuiKey_Enter},
+    EditKey{"escape", ImGuiKey_Escape},
+    EditKey{"backspace", ImGuiKey_Backspace},
+    EditKey{"delete", ImGuiKey_Delete},
+    EditKey{"left", ImGuiKey_LeftArrow},
+    EditKey{"right", ImGuiKey_RightArrow},
+    EditKey{"home", ImGuiKey_Home},
+    EditKey{"end", ImGuiKey_End},
+    EditKey{"tab", ImGuiKey_Tab},
+};
+
+void set_style(bool dark) {
+  if (dark) {
+    ImGui::StyleColorsDark();
+  } else {
+    ImGui::StyleColorsLight();
+  }
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
+  style.AntiAliasedLinesUseTex = false;
+  style.Colors[ImGuiCol_WindowBg].w = 0.94f;
+}
+
+}  // namespace
+
+Ui::Ui() : context_(ImGui::CreateContext()) {
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  for (std::size_t i = 0; i < kEditKeys.size(); ++i) io.KeyMap[kEditKeys[i].key] = static_cast<int>(i);
+  unsigned char* alpha = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsAlpha8(&alpha, &width, &height);
+  set_style(dark_);
+}
+
+Ui::~Ui() { ImGui::DestroyContext(context_); }
+
+bool Ui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
+
+void Ui::edit_key(std::string_view name, bool down) {
+  for (std::size_t i = 0; i < kEditKeys.size(); ++i)
+    if (kEditKeys[i].name == name) ImGui::GetIO().KeysDown[i] = down;
+}
+
+void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(canvas.width()), static_cast<float>(canvas.height())};
+  io.DeltaTime = static_cast<float>(std::max(input.seconds, 1e-4));
+  io.MousePos = {static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y)};
+  io.MouseDown[0] = input.left;
+  io.MouseDown[1] = input.right;
+  io.MouseWheel += static_cast<float>(input.wheel);
+  for (const char c : input.text) io.AddInputCharacter(static_cast<unsigned char>(c));
+  if (player.theme.dark != dark_) set_style(dark_ = player.theme.dark);
+
+  ImGui::NewFrame();
+  player.resize(canvas.width(), canvas.height(), kPanelWidth);
+  if (player.panel) draw_panel(player, kPanelWidth);
+  draw_message(player);
+
+  canvas.clear(player.theme.ground());
+  Painter painter(canvas, player.camera, player.theme);
+  painter.sleep_shows = player.sleep_shows;
+  painter.grid();
+  DrawOptions options = player.options;
+  options.normal_length = 24 / player.camera.scale();
+  player.demo().draw(painter, options);
+  if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
+  for (const Label& label : painter.labels())
+    ImGui::GetBackgroundDrawList()->AddText({static_cast<float>(static_cast<int>(label.pixel.x)),
+                                             static_cast<float>(static_cast<int>(label.pixel.y))},
+                                            packed(label.colour), label.text.c_str());
+  ImGui::Render();
+  rasterise(*ImGui::GetDrawData(), *io.Fonts, canvas);
+}
+
+}  // namespace plumb::window
