@@ -68,6 +68,10 @@ int run(const Options& options, const reference::Backend& backend, const referen
     flush();
     return kInterrupted;
   }
+  std::string did;
+  for (const auto& [name, value] : simulator->report())
+    did += fmt::format("{}{} {}", did.empty() ? "" : ", ", name, value);
+  if (!did.empty()) fmt::print(stderr, "{}: {}\n", options.engine, did);
   return kOk;
 }
 

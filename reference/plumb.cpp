@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "engine/scene/text.h"
 #include "engine/simulation/simulation.h"
 #include "reference/backend.h"
@@ -28,6 +30,31 @@ class PlumbSimulator final : public Simulator {
   }
   double time() const override { return world_.time(); }
   void read(std::span<BodyState> out) const override { world_.read(out); }
+
+  std::vector<std::pair<std::string, std::string>> report() const override {
+    const Statistics did = world_.statistics();
+    std::vector<std::pair<std::string, std::string>> out{{"steps", std::to_string(did.steps)}};
+    const auto count = [&](const char* name, std::int64_t number) {
+      if (number > 0) out.emplace_back(name, std::to_string(number));
+    };
+    count("rejected", did.rejected);
+    count("evaluations", did.evaluations);
+    count("implicit_steps", did.implicit);
+    count("leaps", did.leaps);
+    count("redundant_joints", did.redundant_joints);
+    count("impacts", did.impacts);
+    constexpr std::pair<ContactEvent, const char*> kEvents[] = {
+        {ContactEvent::Rest, "comes_to_rest"},     {ContactEvent::Hold, "contacts_begin"},
+        {ContactEvent::Separation, "separations"}, {ContactEvent::SlipStart, "slips_begin"},
+        {ContactEvent::SlipEnd, "slips_end"},      {ContactEvent::Change, "changes_of_feature"},
+        {ContactEvent::Paradox, "paradoxes"}};
+    for (const auto& [event, name] : kEvents) count(name, did.of(event).count);
+    if (did.error.known) {
+      out.emplace_back("estimated_error", fmt::format("{:.1e} m, {:.1e} rad, {:.1e} m/s", did.error.position,
+                                                      did.error.angle, did.error.velocity));
+    }
+    return out;
+  }
 
  private:
   Simulation world_;
@@ -139,7 +166,9 @@ class PreciseBackend final : public PlumbBackend {
   using PlumbBackend::PlumbBackend;
 
   std::vector<Option> options() const override {
-    return {{"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"}};
+    return {
+        {"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"},
+        {"estimate_error", "no", "yes: a second run at a tenth of the tolerance beside, to compare with"}};
   }
 
   Method method(const StepSettings& settings) const override {
@@ -152,6 +181,7 @@ class PreciseBackend final : public PlumbBackend {
     Settings out{{"tolerance", shortest(chosen.tolerance)},
                  {"max_dt", shortest(chosen.max_dt)},
                  {"method", std::string(name_of(chosen.method))},
+                 {"estimate_error", chosen.estimate_error ? "yes" : "no"},
                  {"precision", std::string(name_of(precision_))}};
     append_contact_rules(out, scene);
     return out;
@@ -168,6 +198,7 @@ class PreciseBackend final : public PlumbBackend {
     out.method = given.choice<MotionMethod>("method",
                                             {named(MotionMethod::Automatic), named(MotionMethod::Explicit),
                                              named(MotionMethod::Implicit), named(MotionMethod::Symplectic)});
+    out.estimate_error = given.choice<bool>("estimate_error", {{"no", false}, {"yes", true}});
     plumb::validate(Accuracy(out));
     return out;
   }

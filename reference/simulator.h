@@ -2,6 +2,9 @@
 
 #include <functional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/scene/scene.h"
 
@@ -21,6 +24,10 @@ class Simulator {
 
   /// The state of every body, in the scene's order; `out` has one element a body.
   virtual void read(std::span<BodyState> out) const = 0;
+
+  /// What the engine says that it did so far, as name/value pairs: steps, events, its own estimate of its
+  /// error. Empty where it says nothing.
+  virtual std::vector<std::pair<std::string, std::string>> report() const { return {}; }
 
   /// Advances by `samples` times `every` steps and hands over the states after each. Returns ns as `advance`.
   virtual double record(int samples, int every, std::size_t bodies, const Sink& sink);

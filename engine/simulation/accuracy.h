@@ -46,6 +46,7 @@ struct Precise {
   double max_dt =
       1.0 / 60;  ///< s, > 0: what `Simulation::step` advances by; steps of the motion may be longer
   MotionMethod method = MotionMethod::Automatic;
+  bool estimate_error = false;  ///< runs a second motion at a tenth of the tolerance beside, to compare with
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 

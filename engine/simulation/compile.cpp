@@ -18,7 +18,8 @@ std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     out = mixed(out, std::bit_cast<std::uint64_t>(precise->tolerance));
     out = mixed(out, std::bit_cast<std::uint64_t>(precise->max_dt));
-    return mixed(out, static_cast<std::uint64_t>(precise->method));
+    out = mixed(out, static_cast<std::uint64_t>(precise->method));
+    return precise->estimate_error ? mixed(out, 1) : out;
   }
   const Realtime& realtime = std::get<Realtime>(accuracy);
   out = mixed(out, std::bit_cast<std::uint64_t>(realtime.dt));

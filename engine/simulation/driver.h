@@ -30,6 +30,14 @@ struct EventCount {
   double last = 0;  ///< s
 };
 
+/// How far a run is from the true motion, by estimate: the largest of all bodies and steps.
+struct ErrorEstimate {
+  bool known = false;   ///< whether the run was asked to estimate it
+  double position = 0;  ///< m
+  double angle = 0;     ///< rad
+  double velocity = 0;  ///< m/s
+};
+
 /// What a run did so far.
 struct Statistics {
   std::int64_t steps = 0;        ///< Realtime: substeps; Precise: accepted steps
@@ -41,6 +49,8 @@ struct Statistics {
   std::int64_t redundant_joints =
       0;  ///< Precise: joints with rows that follow from others, named in the plan
   std::array<EventCount, kContactEvents> contacts{};  ///< Precise: by `ContactEvent`
+
+  ErrorEstimate error{};  ///< Precise: with `Precise::estimate_error`
 
   const EventCount& of(ContactEvent event) const { return contacts[static_cast<std::size_t>(event)]; }
 };

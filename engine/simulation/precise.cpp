@@ -6,6 +6,7 @@
 
 #include "engine/scene/error.h"
 #include "engine/simulation/precise_clock.h"
+#include "engine/simulation/precise_companion.h"
 #include "engine/simulation/precise_driver.h"
 
 namespace plumb::precise {
@@ -112,7 +113,12 @@ namespace plumb {
 
 std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
                                             CompileOptions options) {
-  return std::make_unique<precise::PreciseDriver>(scene, precise, options);
+  const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
+    return std::make_unique<precise::PreciseDriver>(scene, p, options);
+  };
+  if (precise.estimate_error)
+    return std::make_unique<precise::CompanionDriver>(precise, scene.bodies.size(), make);
+  return make(precise);
 }
 
 }  // namespace plumb

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/simulation/accuracy.h"
+#include "engine/simulation/driver.h"
+
+namespace plumb::precise {
+
+/// A run of `Precise` with a second one of the same scene beside it, at another tolerance: their difference
+/// estimates the first one's error, amplified along the motion as it is.
+class CompanionDriver final : public Driver {
+ public:
+  using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
+  /// `make` gives a driver of the scene, of `bodies` bodies.
+  CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make);
+
+  void step() override;
+  double time() const override { return main_->time(); }
+  void read(std::span<BodyState> out) const override { main_->read(out); }
+  void write(std::size_t body, const BodyState& state) override;
+  std::vector<std::byte> save() const override;
+  void restore(std::span<const std::byte> snapshot) override;
+  const Plan& plan() const override { return main_->plan(); }
+  void profile(bool on) override { main_->profile(on); }
+  Statistics statistics() const override;
+
+ private:
+  void restore_parts(std::span<const std::byte> snapshot);
+
+  std::unique_ptr<Driver> main_, companion_;
+  std::vector<BodyState> states_, companion_states_;
+  ErrorEstimate error_{};
+};
+
+}  // namespace plumb::precise
