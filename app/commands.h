@@ -17,7 +17,7 @@ void add_run(CLI::App& app, Action& chosen);
 void add_scene(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
-void add_window(CLI::App& app);  ///< demo
+void add_window(CLI::App& app);  ///< demo and view
 
 /// Replaces this program by the benchmarks beside it. Returns only when that fails: throws `Error` (Io).
 int run_bench(int argc, char** argv);

@@ -49,7 +49,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
     return kUsage;
   }
   if (first == "bench") return run_bench(argc, argv);
-  if (first == "demo") return run_window(argc, argv);
+  if (first == "demo" || first == "view") return run_window(argc, argv);
   if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
     throw UsageError(
         fmt::format("there is no subcommand '{}'{}; see `plumb --help`", first, did_you_mean(first, names)));

@@ -70,8 +70,9 @@ scenarios::Instance one_instance(const std::string& name, int size) {
 
 Source load(const std::string& name_or_file, int size) {
   if (!is_file(name_or_file)) {
-    scenarios::Problem problem = one_instance(name_or_file, size).build();
-    return {std::move(problem.scene), problem.duration};
+    const scenarios::Instance instance = one_instance(name_or_file, size);
+    scenarios::Problem problem = instance.build();
+    return {std::move(problem.scene), problem.duration, instance};
   }
   if (size > 0)
     throw Error(Error::Kind::Value, "--size", "", std::to_string(size),

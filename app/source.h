@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/scene/scene.h"
@@ -14,7 +15,8 @@ namespace plumb::app {
 /// A scene to run, and for how long if nothing else is said.
 struct Source {
   Scene scene;
-  double duration = 10;  ///< s
+  double duration = 10;                           ///< s
+  std::optional<scenarios::Instance> instance{};  ///< of a scenario, that the scene is
 };
 
 /// Adds --size: how large a scenario that scales is.

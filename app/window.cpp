@@ -20,6 +20,8 @@ constexpr const char* kMissing =
 
 void add_window(CLI::App& app) {
   app.add_subcommand("demo", "play the demos of the course in a window")->prefix_command();
+  app.add_subcommand("view", "a scenario or a scene in a window, against its truth and other engines")
+      ->prefix_command();
 }
 
 int run_window(int, char** argv) {

@@ -1,4 +1,5 @@
-// `plumb demo`: the program that has the window. `plumb` starts it.
+// `plumb demo` and `plumb view`: the program that has the window. `plumb` starts it.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -16,7 +17,9 @@
 #include "app/usage.h"
 #include "demos/core/registry.h"
 #include "demos/window/run.h"
+#include "demos/window/view.h"
 #include "engine/scene/error.h"
+#include "engine/scene/suggest.h"
 
 namespace plumb::app {
 namespace {
@@ -27,7 +30,7 @@ using window::Player;
 // What both subcommands take, as it is given.
 struct Given {
   std::string name, script, screenshot, seconds, dt, theme = "dark";
-  std::vector<std::string> settings, drawings;
+  std::vector<std::string> settings, drawings, ghosts;
   int width = 1280, height = 800, colours = 0, frames = 0, size = 0;
   bool list = false, headless = false, bare = false;
 };
@@ -116,6 +119,36 @@ int run_demo(const Given& given) {
   return play(player, given);
 }
 
+void show_ghosts(Player& player, const std::vector<std::string>& names) {
+  window::Companion& companion = *player.companion();
+  for (const std::string& name : names) {
+    std::vector<std::string> known;
+    for (const window::Ghost& ghost : companion.ghosts()) known.push_back(ghost.name);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw UsageError(fmt::format("there is no engine '{}'{}", name, did_you_mean(name, known)));
+    companion.show_ghost(static_cast<std::size_t>(found - known.begin()), true);
+  }
+}
+
+// The whole catalogue, opened at what is asked for; a scene from a file stands alone.
+int run_view(const Given& given) {
+  std::vector<Item> items;
+  std::size_t first = 0;
+  const Source source = load(given.name, given.size);
+  if (source.instance) {
+    items = window::scenario_items();
+    const std::string label = source.instance->label();
+    while (first < items.size() && items[first].name != label) ++first;
+    if (first == items.size()) items.push_back(window::scenario_item(*source.instance));
+  } else {
+    items = {window::scene_item(source.scene, source.duration)};
+  }
+  Player player(items, first);
+  show_ghosts(player, given.ghosts);
+  return play(player, given);
+}
+
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app("plumb's window", "plumb");
@@ -128,6 +161,15 @@ int main(int argc, char** argv) {
   demo->footer(
       "Examples:\n  plumb demo\n  plumb demo ragdoll --theme light\n"
       "  plumb demo bouncing_ball --headless --seconds 2 --screenshot ball.png");
+  CLI::App* view = app.add_subcommand("view", "watch a scenario against its truth and other engines");
+  view->add_option("name", given.name, "a scenario or a scene file")->required()->type_name("NAME|FILE");
+  add_size(*view, given.size);
+  view->add_option("--ghost", given.ghosts, "draw this engine over plumb, or the truth (again for more)")
+      ->type_name("ENGINE");
+  add_options(*view, given);
+  view->footer(
+      "Examples:\n  plumb view pendulum_chain --size 5 --ghost box2d\n  plumb view scene.json\n"
+      "  plumb view kepler --headless --seconds 5 --screenshot kepler.png");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -138,7 +180,7 @@ int main(int argc, char** argv) {
       throw UsageError(fmt::format("{}; see `{} --help`", error.what(), where));
     });
   }
-  return reporting_errors([&] { return run_demo(given); });
+  return reporting_errors([&] { return view->parsed() ? run_view(given) : run_demo(given); });
 }
 
 }  // namespace

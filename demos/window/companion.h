@@ -23,7 +23,7 @@ class Companion {
   virtual std::string about() const = 0;  ///< a line or two for the panel
   virtual std::vector<demos::Figure> figures(const demos::Demo& demo) = 0;
   virtual const std::vector<Ghost>& ghosts() const = 0;
-  virtual void show_ghost(std::size_t ghost, bool shown) = 0;
+  virtual void show_ghost(std::size_t ghost, bool shown) = 0;  ///< from the next step or picture on
   virtual void draw(Painter& out, const demos::Demo& demo) = 0;
 };
 

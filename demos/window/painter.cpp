@@ -8,6 +8,7 @@
 namespace plumb::window {
 namespace {
 
+constexpr double kDot = 2;          // px, radius of a shape that is smaller
 constexpr double kPoint = 3;        // px, radius of a point
 constexpr double kGridStep = 70;    // px, at least so far apart
 constexpr std::size_t kFewest = 2;  // corners of what has an inside
@@ -35,6 +36,13 @@ Paint Painter::paint_of(DrawRole role) const {
 void Painter::shape(std::span<const Vec2d> corners, double radius, DrawRole role) {
   pixels_.clear();
   for (const Vec2d& corner : corners) pixels_.push_back(camera_.to_pixel(corner));
+  // What is too small to be seen is a dot.
+  const Vec2d first = pixels_.front();
+  const auto near = [&](Vec2d pixel) { return length_squared(pixel - first) < kDot * kDot; };
+  if (radius * camera_.scale() < kDot && std::ranges::all_of(pixels_, near)) {
+    const Vec2d dot[] = {first};
+    return canvas_.paint(dot, kDot, filled(line_colour(paint_of(role))));
+  }
   canvas_.paint(pixels_, radius * camera_.scale(), paint_of(role));
 }
 

@@ -36,6 +36,9 @@ class Painter : public DebugDraw {
   /// Lines a whole number of 1, 2 or 5 times a power of ten m apart, and how long one such step is.
   void grid();
 
+  /// The colour of the n-th ghost.
+  Colour ghost(int n) const { return theme_.ghost(n); }
+
   const std::vector<Label>& labels() const { return labels_; }
 
  private:

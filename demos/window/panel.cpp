@@ -86,20 +86,23 @@ void draw_figures(const Player& player) {
     std::snprintf(text, sizeof text, "%.4g %s", series.last(), series.unit().c_str());
     const std::vector<float> values = series.values();
     ImGui::PlotLines(("##" + series.name()).c_str(), values.data(), static_cast<int>(values.size()), 0,
-                     nullptr, FLT_MAX, FLT_MAX, {90, 20});
+                     nullptr, FLT_MAX, FLT_MAX, {58, 20});
     ImGui::SameLine();
     ImGui::Text("%s", series.name().c_str());
-    ImGui::SameLine(230);
+    ImGui::SameLine(244);
     ImGui::TextUnformatted(text);
   }
 }
 
-void draw_ghosts(Companion& companion) {
+void draw_ghosts(Player& player, Companion& companion) {
   ImGui::TextWrapped("%s", companion.about().c_str());
   for (std::size_t i = 0; i < companion.ghosts().size(); ++i) {
     const Ghost& ghost = companion.ghosts()[i];
     bool shown = ghost.shown;
+    const Colour colour = player.theme.ghost(static_cast<int>(i));
+    ImGui::PushStyleColor(ImGuiCol_CheckMark, packed(colour));
     if (ImGui::Checkbox(ghost.name.c_str(), &shown)) companion.show_ghost(i, shown);
+    ImGui::PopStyleColor();
     if (!ghost.remark.empty()) {
       ImGui::SameLine();
       ImGui::TextDisabled("%s", ghost.remark.c_str());
@@ -120,7 +123,7 @@ void draw_options(Player& player) {
       {"names", &options.names},       {"sleep", &player.sleep_shows}, {"dark", &player.theme.dark}};
   int column = 0;
   for (const Box& box : boxes) {
-    if (column % 3 != 0) ImGui::SameLine(8 + 104.0f * static_cast<float>(column % 3));
+    if (column % 3 != 0) ImGui::SameLine(8 + 112.0f * static_cast<float>(column % 3));
     ImGui::Checkbox(box.label, box.value);
     ++column;
   }
@@ -161,7 +164,7 @@ void draw_panel(Player& player, double width) {
   draw_figures(player);
   if (player.companion() != nullptr) {
     ImGui::Separator();
-    draw_ghosts(*player.companion());
+    draw_ghosts(player, *player.companion());
   }
   ImGui::Separator();
   draw_options(player);
@@ -174,7 +177,7 @@ void draw_message(const Player& player) {
   if (player.paused) text = text.empty() ? "paused" : "paused: " + text;
   if (text.empty()) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float left = player.panel ? 340 : 12;
+  const float left = player.panel ? 370 : 12;
   ImGui::GetBackgroundDrawList()->AddText({left, size.y - 24}, packed(player.theme.text()), text.c_str());
 }
 

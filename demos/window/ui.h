@@ -34,7 +34,7 @@ class Ui {
   /// The picture of the player as it is; the panel may change it.
   void frame(Player& player, const PanelInput& input, Canvas& canvas);
 
-  static constexpr double kPanelWidth = 330;  ///< px
+  static constexpr double kPanelWidth = 360;  ///< px
 
  private:
   ImGuiContext* context_;

@@ -1,0 +1,154 @@
+#include "demos/core/view_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "engine/geometry/convex_hull.h"
+#include "engine/math/trigonometry.h"
+
+namespace plumb::demos {
+namespace {
+
+constexpr double kReach = 20;  // the view is so many times as large as the reach of the pointer
+
+// Where something was drawn.
+class Bounds final : public DebugDraw {
+ public:
+  void polygon(std::span<const Vec2d> corners, double radius, DrawRole) override {
+    for (const Vec2d& corner : corners) reach(corner, radius);
+  }
+  void circle(Vec2d centre, double radius, Vec2d, DrawRole) override { reach(centre, radius); }
+  void capsule(Vec2d start, Vec2d end, double radius, DrawRole) override {
+    reach(start, radius), reach(end, radius);
+  }
+  void segment(Vec2d start, Vec2d end, DrawRole) override { reach(start, 0), reach(end, 0); }
+  void point(Vec2d point, DrawRole) override { reach(point, 0); }
+  void text(Vec2d, std::string_view, DrawRole) override {}
+
+  bool empty() const { return !(box.lower.x <= box.upper.x); }
+
+  Aabb<double> box{{kFar, kFar}, {-kFar, -kFar}};
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  void reach(Vec2d point, double radius) { box = merged(box, Aabb<double>{point, point}.grown(radius)); }
+};
+
+struct Placed {
+  Vec2d position{};
+  Rotation<double> rotation;
+  Vec2d operator()(Vec2d point) const { return position + rotation * point; }
+};
+
+void draw_shape(const Shape& shape, const Placed& body, DebugDraw& out, DrawRole role) {
+  const Rotation<double> own = rotation_of(shape.angle);
+  const auto at = [&](Vec2d point) { return body(shape.position + own * point); };
+  if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
+    out.circle(at({}), circle->radius, body.rotation * (own * Vec2d{1, 0}), role);
+  } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    const double x = box->width / 2, y = box->height / 2;
+    const Vec2d corners[] = {at({-x, -y}), at({x, -y}), at({x, y}), at({-x, y})};
+    out.polygon(corners, 0, role);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
+    out.capsule(at(capsule->start), at(capsule->end), capsule->radius, role);
+  } else if (const auto* polygon = std::get_if<Polygon>(&shape.geometry)) {
+    std::vector<Vec2d> corners;
+    for (const Corner<double>& corner : convex_hull(polygon->points)) corners.push_back(at(corner.point));
+    out.polygon(corners, polygon->radius, role);
+  } else if (const auto* segment = std::get_if<Segment>(&shape.geometry)) {
+    out.segment(at(segment->start), at(segment->end), role);
+  } else if (const auto* chain = std::get_if<Chain>(&shape.geometry)) {
+    const std::size_t count = chain->points.size();
+    for (std::size_t i = chain->closed ? 0 : 1; i < count; ++i)
+      out.segment(at(chain->points[(i + count - 1) % count]), at(chain->points[i]), role);
+  }
+}
+
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names(std::begin(kSolverNames), std::end(kSolverNames));
+  for (std::string& name : names) std::ranges::replace(name, '_', ' ');
+  return names;
+}
+
+About about_of(const Scene& scene, const std::string& summary) {
+  return {.name = scene.name.empty() ? "scene" : scene.name,
+          .summary = summary,
+          .play = summary + (summary.empty() ? "" : ". ") + "Drag bodies with the pointer."};
+}
+
+std::vector<BodyState> start_of(const Scene& scene) {
+  std::vector<BodyState> states;
+  for (const Body& body : scene.bodies)
+    states.push_back({body.position, body.angle, body.velocity, body.angular_velocity});
+  return states;
+}
+
+}  // namespace
+
+void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRole role) {
+  const Placed placed{state.position, rotation_of(state.angle)};
+  for (const Shape& shape : body.shapes) draw_shape(shape, placed, out, role);
+  if (body.shapes.empty()) out.point(state.position, role);
+}
+
+Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states) {
+  Bounds moving, all;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    draw_body(scene.bodies[i], states[i], all, DrawRole::Awake);
+    if (scene.bodies[i].type != BodyType::Static)
+      draw_body(scene.bodies[i], states[i], moving, DrawRole::Awake);
+  }
+  if (!moving.empty()) return moving.box;
+  return all.empty() ? Aabb<double>{{-1, -1}, {1, 1}} : all.box;
+}
+
+SceneDemo::SceneDemo(const Scene& scene, const std::string& summary, std::optional<Aabb<double>> view)
+    : WorldDemo(about_of(scene, summary)), scene_(scene) {
+  add_choice("solver", solver_names(), solver_, "how contacts and joints are held");
+  add_slider("iterations", "", 1, 50, iterations_, "sweeps a substep, where the solver has them");
+  add_step_controls();
+  if (view) {
+    view_ = *view;
+  } else {
+    const Aabb<double> box = bounds_of(scene_, start_of(scene_));
+    view_ = box.grown(0.3 * box.half_perimeter());
+  }
+  restart();
+}
+
+WorldDefinition SceneDemo::definition() const {
+  WorldDefinition definition = world_definition(scene_);
+  definition.sleeping = false;
+  definition.solver = static_cast<Solver>(solver_);
+  definition.iterations = iterations_;
+  return definition;
+}
+
+void SceneDemo::fill() {
+  parts_ = add_scene(world_, scene_);
+  forces_.emplace(scene_, parts_);
+}
+
+void SceneDemo::changed(std::string_view control) {
+  if (control == "solver") world_.set_solver(static_cast<Solver>(solver_));
+  if (control == "iterations") world_.set_iterations(iterations_);
+}
+
+void SceneDemo::read_states(std::span<BodyState> out) const {
+  for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
+}
+
+void SceneDemo::press(Vec2d point) { grab(point, view_.half_perimeter() / kReach); }
+void SceneDemo::release(Vec2d) { let_go(); }
+
+std::vector<Figure> SceneDemo::figures() const {
+  const Totals totals = totals_of(world_);
+  return {{"time", time(), "s"},
+          {"momentum x", totals.momentum.x, "kg m/s"},
+          {"momentum y", totals.momentum.y, "kg m/s"},
+          {"kinetic energy", totals.energy, "J"}};
+}
+
+}  // namespace plumb::demos

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "demos/core/world_demo.h"
+#include "engine/scene/scene.h"
+#include "engine/world/scene_forces.h"
+
+namespace plumb::demos {
+
+/// Any scene as a demo: bodies can be dragged, and the step, the substeps and the solver chosen. Nothing
+/// sleeps.
+class SceneDemo final : public WorldDemo {
+ public:
+  /// `view`: what to show, m; without it what moves at the start. Throws Error as `add_scene`.
+  SceneDemo(const Scene& scene, const std::string& summary, std::optional<Aabb<double>> view = {});
+
+  const Scene& scene() const { return scene_; }
+  /// The state of every body, in the scene's order.
+  void read_states(std::span<BodyState> out) const;
+
+  void press(Vec2d point) override;
+  void drag(Vec2d point) override { pull(point); }
+  void release(Vec2d point) override;
+  std::vector<Figure> figures() const override;
+  Aabb<double> view() const override { return view_; }
+
+ private:
+  WorldDefinition definition() const override;
+  void fill() override;
+  void before_step() override { forces_->apply(world_, dt_); }
+  void changed(std::string_view control) override;
+
+  Scene scene_;
+  SceneParts parts_;
+  std::optional<SceneForces<DemoReal>> forces_;
+  Aabb<double> view_{};
+  int solver_ = 0, iterations_ = 10;
+};
+
+/// A box around what a scene's bodies that are not static, or else all, look like in these states (in the
+/// scene's order), m.
+Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
+
+/// Draws the shapes of one body of a scene in a state.
+void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRole role);
+
+}  // namespace plumb::demos
