@@ -188,6 +188,7 @@ Parts divide(const Scene& scene) {
   Parts parts;
   parts.apart = kept_apart(scene, index);
   std::vector<char> integrated = not_flying(scene, index);
+  parts.ballistic = std::none_of(integrated.begin(), integrated.end(), [](char is) { return is != 0; });
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (const Shape& shape : scene.bodies[i].shapes) {
       if (partner(scene, parts, i, shape) == i) continue;

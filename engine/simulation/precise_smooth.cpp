@@ -43,6 +43,7 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       switches_(parts.switches),
       equations_(equations),
       method_(precise.method),
+      ballistic_(parts.ballistic),
       explicit_(equations.dimension()),
       implicit_(equations.dimension()),
       stiff_motion_(scene, parts, equations),
@@ -81,6 +82,10 @@ double SmoothMotion::step(double limit) {
   y_before_ = y0_;
   start_ = time_;
   y0_ = y_;
+  if (flies()) {
+    fly(limit);
+    return limit;
+  }
   set_error_scale();
   if (method_ == MotionMethod::Symplectic) return symplectic_step(limit);
   if (jumped_) proposed_step_ = std::min(proposed_step_, kAfterJump * first_step());
@@ -106,6 +111,27 @@ double SmoothMotion::step(double limit) {
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
+}
+
+/// Under constant forces alone a step is its parabola, of any length, and the accelerations stay.
+void SmoothMotion::fly(double end) {
+  const double h = end - start_;
+  const std::span<const double> rate = rate_at_start();
+  const std::span<double> last = explicit_.last_rate();
+  polynomial_.set_nodes(std::array{0.0, 1.0});
+  const std::span<double> whole = polynomial_.term(1), bend = polynomial_.term(2);
+  y_ = y0_;
+  for (std::size_t i = 0; i < y_.size(); ++i) {
+    const bool place = i % kPerBody < 3;
+    const double gained = place ? h * rate[i + 3] : 0;  // of speed
+    bend[i] = 0.5 * h * gained;
+    whole[i] = h * rate[i] + bend[i];
+    last[i] = rate[i] + gained;
+    y_.add(i, whole[i]);
+  }
+  time_ = end;
+  last_implicit_ = jumped_ = false;
+  polynomial_known_ = rate_known_ = true;
 }
 
 /// Over a place where the mechanism is singular: rates there are lost to rounding, but the motion is smooth.
@@ -223,65 +249,6 @@ void SmoothMotion::accept(double end, double error) {
   if (method_ == MotionMethod::Automatic && equations_.held().empty()) watch_stiffness();
 }
 
-/// Steps are held short by stability alone: go on with the implicit method. They have become so long that the
-/// explicit one would have to be as short as they are: go on with that.
-void SmoothMotion::watch_stiffness() {
-  constexpr double kStable = 6.1;  // of DOP853, in lengths of step times rates
-  constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
-  const double h = time_ - start_;
-  if (!stiff_) {
-    rate_at_end();
-    if (explicit_.stiffness(h, y_.value(), error_scale_) > kStable) {
-      steps_without_ = 0;
-      if (++signs_of_stiffness_ < kSigns) return;
-    } else {
-      if (++steps_without_ >= kPause) signs_of_stiffness_ = 0;
-      return;
-    }
-  } else {
-    if (++steps_without_ < kLookEvery) return;
-    steps_without_ = 0;
-    if (h * fastest_rate() > kStable / 2) return;
-  }
-  stiff_ = !stiff_;
-  signs_of_stiffness_ = steps_without_ = 0;
-  control_.reset();
-  implicit_.forget();
-}
-
-/// About the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
-/// rates: two applications at a time, because positions and velocities take turns in an oscillation.
-double SmoothMotion::fastest_rate() {
-  constexpr double kShift = 1e-7;
-  constexpr int kPairs = 3;
-  const std::span<const double> rate = rate_at_end();
-  std::vector<double> y(y_.size()), out(y_.size()), direction(y_.size());
-  for (std::size_t i = 0; i < direction.size(); ++i) {  // any that has a part of every mode
-    const double mixed = static_cast<double>(static_cast<std::uint32_t>(i + 1) * 2654435761u) / 4294967296.0;
-    direction[i] = error_scale_[i] * (mixed - 0.5);
-  }
-  const auto size = [&](std::span<const double> v) {
-    double largest = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      largest = std::max(largest, std::abs(v[i]) * (tolerance_ / error_scale_[i]));
-    }
-    return largest;
-  };
-  double growth = 0;
-  for (int pair = 0; pair < kPairs; ++pair) {
-    growth = 1;
-    for (int i = 0; i < 2; ++i) {
-      const double before = size(direction);
-      if (!(before > 0) || !std::isfinite(before)) return 0;
-      for (std::size_t k = 0; k < y.size(); ++k) y[k] = y_[k] + direction[k] * (kShift / before);
-      equations_.rate(time_, y, out);
-      for (std::size_t k = 0; k < y.size(); ++k) direction[k] = (out[k] - rate[k]) / kShift;
-      growth *= size(direction);
-    }
-  }
-  return std::sqrt(growth);
-}
-
 /// The proposed step, or an equal share of the way to `limit`: no short last step.
 double SmoothMotion::end_of_step(double limit) const {
   const double left = limit - start_;
@@ -342,7 +309,9 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
 }
 
 void SmoothMotion::cut(double time) {
-  if (y_.size() > 0 && last_implicit_) {
+  if (y_.size() > 0 && flies()) {
+    fly(time);
+  } else if (y_.size() > 0 && last_implicit_) {
     implicit_.forget();
     const bool found =
         implicit_.step(stiff_motion_, start_, time - start_, y0_.value(), rate_at_start(), error_scale_);

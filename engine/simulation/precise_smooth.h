@@ -82,6 +82,8 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
+  bool flies() const { return ballistic_ && equations_.held().empty(); }
+  void fly(double end);
   bool leap(double limit);
   double symplectic_step(double limit);
   double longest_symplectic_step();
@@ -105,6 +107,7 @@ class SmoothMotion {
   std::vector<std::string> redundant_joints_;
   EquationsOfMotion& equations_;
   const MotionMethod method_;
+  const bool ballistic_;  // but for contacts
   Dop853 explicit_;
   Radau implicit_;
   StiffMotion stiff_motion_;

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/simulation/precise_smooth.h"
+
+// When the explicit method gives way to the implicit one, and the other way round.
+namespace plumb::precise {
+
+/// Steps are held short by stability alone: go on with the implicit method. They have become so long that the
+/// explicit one would have to be as short as they are: go on with that.
+void SmoothMotion::watch_stiffness() {
+  constexpr double kStable = 6.1;  // of DOP853, in lengths of step times rates
+  constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
+  const double h = time_ - start_;
+  if (!stiff_) {
+    rate_at_end();
+    if (explicit_.stiffness(h, y_.value(), error_scale_) > kStable) {
+      steps_without_ = 0;
+      if (++signs_of_stiffness_ < kSigns) return;
+    } else {
+      if (++steps_without_ >= kPause) signs_of_stiffness_ = 0;
+      return;
+    }
+  } else {
+    if (++steps_without_ < kLookEvery) return;
+    steps_without_ = 0;
+    if (h * fastest_rate() > kStable / 2) return;
+  }
+  stiff_ = !stiff_;
+  signs_of_stiffness_ = steps_without_ = 0;
+  control_.reset();
+  implicit_.forget();
+}
+
+/// About the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
+/// rates: two applications at a time, because positions and velocities take turns in an oscillation.
+double SmoothMotion::fastest_rate() {
+  constexpr double kShift = 1e-7;
+  constexpr int kPairs = 3;
+  const std::span<const double> rate = rate_at_end();
+  std::vector<double> y(y_.size()), out(y_.size()), direction(y_.size());
+  for (std::size_t i = 0; i < direction.size(); ++i) {  // any that has a part of every mode
+    const double mixed = static_cast<double>(static_cast<std::uint32_t>(i + 1) * 2654435761u) / 4294967296.0;
+    direction[i] = error_scale_[i] * (mixed - 0.5);
+  }
+  const auto size = [&](std::span<const double> v) {
+    double largest = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      largest = std::max(largest, std::abs(v[i]) * (tolerance_ / error_scale_[i]));
+    }
+    return largest;
+  };
+  double growth = 0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    growth = 1;
+    for (int i = 0; i < 2; ++i) {
+      const double before = size(direction);
+      if (!(before > 0) || !std::isfinite(before)) return 0;
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] = y_[k] + direction[k] * (kShift / before);
+      equations_.rate(time_, y, out);
+      for (std::size_t k = 0; k < y.size(); ++k) direction[k] = (out[k] - rate[k]) / kShift;
+      growth *= size(direction);
+    }
+  }
+  return std::sqrt(growth);
+}
+
+}  // namespace plumb::precise
