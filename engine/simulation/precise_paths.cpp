@@ -30,7 +30,7 @@ void StepPaths::take(SmoothMotion& motion) {
     if (slot_[body] >= 0) {
       follow_integrated(body, slot_[body], motion);
     } else {
-      follow_flight(body);
+      follow_parabola(body, flight_.at(body, start_).state, flight_.at(body, end_).state);
     }
   }
 }
@@ -60,6 +60,11 @@ void StepPaths::follow_integrated(std::size_t body, int slot, SmoothMotion& moti
   const BodyState from =
       EquationsOfMotion::state(motion.state_at_start().value(), static_cast<std::size_t>(slot));
   const StepPolynomial& path = motion.polynomial();
+  if (path.degree() == 2) {
+    follow_parabola(body, from,
+                    EquationsOfMotion::state(motion.state().value(), static_cast<std::size_t>(slot)));
+    return;
+  }
   const std::size_t first = kPerBody * static_cast<std::size_t>(slot);
   const auto range = [](const Bernstein<kControls>& c) {
     const auto [low, high] = std::minmax_element(c.begin(), c.end());
@@ -86,22 +91,22 @@ void StepPaths::follow_integrated(std::size_t body, int slot, SmoothMotion& moti
   turning.acceleration *= 1 + kMargin;
 }
 
-void StepPaths::follow_flight(std::size_t body) {
-  const Motion from = flight_.at(body, start_), to = flight_.at(body, end_);
+void StepPaths::follow_parabola(std::size_t body, const BodyState& from, const BodyState& to) {
   Path& p = paths_[body];
+  const double h = end_ - start_;
   // The Bernstein points of a parabola: its ends, and where its end tangents meet.
-  const Vec2d middle = from.state.position + (0.5 * (end_ - start_)) * from.state.velocity;
-  const Vec2d a = from.state.position, b = to.state.position;
+  const Vec2d a = from.position, b = to.position, middle = a + (0.5 * h) * from.velocity;
   p.hull = {{std::min({a.x, b.x, middle.x}), std::min({a.y, b.y, middle.y})},
             {std::max({a.x, b.x, middle.x}), std::max({a.y, b.y, middle.y})}};
-  const double swing = std::max(std::abs(from.state.angular_velocity), std::abs(to.state.angular_velocity));
-  p.turned = swing * (end_ - start_);
+  const double swing = std::max(std::abs(from.angular_velocity), std::abs(to.angular_velocity));
+  p.turned = swing * h;
   for (std::size_t j = 0; j < kControls; ++j) {
     const double share = static_cast<double>(j) / (kControls - 1);
-    const Vec2d v = (1 - share) * from.state.velocity + share * to.state.velocity;
+    const Vec2d v = (1 - share) * from.velocity + share * to.velocity;
     p.vx[j] = v.x, p.vy[j] = v.y;
   }
-  turning_[body] = {swing * (1 + kMargin), std::abs(from.angular_acceleration) * (1 + kMargin)};
+  turning_[body] = {swing * (1 + kMargin),
+                    std::abs(to.angular_velocity - from.angular_velocity) / h * (1 + kMargin)};
 }
 
 StepPaths::Relative StepPaths::relative(std::size_t a, std::size_t b) const {

@@ -55,7 +55,7 @@ class StepPaths {
   };
 
   void follow_integrated(std::size_t body, int slot, SmoothMotion& motion);
-  void follow_flight(std::size_t body);
+  void follow_parabola(std::size_t body, const BodyState& from, const BodyState& to);
 
   const Flight& flight_;
   std::vector<int> slot_;  // by body: among the integrated ones, or -1
