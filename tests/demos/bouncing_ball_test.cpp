@@ -160,7 +160,8 @@ TEST(BouncingBall, AClickMovesIt) {
 TEST(BouncingBall, SamePathOnAnyFrameRate) {
   const auto play = [](const std::vector<double>& frames) {
     const std::unique_ptr<Demo> demo = make("bouncing_ball");
-    for (std::size_t i = 0; demo->step_count() < 240; ++i) demo->advance(frames[i % frames.size()]);
+    for (std::size_t i = 0; i < 2000 && demo->step_count() < 240; ++i)
+      demo->advance(frames[i % frames.size()]);
     EXPECT_EQ(demo->step_count(), 240);
     return demo->hash();
   };

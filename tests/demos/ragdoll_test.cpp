@@ -133,10 +133,74 @@ TEST(Ragdoll, MoreIterationsHoldSticksBetter) {
   EXPECT_LT(gaps.back(), 0.2 * gaps.front());
 }
 
+// How far parts of the figure are apart that are to be together or at their distance, beside what they were
+// at the start, m. Hinges stand where the figure is drawn to have them: here about the hip at (2.2, 5).
+class Shape {
+ public:
+  explicit Shape(const Demo& demo) : demo_(demo) {
+    const auto add = [&](const char* a, int i, const char* b, int j, Vec2d at_a, Vec2d at_b) {
+      const BodyId body_a = bodies_called(demo, a).at(static_cast<std::size_t>(i));
+      const BodyId body_b = bodies_called(demo, b).at(static_cast<std::size_t>(j));
+      parts_.push_back({body_a, body_b, demo.world()->local_point(body_a, at_a),
+                        demo.world()->local_point(body_b, at_b), std::sqrt(length_squared(at_b - at_a))});
+    };
+    if (demo.control("joints").value == 0) {
+      const Vec2d hip{2.2, 5.0};
+      const auto hinge = [&](const char* a, int i, const char* b, int j, Vec2d at) {
+        add(a, i, b, j, hip + at, hip + at);
+      };
+      hinge("torso", 0, "head", 0, {0, 0.61});
+      for (const int i : {0, 1}) {
+        const double side = 2 * i - 1;
+        hinge("torso", 0, "upper arm", i, {side * 0.2, 0.54});
+        hinge("upper arm", i, "forearm", i, {side * 0.2, 0.26});
+        hinge("torso", 0, "thigh", i, {side * 0.1, 0.02});
+        hinge("thigh", i, "shin", i, {side * 0.1, -0.4});
+      }
+      return;
+    }
+    const auto stick = [&](const char* a, int i, const char* b, int j) {
+      add(a, i, b, j, demo.world()->centre(bodies_called(demo, a).at(static_cast<std::size_t>(i))),
+          demo.world()->centre(bodies_called(demo, b).at(static_cast<std::size_t>(j))));
+    };
+    stick("shoulder", 0, "shoulder", 1);
+    stick("hip", 0, "hip", 1);
+    for (const int i : {0, 1}) {
+      stick("head", 0, "shoulder", i);
+      stick("shoulder", i, "hip", 0);
+      stick("shoulder", i, "hip", 1);
+      stick("shoulder", i, "elbow", i);
+      stick("elbow", i, "hand", i);
+      stick("hip", i, "knee", i);
+      stick("knee", i, "foot", i);
+    }
+  }
+
+  double worst() const {
+    double worst = 0;
+    for (const Parts& each : parts_) {
+      const Vec2d a = demo_.world()->world_point(each.a, each.at_a);
+      const Vec2d b = demo_.world()->world_point(each.b, each.at_b);
+      worst = std::max(worst, std::abs(std::sqrt(length_squared(b - a)) - each.apart));
+    }
+    return worst;
+  }
+
+ private:
+  struct Parts {
+    BodyId a, b;
+    Vec2d at_a, at_b;  // m, in their frames
+    double apart = 0;  // m
+  };
+  const Demo& demo_;
+  std::vector<Parts> parts_;
+};
+
 // The pointer takes the figure by the middle and swings it about: what is joined stays joined.
 TEST_P(EitherWay, TheRagdollHoldsItsShapeWhenDragged) {
   const Vec2d middle{2.2 + (sticks() ? 0.1 : 0), 5.0 + (sticks() ? 0.02 : 0.3)};  // a hip, or the torso
   demo_->press(middle);
+  const Shape shape(*demo_);
   double worst = 0, farthest = 0;
   const BodyId part = body_called(*demo_, sticks() ? "hip" : "torso");
   for (int i = 0; i < 240; ++i) {
@@ -144,11 +208,11 @@ TEST_P(EitherWay, TheRagdollHoldsItsShapeWhenDragged) {
     const Vec2d pointer = middle + Vec2d{-1.5 * std::sin(3 * t), 0.5 * std::sin(6 * t)};
     demo_->drag(pointer);
     demo_->step_once();
-    worst = std::max(worst, figure(*demo_, "widest gap of a joint"));
+    worst = std::max(worst, shape.worst());
     if (i > 30) farthest = std::max(farthest, std::sqrt(length_squared(world().centre(part) - pointer)));
   }
-  EXPECT_LT(worst, sticks() ? 40 : 0.003);  // mm
-  EXPECT_LT(farthest, 0.8);                 // it comes along
+  EXPECT_LT(worst, sticks() ? 0.04 : 3e-6);  // m
+  EXPECT_LT(farthest, 0.8);                  // it comes along
 }
 
 // Dropped, it falls, hits the obstacles, turns over, and comes to rest lying low.
@@ -157,10 +221,11 @@ TEST_P(EitherWay, TheRagdollTumblesWhenDropped) {
   const double start = world().centre(head).y;
   const BodyId foot = body_called(*demo_, sticks() ? "foot" : "shin");
   EXPECT_GT(start - world().centre(foot).y, 1.2);
+  const Shape shape(*demo_);
   double worst = 0, fastest = 0, least = 10;
   for (int i = 0; i < 60 * 12; ++i) {
     demo_->step_once();
-    worst = std::max(worst, figure(*demo_, "widest gap of a joint"));
+    worst = std::max(worst, shape.worst());
     fastest = std::max(fastest, std::sqrt(length_squared(world().velocity(head))));
     least = std::min(least, world().centre(head).y - world().centre(foot).y);
   }
@@ -168,29 +233,39 @@ TEST_P(EitherWay, TheRagdollTumblesWhenDropped) {
   EXPECT_GT(fastest, 3);
   EXPECT_LT(world().centre(head).y, start - 2);
   EXPECT_LT(figure(*demo_, "kinetic energy"), 5);
-  EXPECT_LT(worst, sticks() ? 100 : 0.03);  // mm, where it hits something
+  EXPECT_LT(worst, sticks() ? 0.1 : 3e-5);  // m, where it hits something
 }
 
 // Elbows and knees turn as far as they may, and no farther.
 TEST(Ragdoll, JointsStayWithinTheirLimits) {
+  struct Turns {
+    const char* part;
+    double least, most;  // rad
+  };
+  constexpr Turns kTurns[] = {{"head", -0.5, 0.5},
+                              {"upper arm", -0.9, 2.8},
+                              {"forearm", -0.05, 2.4},
+                              {"thigh", -0.5, 1.9},
+                              {"shin", -2.4, 0.05}};
   const std::unique_ptr<Demo> demo = make("ragdoll");
   double worst = 0;
   int limited = 0;
   for (int i = 0; i < 60 * 6; ++i) {
     demo->step_once();
-    for (const char* part : {"head", "forearm", "shin", "thigh", "upper arm"}) {
-      for (const BodyId body : bodies_called(*demo, part)) {
+    for (const Turns& turns : kTurns) {
+      for (const BodyId body : bodies_called(*demo, turns.part)) {
         for (const JointId joint : demo->world()->joints(body)) {
-          const auto& hinge = std::get<RevoluteDefinition>(demo->world()->kind(joint));
-          const double angle = demo->world()->read(joint).angle;
-          worst = std::max({worst, hinge.limits->lower - angle, angle - hinge.limits->upper});
-          ++limited;
+          const auto [parent, part] = demo->world()->bodies(joint);
+          if (part != body) continue;
+          const double angle = demo->world()->angle(part) - demo->world()->angle(parent);
+          worst = std::max({worst, turns.least - angle, angle - turns.most});
+          limited += angle < turns.least + 0.02 || angle > turns.most - 0.02 ? 1 : 0;
         }
       }
     }
   }
-  EXPECT_GT(limited, 0);
-  EXPECT_LT(worst, 0.1);  // rad
+  EXPECT_GT(limited, 60);  // they are reached
+  EXPECT_LT(worst, 0.1);   // rad
 }
 
 // Let go while it is carried along, it flies on.
