@@ -1,0 +1,123 @@
+#include "demos/core/view_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/scene/error.h"
+#include "tests/demos/play.h"
+
+namespace plumb::demos {
+namespace {
+
+Scene oscillator() {
+  Scene scene{.name = "oscillator", .gravity = {0, 0}};
+  scene.bodies = {
+      {.name = "ball", .position = {1, 0}, .mass = 2, .shapes = {{.geometry = Circle{0.1}}}},
+      {.name = "free", .position = {0, 5}, .velocity = {1, 0}, .shapes = {{.geometry = Box{1, 1}}}}};
+  scene.forces = {SpringForce{.body_a = "world", .body_b = "ball", .stiffness = 8}};
+  return scene;
+}
+
+// Bodies move as the scene says, force laws too: x = cos(w t), w = sqrt(k / m) = 2 / s. The midpoint force of
+// a step is right to (w dt)^2 / 24 of the phase.
+TEST(ViewScene, FollowsTheScene) {
+  SceneDemo demo(oscillator(), "a spring");
+  EXPECT_EQ(demo.about().name, "oscillator");
+  std::vector<BodyState> states(2);
+  for (int n = 1; n <= 180; ++n) {
+    demo.step_once();
+    demo.read_states(states);
+    const double t = n * demo.dt(), phase = 2 * t;
+    EXPECT_NEAR(states[0].position.x, std::cos(phase), phase * 4 * demo.dt() * demo.dt() / 6);
+    EXPECT_NEAR(states[1].position.x, t, 1e-5);
+  }
+}
+
+TEST(ViewScene, SolversAndStepsAreChosen) {
+  SceneDemo demo(oscillator(), "a spring");
+  for (int i = 0; i < 5; ++i) {
+    demo.set("solver", i);
+    EXPECT_EQ(demo.world()->solver(), static_cast<Solver>(i));
+    steps(demo, 5);
+  }
+  demo.set("iterations", 50);
+  EXPECT_EQ(demo.world()->iterations(), 50);
+}
+
+TEST(ViewScene, ShowsWhatThereIsToSee) {
+  const Aabb<double> view = SceneDemo(oscillator(), "").view();
+  EXPECT_TRUE(view.contains({{0, -0.1}, {1.1, 5.5}}));
+  EXPECT_LT(view.half_perimeter(), 20);
+  const Aabb<double> given{{-1, -2}, {3, 4}};
+  EXPECT_EQ(SceneDemo(oscillator(), "", given).view().upper, given.upper);
+}
+
+TEST(ViewScene, BodiesCanBeDragged) {
+  SceneDemo demo(oscillator(), "");
+  std::vector<BodyState> states(2);
+  demo.press({0.3, 5.3});
+  demo.drag({2, 3});
+  steps(demo, 120);
+  demo.read_states(states);
+  EXPECT_NEAR(states[1].position.y, 3, 1);
+  demo.release({2, 3});
+  const std::vector<std::byte> saved = demo.save();
+  steps(demo, 30);
+  const std::uint64_t later = demo.hash();
+  demo.restore(saved);
+  steps(demo, 30);
+  EXPECT_EQ(demo.hash(), later);
+}
+
+// Outlines of a body in any state: what ghosts are drawn with.
+class Log : public DebugDraw {
+ public:
+  void polygon(std::span<const Vec2d> corners, double radius, DrawRole) override {
+    points.assign(corners.begin(), corners.end());
+    rounding = radius;
+  }
+  void circle(Vec2d centre, double radius, Vec2d, DrawRole) override { points = {centre}, rounding = radius; }
+  void capsule(Vec2d start, Vec2d end, double radius, DrawRole) override {
+    points = {start, end}, rounding = radius;
+  }
+  void segment(Vec2d start, Vec2d end, DrawRole) override { points = {start, end}, rounding = 0; }
+  void point(Vec2d point, DrawRole) override { points = {point}; }
+  void text(Vec2d, std::string_view, DrawRole) override {}
+  std::vector<Vec2d> points;
+  double rounding = -1;
+};
+
+void expect_points(const Log& log, const std::vector<Vec2d>& expected) {
+  ASSERT_EQ(log.points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(log.points[i].x, expected[i].x, 1e-12);
+    EXPECT_NEAR(log.points[i].y, expected[i].y, 1e-12);
+  }
+}
+
+// A body at (3, 4), turned by a quarter: a local point (x, y) is at (3 - y, 4 + x).
+TEST(ViewScene, DrawsBodiesWhereTheyAre) {
+  const BodyState state{.position = {3, 4}, .angle = std::acos(0.0)};
+  const auto drawn = [&](const Geometry& geometry) {
+    Log log;
+    draw_body({.name = "body", .shapes = {{.geometry = geometry, .position = {1, 0}}}}, state, log,
+              DrawRole::Awake);
+    return log;
+  };
+  expect_points(drawn(Circle{0.5}), {{3, 5}});
+  EXPECT_EQ(drawn(Circle{0.5}).rounding, 0.5);
+  expect_points(drawn(Box{2, 4}), {{5, 4}, {5, 6}, {1, 6}, {1, 4}});
+  expect_points(drawn(Capsule{{0, 1}, {0, 2}, 0.25}), {{2, 5}, {1, 5}});
+  expect_points(drawn(Segment{{0, 1}, {0, 2}}), {{2, 5}, {1, 5}});
+  expect_points(drawn(Polygon{{{0, 0}, {1, 0}, {0, 1}}, 0.1}), {{3, 5}, {3, 6}, {2, 5}});
+}
+
+TEST(ViewScene, RefusesWhatNoWorldHas) {
+  Scene scene = oscillator();
+  scene.bodies[0].mass = -1;
+  EXPECT_THROW(SceneDemo(scene, ""), Error);
+}
+
+}  // namespace
+}  // namespace plumb::demos
