@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""One HTML file that needs nothing else: bundle.py PAGE_FOLDER PROGRAM.wasm OUT.html
+
+The modules become one script: they are put in the order of their imports, and the lines that import and export are
+taken out. So no two may declare the same name at their top, and an import names what it takes as it is called.
+"""
+import base64
+import gzip
+import pathlib
+import re
+import sys
+
+IMPORT = re.compile(r'^import \{[^}]*\} from "\./([^"]+)";\n', re.MULTILINE)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:class|const|function) )", re.MULTILINE)
+DECLARED = re.compile(r"^(?:async )?(?:class|const|let|function\*?) (\w+)", re.MULTILINE)
+
+
+def ordered(folder, name, done):
+    """The modules that `name` needs and then itself, each once."""
+    if name not in done:
+        done[name] = None  # while its imports are read
+        text = (folder / name).read_text(encoding="utf-8")
+        for other in IMPORT.findall(text):
+            if other in done and done[other] is None:
+                sys.exit(f"bundle.py: {name} and {other} import each other")
+            ordered(folder, other, done)
+        done[name] = text
+        done[name] = done.pop(name)  # after what it needs
+    return done
+
+
+def script(folder):
+    parts, owner = [], {}
+    for name, text in ordered(folder, "main.mjs", {}).items():
+        text = EXPORT.sub("", IMPORT.sub("", text))
+        if re.search(r"^(?:import|export)\b", text, re.MULTILINE):
+            sys.exit(f"bundle.py: {name} imports or exports in a way that is not understood here")
+        for declared in DECLARED.findall(text):
+            if owner.setdefault(declared, name) != name:
+                sys.exit(f"bundle.py: {declared} is declared in {owner[declared]} and in {name}")
+        parts.append(f"// {name}\n{text}")
+    return "\n".join(parts).replace("</script", "<\\/script")
+
+
+def main():
+    folder, program, out = map(pathlib.Path, sys.argv[1:])
+    packed = base64.b64encode(gzip.compress(program.read_bytes(), 9, mtime=0)).decode()
+    values = {"style.css": (folder / "style.css").read_text(encoding="utf-8"),
+              "module": packed, "script": script(folder)}
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    page = re.sub(r"\{\{([\w.]+)\}\}", lambda match: values[match[1]], page)
+    out.write_text(page, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,152 @@
+// What JavaScript calls. Texts and bytes pass through one buffer each way: arguments are written where
+// `argument(size)` says, answers lie at `answer()` and are `answer_size()` long, until the next call.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "demos/core/registry.h"
+#include "demos/web/command_buffer.h"
+#include "demos/web/json_text.h"
+
+namespace plumb::web {
+namespace {
+
+using demos::Control;
+using demos::Demo;
+
+std::vector<char> given, answered;
+CommandBuffer commands;
+std::unique_ptr<Demo> demo;
+
+std::string_view text_of(std::size_t size) { return {given.data(), size}; }
+
+void answer_with(const std::string& text) { answered.assign(text.begin(), text.end()); }
+
+std::string keys_of(const demos::About& about) {
+  JsonList keys;
+  for (const demos::Key& key : about.keys)
+    keys.add(JsonObject().add("key", std::string(1, key.key)).add("about", key.about).text());
+  return keys.text();
+}
+
+std::string text_of(const Control& control) {
+  JsonList choices;
+  for (const std::string& choice : control.choices) choices.add(json_text(choice));
+  constexpr const char* kKinds[] = {"slider", "choice", "switch"};
+  return JsonObject()
+      .add("name", control.name)
+      .add("kind", kKinds[static_cast<int>(control.kind)])
+      .add("unit", control.unit)
+      .add("low", control.low)
+      .add("high", control.high)
+      .add("whole", control.whole ? 1.0 : 0.0)
+      .add("value", control.value)
+      .add("about", control.about)
+      .add_json("choices", choices.text())
+      .text();
+}
+
+}  // namespace
+}  // namespace plumb::web
+
+using namespace plumb::web;
+
+#define PLUMB_EXPORT(name) __attribute__((export_name(name)))
+
+extern "C" {
+
+PLUMB_EXPORT("argument") char* plumb_argument(std::size_t size) {
+  given.resize(size);
+  return given.data();
+}
+PLUMB_EXPORT("answer") const char* plumb_answer() { return answered.data(); }
+PLUMB_EXPORT("answer_size") std::size_t plumb_answer_size() { return answered.size(); }
+
+/// All demos, as JSON.
+PLUMB_EXPORT("list") void plumb_list() {
+  JsonList list;
+  for (const plumb::demos::Entry& entry : plumb::demos::all()) {
+    list.add(JsonObject()
+                 .add("name", entry.about.name)
+                 .add("summary", entry.about.summary)
+                 .add("play", entry.about.play)
+                 .add_json("keys", keys_of(entry.about))
+                 .text());
+  }
+  answer_with(list.text());
+}
+
+/// The demo of the name that was given takes the place of the one before; all below is about that.
+PLUMB_EXPORT("open") void plumb_open(std::size_t size) { demo = plumb::demos::make(text_of(size)); }
+
+PLUMB_EXPORT("controls") void plumb_controls() {
+  JsonList list;
+  for (const Control& control : demo->controls()) list.add(text_of(control));
+  answer_with(list.text());
+}
+/// The control whose name was given.
+PLUMB_EXPORT("set") void plumb_set(std::size_t size, double value) { demo->set(text_of(size), value); }
+
+PLUMB_EXPORT("press") void plumb_press(double x, double y) { demo->press({x, y}); }
+PLUMB_EXPORT("drag") void plumb_drag(double x, double y) { demo->drag({x, y}); }
+PLUMB_EXPORT("release") void plumb_release(double x, double y) { demo->release({x, y}); }
+PLUMB_EXPORT("hover") void plumb_hover(double x, double y) { demo->hover({x, y}); }
+PLUMB_EXPORT("key") void plumb_key(int key) { demo->key(static_cast<char>(key)); }
+
+PLUMB_EXPORT("advance") int plumb_advance(double seconds) { return demo->advance(seconds); }
+PLUMB_EXPORT("step") void plumb_step() { demo->step_once(); }
+PLUMB_EXPORT("restart") void plumb_restart() { demo->restart(); }
+PLUMB_EXPORT("time") double plumb_time() { return demo->time(); }
+PLUMB_EXPORT("hash") std::uint64_t plumb_hash() { return demo->hash(); }
+
+PLUMB_EXPORT("figures") void plumb_figures() {
+  JsonList list;
+  for (const plumb::demos::Figure& figure : demo->figures()) {
+    list.add(JsonObject()
+                 .add("name", std::string(figure.name))
+                 .add("value", figure.value)
+                 .add("unit", std::string(figure.unit))
+                 .text());
+  }
+  answer_with(list.text());
+}
+
+/// [left, lower, right, upper], m.
+PLUMB_EXPORT("view") void plumb_view() {
+  const plumb::Aabb<double> view = demo->view();
+  JsonList list;
+  for (const double edge : {view.lower.x, view.lower.y, view.upper.x, view.upper.y})
+    list.add(json_text(edge));
+  answer_with(list.text());
+}
+
+/// Fills the buffer of commands, which command_buffer.h describes, and returns where it begins. `shown`: a
+/// bit for each of contacts, normals, impulses, boxes, centres, joints, names.
+PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_length) {
+  const auto bit = [&](int place) { return (shown >> place & 1u) != 0; };
+  commands.clear();
+  demo->draw(commands, {.joints = bit(5),
+                        .contacts = bit(0),
+                        .normals = bit(1),
+                        .impulses = bit(2),
+                        .boxes = bit(3),
+                        .centres = bit(4),
+                        .names = bit(6),
+                        .impulse_length = impulse_length});
+  answer_with(commands.words());
+  return commands.numbers().data();
+}
+/// How many numbers the commands take; the words that they name are the answer.
+PLUMB_EXPORT("draw_size") std::size_t plumb_draw_size() { return commands.numbers().size(); }
+
+PLUMB_EXPORT("save") void plumb_save() {
+  const std::vector<std::byte> bytes = demo->save();
+  const char* first = reinterpret_cast<const char*>(bytes.data());
+  answered.assign(first, first + bytes.size());
+}
+PLUMB_EXPORT("restore") void plumb_restore(std::size_t size) {
+  demo->restore(std::as_bytes(std::span(given.data(), size)));
+}
+}

@@ -1,0 +1,88 @@
+// The demos and the engine, compiled for WebAssembly (exports.cpp lists the calls). Nothing here needs a page.
+
+const kNoSystem = 52;  // WASI's ENOSYS
+
+// All that WASI is asked for: the clock. There are no files.
+function system(memory) {
+  const known = {
+    clock_time_get(_clock, _precision, out) {
+      const now = BigInt(Math.round(performance.now() * 1e6));
+      new DataView(memory().buffer).setBigUint64(out, now, true);
+      return 0;
+    },
+    proc_exit() {
+      throw new Error("the program ended");
+    },
+  };
+  return new Proxy(known, {get: (all, name) => all[name] ?? (() => kNoSystem)});
+}
+
+/// Names, values and choices are as demos/core/demo.h says. A call that throws ends the engine: what it was
+/// doing may be half done, and only a new one with a saved state goes on.
+export class Engine {
+  static async start(module) {
+    const engine = new Engine();
+    const fail = (sentence) => {
+      throw new Error(engine.#c_text(sentence));
+    };
+    const wasi = system(() => engine.#memory);
+    const imports = {plumb: {fail}, wasi_snapshot_preview1: {}};
+    for (const {module: from, name} of WebAssembly.Module.imports(module))
+      if (from === "wasi_snapshot_preview1") imports[from][name] = wasi[name];
+    const instance = await WebAssembly.instantiate(module, imports);
+    engine.#calls = instance.exports;
+    engine.#memory = instance.exports.memory;
+    engine.#calls._initialize();
+    return engine;
+  }
+
+  #calls;
+  #memory;
+  #decoder = new TextDecoder();
+  #encoder = new TextEncoder();
+
+  list() { this.#calls.list(); return this.#json(); }
+  open(name) { this.#calls.open(this.#give(this.#encoder.encode(name))); }
+  controls() { this.#calls.controls(); return this.#json(); }
+  set(name, value) { this.#calls.set(this.#give(this.#encoder.encode(name)), value); }
+
+  press(point) { this.#calls.press(point.x, point.y); }
+  drag(point) { this.#calls.drag(point.x, point.y); }
+  release(point) { this.#calls.release(point.x, point.y); }
+  hover(point) { this.#calls.hover(point.x, point.y); }
+  key(key) { this.#calls.key(key.charCodeAt(0)); }
+
+  advance(seconds) { return this.#calls.advance(seconds); }
+  step() { this.#calls.step(); }
+  restart() { this.#calls.restart(); }
+  time() { return this.#calls.time(); }
+  figures() { this.#calls.figures(); return this.#json(); }
+  view() { this.#calls.view(); return this.#json(); }
+  /// 64 bits as 16 hexadecimal digits.
+  hash() { return BigInt.asUintN(64, this.#calls.hash()).toString(16).padStart(16, "0"); }
+
+  save() { this.#calls.save(); return this.#answer().slice(); }
+  restore(state) { this.#calls.restore(this.#give(state)); }
+
+  /// What command_buffer.h describes: valid until the next call.
+  draw(shown, impulse_length) {
+    const first = this.#calls.draw(shown, impulse_length);
+    const numbers = new Float64Array(this.#memory.buffer, first, this.#calls.draw_size());
+    return {numbers, words: this.#answer()};
+  }
+
+  // Memory may move whenever the program runs, so that views are made anew each time.
+  #give(bytes) {
+    const place = this.#calls.argument(bytes.length);
+    new Uint8Array(this.#memory.buffer, place, bytes.length).set(bytes);
+    return bytes.length;
+  }
+  #answer() {
+    return new Uint8Array(this.#memory.buffer, this.#calls.answer(), this.#calls.answer_size());
+  }
+  #json() { return JSON.parse(this.#decoder.decode(this.#answer())); }
+  #c_text(place) {
+    const bytes = new Uint8Array(this.#memory.buffer);
+    return this.#decoder.decode(bytes.subarray(place, bytes.indexOf(0, place)));
+  }
+}

@@ -1,0 +1,182 @@
+// The panel: what there is to open, what can be set, what is measured, what is drawn.
+import {kCommands, kShown} from "./player.mjs";
+
+const kPlot = {width: 90, height: 20};  // pixels
+const kSliderStops = 1000;
+
+const the = (id) => document.getElementById(id);
+
+function made(kind, properties = {}, ...inside) {
+  const element = Object.assign(document.createElement(kind), properties);
+  element.append(...inside);
+  return element;
+}
+
+const number = (value) => (value === null ? "-" : Number(value.toPrecision(4)).toString());
+
+function control_number({value, low, high, whole}) {
+  if (whole) return value.toFixed(0);
+  return high - low < 0.2 ? value.toFixed(4) : number(Number(value.toPrecision(3)));
+}
+
+export class Panel {
+  #player;
+  #theme;
+  #opened = null;  // what the lists are about
+  #changes = -1;
+  #updates = [];   // by control: takes its new value
+  #plots = [];
+
+  constructor(player, theme) {
+    this.#player = player;
+    this.#theme = theme;
+    the("list").append(...player.demos.map(({name, summary}) => made("option", {textContent: name, title: summary})));
+    the("list").onchange = () => player.open(the("list").selectedIndex);
+    for (const [id, key] of [["restart", "r"], ["back", "b"], ["pause", "p"], ["step", "o"], ["fold", "Tab"]])
+      the(id).onclick = () => player.key(key);
+    the("slow").onchange = () => { player.slow = the("slow").checked; };
+    this.#list_shown();
+    // A click is over when it is done: keys belong to the demo again.
+    the("panel").addEventListener("click", (event) => {
+      if (event.detail > 0 && event.target.matches("button, input[type=checkbox]")) event.target.blur();
+    });
+    the("panel").addEventListener("change", (event) => {
+      if (event.target.matches("select")) event.target.blur();
+    });
+  }
+
+  /// Shows how things are now.
+  update() {
+    const player = this.#player;
+    if (this.#opened !== player.place) this.#open();
+    if (this.#changes !== player.changes) {
+      this.#changes = player.changes;
+      player.controls.forEach((control, i) => this.#updates[i](control));
+    }
+    document.body.classList.toggle("folded", !player.panel);
+    the("fold").setAttribute("aria-expanded", player.panel);
+    the("pause").textContent = player.paused ? "go on" : "pause";
+    the("slow").checked = player.slow;
+    the("clock").textContent = `${player.time.toFixed(2)} s`;
+    const message = player.paused ? `paused${player.message && `: ${player.message}`}` : player.message;
+    if (the("message").textContent !== message) the("message").textContent = message;
+    if (player.panel) this.#draw_figures();
+  }
+
+  #open() {
+    const player = this.#player;
+    this.#opened = player.place;
+    the("list").selectedIndex = player.place;
+    the("play").textContent = player.about.play;
+    the("actions").replaceChildren(...player.about.keys.map(({key, about}) =>
+      made("button", {textContent: about, title: key === " " ? "space" : key, onclick: () => player.key(key)})));
+    the("controls").replaceChildren(...player.controls.map((control, i) => this.#control(control, i)));
+    the("figures").replaceChildren();
+    this.#plots = [];
+    const keys = [...player.about.keys.map(({key, about}) => [key === " " ? "space" : key, about]),
+                  ...kCommands.map(([, label, about]) => [label, about]),
+                  ["wheel, two fingers", "zoom"], ["right drag, two fingers", "move the picture"]];
+    the("keys").replaceChildren(...keys.flatMap(([key, about]) =>
+      [made("dt", {textContent: key}), made("dd", {textContent: about})]));
+  }
+
+  #control(control, i) {
+    const set = (value) => this.#player.set(control.name, value);
+    const unit = made("span", {className: "unit", textContent: control.unit && ` ${control.unit}`});
+    if (control.kind === "switch") {
+      const box = made("input", {type: "checkbox", onchange: () => set(box.checked ? 1 : 0)});
+      this.#updates[i] = ({value}) => { box.checked = value !== 0; };
+      return made("div", {className: "control", title: control.about}, made("label", {}, box, control.name));
+    }
+    if (control.kind === "choice") {
+      const list = made("select", {onchange: () => set(list.selectedIndex)},
+        ...control.choices.map((choice) => made("option", {textContent: choice})));
+      list.setAttribute("aria-label", control.name);
+      this.#updates[i] = ({value}) => { list.selectedIndex = value; };
+      return made("div", {className: "control", title: control.about}, made("span", {}, control.name), list);
+    }
+    // A slider of HTML has stops, counted from its lower end: here its own, so that both ends are met exactly.
+    const {low, high, whole} = control;
+    const stops = whole ? high - low : kSliderStops;
+    const shown = made("output");
+    const slider = made("input", {type: "range", min: 0, max: stops, step: 1, oninput() {
+      const at = Number(slider.value);
+      const value = at === stops ? high : whole ? low + at : Number((low + (high - low) * at / stops).toPrecision(6));
+      shown.textContent = control_number({...control, value});
+      set(Math.min(Math.max(value, low), high));
+    }});
+    slider.setAttribute("aria-label", control.name);
+    this.#updates[i] = (now) => {
+      slider.value = Math.round((now.value - low) / (high - low) * stops);
+      shown.textContent = control_number(now);
+    };
+    return made("div", {className: "control", title: control.about},
+      made("span", {}, control.name), made("span", {}, shown, unit), slider);
+  }
+
+  #list_shown() {
+    const box = (name, checked, change) => {
+      const input = made("input", {type: "checkbox", checked, onchange: () => change(input.checked)});
+      return made("label", {}, input, name);
+    };
+    const player = this.#player, theme = this.#theme;
+    const impulse = made("input", {type: "range", min: -3, max: 1, step: 0.01, value: Math.log10(player.impulse_length),
+      oninput: () => { player.impulse_length = 10 ** impulse.value; }});
+    const length = made("label", {className: "wide", hidden: true}, "impulses' length", impulse);
+    the("shown").append(
+      ...kShown.map((name) => box(name, player.shown.has(name), (on) => {
+        player.shown[on ? "add" : "delete"](name);
+        if (name === "impulses") length.hidden = !on;
+      })),
+      box("sleep", theme.sleep_shows, (on) => { theme.sleep_shows = on; }),
+      box("dark", theme.dark, (on) => { theme.dark = on; }),
+      length,
+      made("button", {textContent: "picture", title: "this frame as a PNG file", onclick: () => save_picture(player)}));
+  }
+
+  #draw_figures() {
+    for (const series of this.#player.series) {
+      if (series.name === "time") continue;  // stands at the top
+      let plot = this.#plots.find((each) => each.name === series.name);
+      if (!plot) this.#plots.push(plot = this.#new_plot(series));
+      plot.value.textContent = `${number(series.values.at(-1))} ${series.unit}`;
+      draw_plot(plot.canvas, series.values, this.#theme.plot);
+    }
+  }
+
+  #new_plot({name}) {
+    const canvas = made("canvas"), value = made("output");
+    the("figures").append(made("div", {className: "figure", title: name}, canvas, made("span", {textContent: name}), value));
+    return {name, canvas, value};
+  }
+}
+
+function draw_plot(canvas, values, colour) {
+  const ratio = window.devicePixelRatio || 1, {width, height} = kPlot;
+  if (canvas.width !== Math.round(width * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  const known = values.filter((value) => value !== null);
+  const low = Math.min(...known), range = Math.max(...known) - low;
+  context.beginPath();
+  values.forEach((value, i) => {
+    if (value === null) return;
+    const x = 1 + (width - 2) * i / Math.max(values.length - 1, 1);
+    context.lineTo(x, range > 0 ? height - 2 - (height - 4) * (value - low) / range : height / 2);
+  });
+  context.strokeStyle = colour;
+  context.lineWidth = 1.2;
+  context.stroke();
+}
+
+function save_picture(player) {
+  the("stage").toBlob((picture) => {
+    const link = made("a", {href: URL.createObjectURL(picture), download: `${player.about.name}.png`});
+    link.click();
+    URL.revokeObjectURL(link.href);
+  });
+}

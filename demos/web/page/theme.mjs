@@ -1,0 +1,50 @@
+// Colours by role, on a dark and on a light ground: those of the window (demos/window/theme.cpp).
+
+const shape = (fill, line) => ({fill, line, width: 1.4});
+const line = (colour, width = 1.6) => ({fill: null, line: colour, width});
+
+// In the order of DrawRole.
+const kStyles = [
+  // Static, Kinematic, Awake, Asleep, Sensor
+  [shape([62, 70, 82], [112, 122, 138]), shape([206, 211, 218], [120, 128, 140])],
+  [shape([38, 92, 128], [94, 170, 214]), shape([170, 208, 236], [36, 104, 156])],
+  [shape([176, 104, 44], [255, 176, 96]), shape([250, 196, 132], [176, 92, 20])],
+  [shape([74, 78, 110], [132, 138, 184]), shape([198, 200, 226], [104, 108, 160])],
+  [shape([60, 160, 90, 50], [90, 200, 120]), shape([60, 160, 90, 45], [40, 130, 70])],
+  // Contact, Normal, Impulse, Box, Centre, JointLine, Name
+  [line([255, 82, 82]), line([208, 24, 24])],
+  [line([88, 210, 196]), line([0, 128, 116])],
+  [line([255, 214, 64], 2.4), line([200, 120, 0], 2.4)],
+  [line([170, 122, 220, 170], 1), line([130, 80, 190, 170], 1)],
+  [line([240, 240, 240], 1.2), line([20, 20, 20], 1.2)],
+  [line([96, 196, 240]), line([0, 112, 160])],
+  [line([230, 230, 230]), line([30, 30, 30])],
+  // Highlight, Force, Aim, Trail
+  [shape([246, 210, 60], [255, 244, 170]), shape([255, 224, 60], [200, 130, 0])],
+  [line([120, 220, 110], 2.2), line([30, 130, 40], 2.2)],
+  [line([220, 220, 220, 170], 1.4), line([60, 60, 60, 190], 1.4)],
+  [line([150, 160, 176, 130], 1.2), line([110, 116, 128, 150], 1.2)],
+];
+const kAwake = 2, kAsleep = 3;
+
+const css = (colour) => colour && `rgba(${colour.slice(0, 3).join(",")},${(colour[3] ?? 255) / 255})`;
+const in_css = (style) => ({fill: css(style.fill), line: css(style.line), width: style.width});
+
+export class Theme {
+  sleep_shows = true;  // whether bodies that sleep have a colour of their own
+  #dark = false;
+  #styles = [];
+
+  constructor(dark) { this.dark = dark; }
+  get dark() { return this.#dark; }
+  set dark(dark) {
+    this.#dark = dark;
+    this.#styles = kStyles.map((both) => in_css(both[dark ? 0 : 1]));
+  }
+
+  get ground() { return css(this.#dark ? [20, 23, 28] : [250, 250, 248]); }
+  get grid() { return css(this.#dark ? [32, 36, 43] : [233, 234, 232]); }
+  get text() { return css(this.#dark ? [220, 224, 230] : [30, 34, 40]); }
+  get plot() { return this.#styles[kAwake].line; }
+  style(role) { return this.#styles[role === kAsleep && !this.sleep_shows ? kAwake : role] ?? this.#styles[0]; }
+}
