@@ -19,10 +19,28 @@ std::span<const double> Dop853::last_rate() const { return rates_[kStages]; }
 void Dop853::advance() { std::swap(rates_.front(), rates_[kStages]); }
 
 void Dop853::weighted_sum(const double* weights, int stages, std::span<double> out) const {
-  std::fill(out.begin(), out.end(), 0.0);
+  const double* rate[kAllStages];
+  double weight[kAllStages];
+  int count = 0;
   for (int j = 0; j < stages; ++j) {
     if (weights[j] == 0) continue;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[j] * rates_[j][i];
+    rate[count] = rates_[j].data();
+    weight[count++] = weights[j];
+  }
+  // A part at a time, such that its sums stay in registers; stages are added in their order.
+  constexpr std::size_t kPart = 4;
+  const std::size_t whole = out.size() - out.size() % kPart;
+  for (std::size_t i = 0; i < whole; i += kPart) {
+    double sum[kPart] = {};
+    for (int j = 0; j < count; ++j) {
+      for (std::size_t k = 0; k < kPart; ++k) sum[k] += weight[j] * rate[j][i + k];
+    }
+    std::copy(sum, sum + kPart, out.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  for (std::size_t i = whole; i < out.size(); ++i) {
+    double sum = 0;
+    for (int j = 0; j < count; ++j) sum += weight[j] * rate[j][i];
+    out[i] = sum;
   }
 }
 

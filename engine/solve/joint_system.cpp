@@ -58,6 +58,7 @@ JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const 
   }
   find_pattern(below);
   find_terms(rows, place);
+  find_hinges(rows, place);
   inverse_diagonal_.assign(rows.size(), 0);
   work_.assign(rows.size(), 0);
   residual_.assign(rows.size(), 0);
@@ -133,10 +134,9 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
 // = A(k, k) - sum of L(k, j) y(j).
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
-  // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
-  constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
-  int dependent = 0;
   weakest_ = 1;
+  if (!hinges_.empty()) return factor_hinges(rows);
+  int dependent = 0;
   take_jacobian(rows);
   std::copy(column_start_.begin(), column_start_.end() - 1, filled_.begin());
   for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -157,12 +157,20 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
       pivot -= l * y;
       lower_[filled_[j]++] = l;
     }
-    const bool independent = pivot > kDependent * own;
-    inverse_diagonal_[k] = independent ? 1 / pivot : 0;
-    dependent += independent ? 0 : 1;
-    if (independent && pivot < weakest_ * own) weakest_ = pivot / own;
+    dependent += take_pivot(pivot, own, k) ? 0 : 1;
   }
   return dependent;
+}
+
+/// D's entry at `place`; returns whether its row is independent.
+template <class Real>
+bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
+  // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
+  constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
+  const bool independent = pivot > kDependent * own;
+  inverse_diagonal_[place] = independent ? 1 / pivot : 0;
+  if (independent && pivot < weakest_ * own) weakest_ = pivot / own;
+  return independent;
 }
 
 template <class Real>
@@ -176,6 +184,11 @@ template <class Real>
 void JointSystem<Real>::solve(std::span<Real> right_side) const {
   const std::size_t n = order_.size();
   for (std::size_t k = 0; k < n; ++k) work_[k] = right_side[order_[k]];
+  if (!hinges_.empty()) {
+    solve_hinges();
+    for (std::size_t k = 0; k < n; ++k) right_side[order_[k]] = work_[k], work_[k] = 0;
+    return;
+  }
   for (std::size_t j = 0; j < n; ++j) {
     for (std::size_t p = column_start_[j]; p < column_start_[j + 1]; ++p) {
       work_[row_of_[p]] -= lower_[p] * work_[j];

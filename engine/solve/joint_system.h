@@ -49,6 +49,24 @@ class JointSystem {
     int left = 0, right = 0;  // where the two rows' three numbers for that body begin
   };
 
+  /// Two rows of one hinge, eliminated together, and the hinge that comes after them in L: where hinges lie
+  /// in lines, each has one at most.
+  struct Hinge {
+    int row = 0, place = 0;
+    int next = -1;                // of the hinges
+    int side = 0, next_side = 0;  // of the body that they share: 0 for a, 1 for b
+  };
+  /// Of A, less what earlier hinges took: a 2 x 2 block, and its diagonal as it was.
+  struct HingeBlock {
+    Real own[2]{}, rest[3]{};  // (1, 1), (2, 1), (2, 2)
+  };
+
+  void find_hinges(std::span<const Row<Real>> rows, const std::vector<int>& place);
+  HingeBlock hinge_block(const Row<Real>& first, const Row<Real>& second) const;
+  int factor_hinges(std::span<const Row<Real>> rows);
+  void solve_hinges() const;
+  bool take_pivot(Real pivot, Real own, std::size_t place);
+
   void find_pattern(const std::vector<std::vector<int>>& below);
   void take_jacobian(std::span<const Row<Real>> rows);
   void find_terms(std::span<const Row<Real>> rows, const std::vector<int>& place);
@@ -73,6 +91,8 @@ class JointSystem {
 
   std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
   Real weakest_ = 1;
+  std::vector<Hinge> hinges_;  // in the elimination order; empty unless all rows are of hinges in lines
+  std::vector<HingeBlock> hinge_blocks_;
   std::vector<std::size_t> filled_;  // while factorising: the end of what is known of a column
   mutable std::vector<Real> work_;
   mutable std::vector<Real> residual_;         // by row
