@@ -110,7 +110,9 @@ TEST(ViewScene, DrawsBodiesWhereTheyAre) {
   expect_points(drawn(Box{2, 4}), {{5, 4}, {5, 6}, {1, 6}, {1, 4}});
   expect_points(drawn(Capsule{{0, 1}, {0, 2}, 0.25}), {{2, 5}, {1, 5}});
   expect_points(drawn(Segment{{0, 1}, {0, 2}}), {{2, 5}, {1, 5}});
-  expect_points(drawn(Polygon{{{0, 0}, {1, 0}, {0, 1}}, 0.1}), {{3, 5}, {3, 6}, {2, 5}});
+  // Scenes give a polygon's points in any order; what draws wants corners, counter-clockwise.
+  const Polygon triangle{{{0, 0}, {0.2, 0.2}, {0, 1}, {1, 0}}, 0.1};
+  expect_points(drawn(triangle), {{3, 5}, {3, 6}, {2, 5}});
 }
 
 TEST(ViewScene, RefusesWhatNoWorldHas) {
