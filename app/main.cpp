@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples:\n  plumb compare\n  plumb compare pendulum_chain --size 20 --engine plumb,box2d\n"
       "  plumb run free_fall/vacuum --engine plumb-precise --rate 10\n  plumb explain "
-      "elastic_collision/oblique\n"
+      "elastic_collision/oblique\n  plumb check -- python3 my_engine.py\n"
       "Each subcommand has its own --help. Exit codes: 0 ok, 1 a check failed, 2 usage or bad input,\n"
       "130 interrupted.");
   Action action;
@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
   add_run(app, action);
   add_scene(app, action);
   add_compare(app, action);
+  add_check(app, action);
   add_bench(app);
   add_window(app);
   return reporting_errors([&] { return parse_and_run(app, action, argc, argv); });

@@ -1,0 +1,110 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/guard.h"
+#include "app/output.h"
+#include "app/settings.h"
+#include "app/usage.h"
+#include "harness/course/course.h"
+#include "harness/course/report.h"
+#include "reference/process_backend.h"
+
+namespace plumb::app {
+namespace {
+
+using harness::Style;
+
+struct Options {
+  std::vector<std::string> command;
+  std::string engine, dt, timeout = "10", format = "console";
+  int chapter = 0;
+};
+
+constexpr const char* kOwnEngine = "yours";
+constexpr double kLargestStep = 1.0 / 30;
+
+std::vector<course::Chapter> chosen_chapters(int number) {
+  std::vector<course::Chapter> all = course::chapters();
+  if (number == 0) return all;
+  for (course::Chapter& chapter : all)
+    if (chapter.number == number) return {std::move(chapter)};
+  throw UsageError(fmt::format("--chapter is {}: there are chapters 1 to {}", number, all.size()));
+}
+
+int examine(const Options& options, const reference::Backend& engine) {
+  reference::StepSettings settings;
+  if (!options.dt.empty()) settings.dt = parse_positive("--dt", options.dt);
+  if (settings.dt > kLargestStep)
+    throw UsageError(
+        fmt::format("--dt is '{}': the checks are made for steps of 1/30 s at most", options.dt));
+  engine.method(settings);  // throws for what the engine cannot take
+
+  const std::vector<course::Chapter> chapters = chosen_chapters(options.chapter);
+  const Style style = Style::of_file(STDOUT_FILENO);
+  const bool console = options.format == "console";
+  const course::Chapter* at = nullptr;
+  const auto outcomes = course::examine(engine, settings, chapters, [&](const course::Outcome& outcome) {
+    if (!console) return;
+    if (outcome.chapter != at) print(course::heading(*outcome.chapter, style));
+    at = outcome.chapter;
+    print(course::line(outcome, style));
+    flush();
+  });
+  print(console ? course::score(outcomes, style) : course::as_json(std::string(engine.name()), outcomes));
+  flush();
+  return course::all_passed(outcomes) ? kOk : kCheckFailed;
+}
+
+int start(const Options& options) {
+  if (options.command.empty() == options.engine.empty())
+    throw UsageError(
+        "give the command that starts your engine after `--`, or --engine with one that is built in; "
+        "see `plumb check --help`");
+  if (!options.engine.empty()) {
+    const reference::Backend& engine = reference::find_backend(options.engine);
+    if (const reference::Identity identity = engine.identity(); !identity.available)
+      throw UsageError(fmt::format("engine '{}' is not available: {}", options.engine, identity.reason));
+    return guarded(options.engine, [&] { return examine(options, engine); });
+  }
+  const auto engine = reference::make_process_backend(
+      kOwnEngine, options.command, "", {.seconds = parse_positive("--timeout", options.timeout)});
+  if (const reference::Identity identity = engine->identity(); !identity.available)
+    throw UsageError(identity.reason);
+  return examine(options, *engine);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "check", "put an engine through the course, chapter by chapter, and name its mistakes");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("command", options->command,
+                   "starts a program that speaks docs/protocol.md; put it after --")
+      ->type_name("COMMAND...");
+  command->add_option("--engine", options->engine, "an engine that is built in, in place of a command")
+      ->type_name("E");
+  command->add_option("--chapter", options->chapter, "only this chapter, 1 to 5")->type_name("N");
+  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
+  command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
+      ->type_name("T");
+  command->add_option("--format", options->format, "console or json")
+      ->check(CLI::IsMember({"console", "json"}));
+  command->footer(
+      "Examples:\n  plumb check -- python3 docs/course/starters/ball.py\n  plumb check --chapter 3 -- "
+      "./my_engine "
+      "--quiet\n"
+      "  plumb check --engine plumb --format json\n"
+      "What an engine does not declare is \"not yet\". The chapters are in docs/course.\n"
+      "Exit codes: 0 all checks pass, 1 some do not, 2 usage, or a program that does not answer \"hello\".");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,272 @@
+// Chapter 1: a ball falls, speeds up, bounces off walls and settles.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/course/course.h"
+#include "harness/course/scenes.h"
+
+namespace plumb::course {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr const char* kBall = "\"shapes\":[\"circle\"]";
+constexpr const char* kWalls =
+    "\"shapes\":[\"circle\",\"box\"] and \"features\":[\"contacts\"]: one circle against static boxes";
+
+Scene falling() { return scene_of("fall", {0, -kGravity}, {make(Ball{})}); }
+
+Finding falls(const Lab& lab) {
+  const Trace trace = lab.run(falling(), 1);
+  const double t = trace.duration(), v = -kGravity * t;
+  const double n = std::round(t / lab.dt()), h = lab.dt();
+  return Judgement()
+      .read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t))
+      .mistake("no_gravity", {0}, "The ball never speeds up: add gravity times dt to the velocity each step.")
+      .mistake("gravity_upwards", {-v},
+               "The ball falls upwards: y points up, and the scene's gravity is negative already; add it.")
+      .mistake(
+          "dt_twice", {v * h},
+          "dt enters twice: the velocity grows by g dt each step, not by g dt dt. Is gravity multiplied by "
+          "dt before, or the velocity by dt before it is kept?")
+      .mistake("dt_missing", {-kGravity * n},
+               "dt is missing: each step adds the whole of g to the velocity, not g dt.")
+      .mistake("milliseconds", {v * 1000}, "A thousand times too fast: dt is in seconds, not milliseconds.")
+      .mistake("milliseconds", {v / 1000}, "A thousand times too slow: dt is in seconds already.")
+      .mistake("gravity_twice", {2 * v},
+               "Gravity acts twice a step: is it added as a force and as an acceleration?")
+      .mistake("gravity_halved", {v / 2},
+               "Half of gravity: v grows by g dt; the half belongs to the way, g t^2/2.")
+      .finding();
+}
+
+Finding falls_far_enough(const Lab& lab) {
+  const Trace trace = lab.run(falling(), 1);
+  const double t = trace.duration(), h = lab.substep() > 0 ? lab.substep() : lab.dt();
+  const double n = std::round(t / h), exact = -kGravity * t * t / 2, late = kGravity * t * h / 2;
+  const auto is = [&](const char* scheme) {
+    return fmt::format("The figures are those of {}, and \"hello\" declares another scheme.", scheme);
+  };
+  return Judgement()
+      .read("y after 1 s", "m", trace.last(0).position.y, lab.way(0, -kGravity, t), lab.rounding(exact, t))
+      .mistake("does_not_move", {0}, "The velocity is there, but the position never changes: add v dt to it.")
+      .mistake("explicit_euler", {exact + late},
+               is("explicit Euler (position first, with the old velocity)") +
+                   " It adds energy every step: update the velocity first, then move with the new one.")
+      .mistake("semi_implicit_euler", {exact - late},
+               is("semi-implicit Euler (velocity first, position with the new velocity)"))
+      .mistake("exact_parabola", {exact}, is("an exact parabola, as by velocity Verlet"))
+      .mistake("half_a_step_twice", {exact - 2 * late},
+               "The way has a dt^2/2 too much: the new velocity holds a dt already, so move by v dt alone.")
+      .mistake("velocity_without_dt", {(exact - late) / h}, "Each step moves the ball by v, not by v dt.")
+      .mistake("velocity_with_dt_twice", {(exact - late) * h},
+               "Each step moves the ball by v dt dt, not by v dt.")
+      .mistake("constant_speed", {-kGravity * h * n * h},
+               "The ball keeps its first speed: keep the velocity from step to step.")
+      .finding();
+}
+
+Finding scene_says_gravity(const Lab& lab) {
+  const Vec2d gravity{1.5, -3}, v0{3, 4};
+  Scene scene = scene_of("throw", gravity, {make(Ball{.velocity = v0})});
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration();
+  const Vec2d v = trace.last(0).velocity, right = v0 + t * gravity;
+  const double tolerance = lab.rounding(8, t);
+  return Judgement()
+      .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
+      .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
+      .read("x after 1 s", "m", trace.last(0).position.x, lab.way(v0.x, gravity.x, t), tolerance)
+      .mistake("gravity_hard_coded", {v0.x, v0.y - kGravity * t},
+               "Gravity is 9.81 downwards whatever the scene says: take \"gravity\" from the scene.")
+      .mistake("gravity_only_down", {v0.x, right.y}, "Gravity is a vector: its x counts as well.")
+      .mistake("starts_at_rest", {t * gravity.x, t * gravity.y},
+               "The ball starts at rest: take \"velocity\" from the scene.")
+      .mistake("ignores_gravity", {v0.x, v0.y}, "The scene's gravity is not used.")
+      .finding();
+}
+
+// The speed after one second at three sizes of the step.
+Finding any_step_size(const Lab& lab) {
+  const auto speed = [&](int finer) {
+    const Trace trace = lab.run(falling(), 1, finer);
+    return trace.last(0).velocity.y / trace.duration();
+  };
+  const double one = speed(1), half = speed(2), quarter = speed(4), tolerance = lab.rounding(kGravity, 4);
+  return Judgement()
+      .read("vy/t with dt/2 over that with dt", "", half / one, 1, tolerance / std::abs(one))
+      .read("vy/t with dt/4 over that with dt", "", quarter / one, 1, tolerance / std::abs(one))
+      .mistake("per_frame", {2, 4},
+               "Twice the steps, twice the speed: something is added per step and not per second; multiply "
+               "it by dt.")
+      .mistake("dt_twice", {0.5, 0.25}, "Half the step, half the speed: dt enters twice.")
+      .finding();
+}
+
+Finding bounces(const Lab& lab) {
+  const Body floor = fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1}));
+  const Trace trace =
+      lab.run(scene_of("bounce", {}, {make(Ball{.position = {0, 1}, .velocity = {1, -2}}), floor}), 1);
+  const BodyState& end = trace.last(0);
+  const double tolerance = 0.01;
+  return Judgement()
+      .read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
+      .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
+      .mistake("falls_through", {1, -2},
+               "The ball goes through the floor: no contact is found, or it is not answered.")
+      .mistake("both_turned", {-1, 2},
+               "The whole velocity is turned round: only its part along the wall's normal is.")
+      .mistake("wrong_axis", {-1, -2},
+               "The x component is turned at a floor: the floor's normal points up, so turn y.")
+      .mistake("restitution_ignored", {1, 0},
+               "The ball stops at the floor: restitution 1 gives all of the speed back, -e vy.")
+      .mistake("stops_dead", {0, 0},
+               "The ball stops dead: only the normal part of the velocity changes, by -e.")
+      .finding();
+}
+
+// How often the velocity turns round, on either axis.
+int turns(const Trace& trace) {
+  int count = 0;
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const Vec2d a = trace.states[k - 1][0].velocity, b = trace.states[k][0].velocity;
+    count += (a.x * b.x < 0) + (a.y * b.y < 0);
+  }
+  return count;
+}
+
+constexpr const char* kTurnedEveryStep =
+    "The ball sticks in the wall: its velocity is turned round each step that it is inside. Turn it "
+    "only while it moves towards the wall, and push the ball out.";
+
+Finding restitution(const Lab& lab) {
+  const double e = 0.7, wall = 0.2, v = 2;
+  const Body floor =
+      fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = wall}));
+  // The gap is no whole number of steps: the ball is found well inside the floor.
+  const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -v}, .restitution = e});
+  const Trace trace = lab.run(scene_of("restitution", {}, {ball, floor}), 1);
+  return Judgement()
+      .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.01 * v)
+      .mistake_if(turns(trace) > 1, "turned_every_step", kTurnedEveryStep)
+      .mistake(
+          "restitution_squared", {e * e * v},
+          "Restitution counts twice: it scales the speed, once; the energy falls by its square by itself.")
+      .mistake("restitution_root", {std::sqrt(e) * v},
+               "The energy is scaled by e: Newton's restitution scales the speed.")
+      .mistake("restitution_ignored", {v}, "All of the speed comes back: multiply by the restitution.")
+      .mistake("restitution_zero", {0}, "None of the speed comes back: restitution is not used.")
+      .mistake("restitution_of_one_less", {(1 - e) * v}, "The speed is scaled by 1 - e: it should be e.")
+      .mistake("restitution_average", {(e + wall) / 2 * v},
+               "The two restitutions are averaged: \"contact_rules\" says maximum.")
+      .mistake("restitution_product", {e * wall * v},
+               "The two restitutions are multiplied: \"contact_rules\" says maximum.")
+      .mistake("restitution_mean", {std::sqrt(e * wall) * v},
+               "The geometric mean of the two restitutions is taken: \"contact_rules\" says maximum.")
+      .mistake("restitution_of_wall", {wall * v},
+               "Only the wall's restitution counts: \"contact_rules\" says maximum, of both.")
+      .mistake("falls_through", {-v}, "The ball goes through the floor.")
+      .finding();
+}
+
+// Where the ball left the room, if it did: the farthest wall that it is behind.
+std::string wall_passed(const BodyState& s, double half_width, double half_height) {
+  if (s.position.x > half_width) return "right";
+  if (s.position.x < -half_width) return "left";
+  if (s.position.y > half_height) return "upper";
+  return s.position.y < -half_height ? "lower" : "";
+}
+
+Finding four_walls(const Lab& lab) {
+  const double half_width = 2, half_height = 1.5, r = 0.25, thick = 1;
+  const Vec2d v{3.1, 2.3};
+  const auto wall = [&](const char* name, Vec2d at, double width, double height) {
+    return fixed(make(Crate{.name = name, .position = at, .width = width, .height = height}));
+  };
+  const double x = half_width + thick / 2, y = half_height + thick / 2;
+  const Scene scene = scene_of(
+      "room", {},
+      {make(Ball{.velocity = v, .radius = r}), wall("right", {x, 0}, thick, 6),
+       wall("left", {-x, 0}, thick, 6), wall("upper", {0, y}, 7, thick), wall("lower", {0, -y}, 7, thick)});
+  const Trace trace = lab.run(scene, 5);
+  double outside = 0;
+  for (const auto& states : trace.states) {
+    const Vec2d p = states[0].position;
+    outside = std::max({outside, std::abs(p.x) + r - half_width, std::abs(p.y) + r - half_height});
+  }
+  const double speed = std::hypot(v.x, v.y),
+               end = std::hypot(trace.last(0).velocity.x, trace.last(0).velocity.y);
+  // Unfolded, the room has a wall every 2 (half - r).
+  const double t = trace.duration();
+  const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
+                  static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
+  const std::string passed = wall_passed(trace.last(0), half_width, half_height);
+  return Judgement()
+      .read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
+      .read("turns at walls", "", turns(trace), due, 2)
+      .read("speed after 5 s", "m/s", end, speed, 0.01 * speed)
+      .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
+      .mistake_if(!passed.empty(), "wall_missing",
+                  fmt::format("The ball leaves through the {} wall.", passed))
+      .mistake_if(end > 1.01 * speed, "speeds_up",
+                  "The ball gains speed at walls: pushing it out must not change its "
+                  "velocity, and restitution 1 gives back what came, no more.")
+      .mistake_if(end < 0.99 * speed, "slows_down",
+                  "The ball loses speed in the air or at walls: nothing here "
+                  "damps it, and restitution is 1.")
+      .finding();
+}
+
+Finding settles(const Lab& lab) {
+  const double r = 0.5;
+  const Body floor =
+      fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
+  const Body ball = make(Ball{.position = {0, 1 + r}, .radius = r, .restitution = 0.5});
+  const Trace trace = lab.run(scene_of("settle", {0, -kGravity}, {ball, floor}), 5);
+  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice that is let pass.
+  double high = 0, low = 0;
+  for (std::size_t k = 0; k < trace.states.size(); ++k) {
+    if (trace.times[k] < 2.7) continue;
+    high = std::max(high, trace.states[k][0].position.y - r);
+    low = std::min(low, trace.states[k][0].position.y - r);
+  }
+  const double tolerance = kGravity * lab.dt() * lab.dt() + 0.02 * r;
+  const double speed = trace.last(0).velocity.y;
+  return Judgement()
+      .read("highest above the floor from 2.7 s on", "m", high, 0, tolerance)
+      .read("deepest in the floor from 2.7 s on", "m", low, 0, tolerance)
+      .read("vy after 5 s", "m/s", speed, 0, 2 * kGravity * lab.dt())
+      .mistake_if(
+          low < -r, "falls_through",
+          "The ball sinks through the floor: stop its fall each step while it rests, however slow it is.")
+      .mistake_if(
+          low < -tolerance && high <= tolerance, "sinks",
+          "The ball sinks into the floor little by little: besides its velocity, set its position right.")
+      .mistake_if(high > 0.5, "never_loses_energy",
+                  "The ball keeps bouncing: each bounce should leave half of the speed.")
+      .mistake_if(
+          high > tolerance, "restless",
+          "The ball trembles on the floor: what gravity adds within a step must not bounce; below about "
+          "2 g dt take restitution as 0.")
+      .finding();
+}
+
+}  // namespace
+
+Chapter bouncing_ball() {
+  return {.number = 1,
+          .title = "A bouncing ball",
+          .page = "1-bouncing-ball.md",
+          .checks = {{"falls", "a ball speeds up by g a second", kBall, falls},
+                     {"falls_far_enough", "it falls as far as its method says", kBall, falls_far_enough},
+                     {"scene_says_gravity", "gravity and the first velocity are the scene's", kBall,
+                      scene_says_gravity},
+                     {"any_step_size", "the same speed at any step size", kBall, any_step_size},
+                     {"bounces", "a bounce turns the normal velocity round", kWalls, bounces},
+                     {"restitution", "restitution scales the speed", kWalls, restitution},
+                     {"four_walls", "four walls hold it in, and its speed", kWalls, four_walls},
+                     {"settles", "under gravity it comes to rest on the floor", kWalls, settles}}};
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,200 @@
+// Chapter 2: forces, mass, wind, drag, springs.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/course/course.h"
+#include "harness/course/scenes.h"
+
+namespace plumb::course {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr const char* kBall = "\"shapes\":[\"circle\"], several bodies apart from each other";
+constexpr const char* kPush = "\"forces\":[\"point_force\"]";
+
+Finding force_accelerates(const Lab& lab) {
+  Scene scene = scene_of("force", {}, {make(Ball{})});
+  scene.forces.emplace_back(push("ball", {6, 0}));
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), v = 6 * t, h = lab.dt();
+  return Judgement()
+      .read("vx after 1 s", "m/s", trace.last(0).velocity.x, v, lab.rounding(v, t))
+      .mistake("force_ignored", {0}, "The force does nothing: add F dt/m to the velocity each step.")
+      .mistake("force_once", {6 * h},
+               "The force acts for one step only: it lasts until its duration is over.")
+      .mistake("force_backwards", {-v}, "The force pushes backwards: add it, do not subtract it.")
+      .mistake("force_without_dt", {v / h}, "dt is missing: a step adds F dt/m to the velocity, not F/m.")
+      .mistake(
+          "force_not_cleared", {6 * t * (t + h) / (2 * h)},
+          "The force piles up from step to step: set the sum of forces to zero at the start of each step.")
+      .finding();
+}
+
+Finding ten_times_the_mass(const Lab& lab) {
+  const double mass = 10, force = 6;
+  Scene scene = scene_of("mass", {}, {make(Ball{.mass = mass})});
+  scene.forces.emplace_back(push("ball", {force, 0}));
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), v = force / mass * t;
+  return Judgement()
+      .read("vx after 1 s of a ball of 10 kg", "m/s", trace.last(0).velocity.x, v, lab.rounding(v, t))
+      .mistake("mass_not_divided", {force * t},
+               "Ten times too fast: the force is not divided by the mass. a = F/m; a ball of 1 kg hides it.")
+      .mistake("mass_multiplied", {force * mass * t}, "The force is multiplied by the mass: a = F/m.")
+      .mistake("mass_divided_twice", {v / mass}, "The force is divided by the mass twice.")
+      .mistake("force_ignored", {0}, "The force does nothing.")
+      .finding();
+}
+
+Finding all_fall_alike(const Lab& lab) {
+  const Body light = make(Ball{.name = "light", .position = {-3, 0}, .mass = 0.5});
+  const Body heavy = make(Ball{.name = "heavy", .position = {3, 0}, .mass = 10});
+  const Trace trace = lab.run(scene_of("fall", {0, -kGravity}, {light, heavy}), 1);
+  const double t = trace.duration(), v = -kGravity * t, tolerance = lab.rounding(v, t);
+  return Judgement()
+      .read("vy of 0.5 kg after 1 s", "m/s", trace.last(0).velocity.y, v, tolerance)
+      .read("vy of 10 kg after 1 s", "m/s", trace.last(1).velocity.y, v, tolerance)
+      .mistake("gravity_divided_by_mass", {v / 0.5, v / 10},
+               "The heavy ball falls slowly: gravity is an acceleration; if it is treated as a force it must "
+               "be m g.")
+      .mistake("weight_not_divided", {v * 0.5, v * 10},
+               "The heavy ball falls fast: m g is a force, divide it by the mass like any other.")
+      .mistake("only_the_first", {v, 0}, "Only the first body falls: loop over all of them.")
+      .mistake("shared_velocity", {2 * v, 2 * v}, "Both bodies share one velocity: each needs its own.")
+      .finding();
+}
+
+Finding forces_add(const Lab& lab) {
+  const double mass = 2;
+  const Vec2d wind{-3, 0}, thrust{8, 4}, lift{1, 2}, gravity{0, -kGravity};
+  Scene scene = scene_of("forces", gravity, {make(Ball{.mass = mass})});
+  for (const Vec2d force : {wind, thrust, lift}) scene.forces.emplace_back(push("ball", force));
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), tolerance = lab.rounding(10, t);
+  const auto with = [&](Vec2d force) { return t * (1 / mass * force + gravity); };
+  const auto gives = [](Vec2d v) { return std::vector<double>{v.x, v.y}; };
+  const Vec2d right = with(wind + thrust + lift), v = trace.last(0).velocity;
+  return Judgement()
+      .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
+      .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
+      .mistake("last_force_only", gives(with(lift)),
+               "Only the last force counts: add forces up (+=), do not set (=).")
+      .mistake("first_force_only", gives(with(wind)), "Only the first force counts: go through all of them.")
+      .mistake("first_force_lost", gives(with(thrust + lift)), "The first force, the wind, is not added.")
+      .mistake("last_force_lost", gives(with(wind + thrust)), "The last force is not added.")
+      .mistake("gravity_lost", gives(with(wind + thrust + lift) - t * gravity),
+               "Forces replace gravity: they act beside it.")
+      .mistake("forces_ignored", gives(t * gravity), "Only gravity acts: the scene's forces are not used.")
+      .mistake("forces_replace_weight", gives(t / mass * lift),
+               "Only the last force counts, and gravity is lost: add up.")
+      .finding();
+}
+
+Finding push_ends(const Lab& lab) {
+  const double force = 40, mass = 4, start = 0.2, duration = 0.1;
+  Scene scene = scene_of("push", {}, {make(Ball{.mass = mass})});
+  PointForce law = push("ball", {force, 0});
+  law.start = start;
+  law.duration = duration;
+  scene.forces.emplace_back(law);
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
+  // An engine that asks only at the start of each step sees a step more or less of it.
+  return Judgement()
+      .read("vx after the push", "m/s", trace.last(0).velocity.x, v, step + lab.rounding(v, t))
+      .mistake("push_never_ends", {force / mass * (t - start)},
+               "The push goes on: it ends at start + duration. Clear forces at the end of each step.")
+      .mistake("push_starts_at_once", {force / mass * (start + duration)},
+               "The push acts from the beginning: it starts at \"start\".")
+      .mistake("push_always", {force / mass * t},
+               "The push acts all the time: \"start\" and \"duration\" are not used.")
+      .mistake("push_missed", {0},
+               "The push is missed: compare the time with \"start\" and \"start\" + \"duration\".")
+      .mistake("push_without_dt", {v / lab.dt()}, "The push adds F/m each step: it is F dt/m.")
+      .finding();
+}
+
+Finding drag(const Lab& lab) {
+  const double c = 1.5, mass = 2, v0 = 4;
+  Scene scene = scene_of("drag", {}, {make(Ball{.velocity = {v0, 0}, .mass = mass})});
+  scene.forces.emplace_back(LinearDrag{.body = "ball", .coefficient = c});
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), rate = c / mass;
+  const double v = v0 * std::exp(-rate * t);
+  return Judgement()
+      .read("vx after 1 s", "m/s", trace.last(0).velocity.x, v,
+            v * rate * t * lab.method_error(rate, 1e-4) * 1.2)
+      .mistake("drag_pushes", {v0 * std::exp(rate * t)},
+               "Drag speeds the ball up: it is -c v, against the velocity.")
+      .mistake("drag_not_divided", {v0 * std::exp(-c * t)}, "Drag is a force: divide it by the mass.")
+      .mistake("drag_ignored", {v0}, "Drag does nothing.")
+      .mistake("drag_constant", {v0 - rate * t}, "Drag does not grow with speed: it is c v, not c.")
+      .mistake("drag_quadratic", {v0 / (1 + rate * v0 * t)},
+               "Drag grows with the square of the speed: linear_drag is c v.")
+      .finding();
+}
+
+Finding spring(const Lab& lab) {
+  const double mass = 2, k = 18, amplitude = 0.2, rest = 1, w = std::sqrt(k / mass);
+  Scene scene = scene_of("spring", {}, {make(Ball{.position = {rest + amplitude, 0}, .mass = mass})});
+  SpringForce law;
+  law.body_a = kWorld;
+  law.body_b = "ball";
+  law.rest_length = rest;
+  law.stiffness = k;
+  scene.forces.emplace_back(law);
+  const Trace trace = lab.run(scene, 10);
+  const auto energy = [&](const BodyState& s) {
+    const double stretch = std::hypot(s.position.x, s.position.y) - rest;
+    return mass * dot(s.velocity, s.velocity) / 2 + k * stretch * stretch / 2;
+  };
+  const double h = lab.substep() > 0 ? lab.substep() : lab.dt();
+  const double t = trace.duration(), n = t / h;
+  const double growth = std::pow(energy(trace.last(0)) / energy(trace.first(0)), 1 / n);
+  const std::size_t early = trace.states.size() / 10;
+  const double te = trace.times[early];
+  const auto x = [&](double frequency) { return rest + amplitude * std::cos(frequency * te); };
+  // A symplectic method's energy swings by w h at most about the true one.
+  const double swing = std::log1p(lab.method_error(w, 1e-3) * 2 + 1e-3) / n;
+  return Judgement()
+      .read("growth of energy a step", "", growth, 1, swing)
+      .read("x after 1 s", "m", trace.states[early][0].position.x, x(w),
+            amplitude * w * te * lab.method_error(w, 1e-3) + 1e-3)
+      .mistake(
+          "explicit_euler", {1 + w * w * h * h, kAny},
+          fmt::format("Your energy grows by 1 + w^2 h^2 = {:.6f} a step: that is explicit Euler. Update the "
+                      "velocity first, then the position with the new velocity.",
+                      1 + w * w * h * h))
+      .mistake("implicit_euler", {1 / (1 + w * w * h * h), kAny},
+               "Your energy shrinks by 1/(1 + w^2 h^2) a step: that is implicit Euler, which damps all that "
+               "moves.")
+      .mistake("mass_not_divided", {kAny, x(std::sqrt(k))}, "The spring's force is not divided by the mass.")
+      .mistake(
+          "spring_pushes", {kAny, rest + amplitude * std::cosh(w * te)},
+          "The spring pushes where it should pull: the force on the ball points back to its rest length.")
+      .mistake("rest_length_ignored", {kAny, (rest + amplitude) * std::cos(w * te)},
+               "The spring pulls to its anchor: take \"rest_length\" off the length.")
+      .mistake("spring_ignored", {1, rest + amplitude}, "The spring does nothing.")
+      .finding();
+}
+
+}  // namespace
+
+Chapter cannonballs() {
+  return {
+      .number = 2,
+      .title = "Cannonballs: forces, mass, wind",
+      .page = "2-cannonballs.md",
+      .checks = {{"force_accelerates", "a constant force adds F dt/m a step", kPush, force_accelerates},
+                 {"ten_times_the_mass", "ten times the mass, a tenth of the acceleration", kPush,
+                  ten_times_the_mass},
+                 {"all_fall_alike", "light and heavy fall alike", kBall, all_fall_alike},
+                 {"forces_add", "wind, thrust and gravity add up", kPush, forces_add},
+                 {"push_ends", "a push has a start and an end", kPush, push_ends},
+                 {"drag", "drag slows by exp(-c t/m)", "\"forces\":[\"linear_drag\"]", drag},
+                 {"spring", "a spring keeps its energy and its period", "\"forces\":[\"spring\"]", spring}}};
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,422 @@
+// Chapter 5: sticks, hinges, chains and a ragdoll.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "harness/course/course.h"
+#include "harness/course/scenes.h"
+
+namespace plumb::course {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kPi = std::numbers::pi;
+constexpr const char* kSticks = "\"joints\":[\"distance\"]";
+constexpr const char* kHinges = "\"shapes\":[\"circle\",\"box\"] and \"joints\":[\"revolute\"]";
+constexpr const char* kChain = "\"joints\":[\"distance\"] and \"features\":[\"contacts\"]";
+constexpr const char* kRagdoll =
+    "\"shapes\":[\"circle\",\"box\"], \"joints\":[\"revolute\"] and \"features\":[\"contacts\"]";
+
+DistanceJoint stick(std::string name, std::string a, std::string b, double length, Vec2d anchor_a = {}) {
+  DistanceJoint joint;
+  joint.name = std::move(name);
+  joint.body_a = std::move(a);
+  joint.body_b = std::move(b);
+  joint.anchor_a = anchor_a;
+  joint.length = length;
+  return joint;
+}
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
+
+Finding stick_keeps_its_length(const Lab& lab) {
+  const double d = 1, v = 1;  // each, across the stick: it turns at 2 rad/s
+  Scene scene =
+      scene_of("stick", {},
+               {make(Ball{.name = "a", .position = {-d / 2, 0}, .velocity = {0, -v}, .radius = 0.1}),
+                make(Ball{.name = "b", .position = {d / 2, 0}, .velocity = {0, v}, .radius = 0.1})});
+  scene.joints.emplace_back(stick("stick", "a", "b", d));
+  const Trace trace = lab.run(scene, 5);
+  double worst = 0;
+  for (const auto& states : trace.states)
+    worst = std::max(worst, std::abs(length(states[1].position - states[0].position) - d));
+  const double t = trace.duration(), w = 2 * v / d, wh = w * lab.dt();
+  const double end = length(trace.last(1).position - trace.last(0).position);
+  // Each step leaves the circle by (w h)^2 d/2; ten times that may pile up before it is put right.
+  const double tolerance = (5 * wh * wh + 0.005) * d;
+  // Without correction the tangent step lengthens d^2 by (v h)^2 while d v stays: d^4 grows by 2 d0^2 v0^2
+  // h^2.
+  const double drifted = std::pow(std::pow(d, 4) + 8 * d * d * v * v * lab.dt() * t, 0.25);
+  const double spin = cross(trace.last(1).position - trace.last(0).position,
+                            trace.last(1).velocity - trace.last(0).velocity) /
+                      (end * end);
+  return Judgement()
+      .read("largest change of length", "m", worst, 0, tolerance)
+      .read("spin after 5 s", "rad/s", spin, w, w - 0.95 * w * lab.turn_kept(w, t))
+      .mistake("joint_ignored", {std::hypot(d, 2 * v * t) - d, kAny},
+               "The stick does nothing: the balls fly apart.")
+      .mistake("no_position_correction", {drifted - d, kAny},
+               "The stick grows as its speed is held and its length is not: besides the velocity, correct "
+               "the positions "
+               "by a share of the error each step.")
+      .mistake_if(
+          worst <= tolerance && spin < 0.95 * w, "spin_lost",
+          "The stick loses its spin: correcting positions or velocities must act along the stick only.")
+      .mistake_if(worst <= tolerance && spin > 1.05 * w, "spin_gained",
+                  "The stick gains spin: is a correction of positions counted as velocity twice?")
+      .finding();
+}
+
+// A heavy and a light ball on a stick; the light one is pulled along it.
+Finding stick_weighs_masses(const Lab& lab) {
+  const double heavy = 10, light = 1, force = 11;
+  Scene scene = scene_of("pull", {},
+                         {make(Ball{.name = "heavy", .mass = heavy, .radius = 0.1}),
+                          make(Ball{.name = "light", .position = {1, 0}, .mass = light, .radius = 0.1})});
+  scene.joints.emplace_back(stick("stick", "heavy", "light", 1));
+  scene.forces.emplace_back(push("light", {force, 0}));
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), both = force * t / (heavy + light);
+  const double momentum = heavy * trace.last(0).velocity.x + light * trace.last(1).velocity.x;
+  return Judgement()
+      .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.02 * both)
+      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.02 * both)
+      .mistake("masses_ignored", {force * t / light / 2, force * t / light / 2},
+               "Both ends are moved alike: share the correction by inverse mass, the light end takes ten "
+               "parts in eleven.")
+      .mistake("one_body_only", {0, 0},
+               "Only the light end is held: the stick pulls on both, the heavy one must come along.")
+      .mistake("one_body_only", {force * t / light, force * t / light},
+               "Only the heavy end is dragged along: the light one must feel it as well.")
+      .mistake("joint_ignored", {0, force * t / light}, "The stick does nothing.")
+      .mistake("shares_swapped",
+               {force * t / light * heavy / (heavy + light), force * t / light * heavy / (heavy + light)},
+               "The shares are swapped: the light end moves more, by inverse mass.")
+      .otherwise_if(std::abs(momentum - force * t) > 0.05 * force * t, "momentum_not_kept",
+                    "The stick makes or takes momentum: its two ends get opposite impulses.")
+      .finding();
+}
+
+// The times at which `angle_of` goes through zero, by straight lines between samples.
+template <class AngleOf>
+std::optional<double> period_of(const Trace& trace, const AngleOf& angle_of) {
+  std::vector<double> zeros;
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const double a = angle_of(trace.states[k - 1]), b = angle_of(trace.states[k]);
+    if ((a > 0) != (b > 0))
+      zeros.push_back(trace.times[k - 1] + (trace.times[k] - trace.times[k - 1]) * a / (a - b));
+  }
+  if (zeros.size() < 3) return std::nullopt;
+  const std::size_t last = zeros.size() - 1 - (zeros.size() - 1) % 2;
+  return 2 * (zeros[last] - zeros[0]) / static_cast<double>(last);
+}
+
+// Period of a pendulum of `amplitude` over that of a small swing: 1/agm(1, cos(amplitude/2)) (Gauss).
+double period_ratio(double amplitude) {
+  double a = 1, g = std::cos(amplitude / 2);
+  for (int i = 0; i < 6; ++i) {
+    const double mean = (a + g) / 2;
+    g = std::sqrt(a * g);
+    a = mean;
+  }
+  return 1 / a;
+}
+
+Finding pendulum(const Lab& lab) {
+  const double l = 1, amplitude = kPi / 3;
+  const Vec2d start{l * std::sin(amplitude), -l * std::cos(amplitude)};
+  Scene scene = scene_of("pendulum", {0, -kGravity},
+                         {make(Ball{.name = "bob", .position = start, .mass = 2, .radius = 0.1})});
+  scene.joints.emplace_back(stick("string", std::string(kWorld), "bob", l));
+  const Trace trace = lab.run(scene, 10);
+  const auto angle = [](const std::vector<BodyState>& s) {
+    return std::atan2(s[0].position.x, -s[0].position.y);
+  };
+  const double small = 2 * kPi * std::sqrt(l / kGravity), due = small * period_ratio(amplitude);
+  const std::optional<double> period = period_of(trace, angle);
+  // The mean of w^4 over a swing is 3/8 of its peak.
+  const double peak = 2 * std::sin(amplitude / 2) * std::sqrt(kGravity / l);
+  const double kept = lab.turn_kept(peak, trace.duration() * 3 / 8);
+  const double lowest = 0.9 * 2 * std::asin(std::sin(amplitude / 2) * kept);
+  double high = 0, stretched = 0;
+  for (std::size_t k = 0; k < trace.states.size(); ++k) {
+    stretched = std::max(stretched, std::abs(length(trace.states[k][0].position) - l));
+    if (trace.times[k] > 10 - due) high = std::max(high, std::abs(angle(trace.states[k])));
+  }
+  return Judgement()
+      .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
+      .read("last swing", "rad", high, amplitude, amplitude - lowest)
+      .read("largest change of length", "m", stretched, 0, 0.03 * l)
+      .mistake_if(!period, "joint_ignored",
+                  "It does not swing to and fro: is the end that is held by \"world\" a fixed point?")
+      .otherwise_if(high > 1.1 * amplitude, "correction_adds_energy",
+                    "It swings ever higher: correcting positions must not feed the velocities; or explicit "
+                    "Euler steps it.")
+      .otherwise_if(high < lowest, "damped",
+                    "It swings ever lower: correct along the string only, and by a share of the error.")
+      .mistake("gravity_twice", {due / std::sqrt(2.0), kAny, kAny}, "It swings as under twice the gravity.")
+      .mistake_if(stretched > 0.03 * l, "no_position_correction",
+                  "The string stretches: correct the positions as well.")
+      .finding();
+}
+
+Finding hinged_rod(const Lab& lab) {
+  const double l = 1, h = 0.1, mass = 2, amplitude = kPi / 6;
+  const double about_centre = mass * (l * l + h * h) / 12, about_end = about_centre + mass * l * l / 4;
+  const double angle = amplitude - kPi / 2;  // of the rod's x axis; it hangs at -90 degrees
+  Scene scene = scene_of("hinge", {0, -kGravity},
+                         {make(Crate{.name = "rod",
+                                     .position = {l / 2 * std::cos(angle), l / 2 * std::sin(angle)},
+                                     .angle = angle,
+                                     .mass = mass,
+                                     .width = l,
+                                     .height = h})});
+  RevoluteJoint hinge;
+  hinge.name = "hinge";
+  hinge.body_a = kWorld;
+  hinge.body_b = "rod";
+  hinge.anchor_b = {-l / 2, 0};
+  scene.joints.emplace_back(hinge);
+  const Trace trace = lab.run(scene, 10);
+  const auto swing = [](const std::vector<BodyState>& s) {
+    return std::atan2(s[0].position.x, -s[0].position.y);
+  };
+  const auto period_with = [&](double inertia) {
+    return 2 * kPi * std::sqrt(inertia / (mass * kGravity * l / 2)) * period_ratio(amplitude);
+  };
+  double gap = 0;
+  for (const auto& states : trace.states) {
+    const double a = states[0].angle;
+    gap = std::max(gap, length(states[0].position - l / 2 * Vec2d{std::cos(a), std::sin(a)}));
+  }
+  const double due = period_with(about_end);
+  const std::optional<double> period = period_of(trace, swing);
+  const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
+  return Judgement()
+      .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
+      .read("largest gap at the hinge", "m", gap, 0, 0.03 * l)
+      .mistake_if(
+          !period && still, "lever_forgotten",
+          "The rod does not swing: the hinge holds its centre. It holds the anchor, r from the centre: the "
+          "anchor's velocity is v + w x r, and an impulse turns the rod by r x j/I.")
+      .mistake(
+          "rod_as_point", {period_with(mass * l * l / 4), kAny},
+          "The rod swings as a point at its centre would: it turns as well, r x j/I, and its inertia counts.")
+      .mistake("inertia_sixth", {period_with(2 * about_centre + mass * l * l / 4), kAny},
+               "It swings slowly: is the inertia 1/6 where it should be 1/12?")
+      .mistake("inertia_half", {period_with(about_centre / 2 + mass * l * l / 4), kAny},
+               "It swings fast: is the inertia 1/24 where it should be 1/12?")
+      .mistake_if(gap > 0.2 * l, "joint_ignored", "The rod leaves its hinge.")
+      .mistake_if(gap > 0.03 * l, "no_position_correction",
+                  "The hinge comes apart: correct the positions as well.")
+      .finding();
+}
+
+Finding chain_swings(const Lab& lab) {
+  const int links = 10;
+  const double l = 0.2;
+  const Vec2d down{std::sqrt(0.5), -std::sqrt(0.5)};
+  Scene scene = scene_of("chain", {0, -kGravity}, {});
+  for (int i = 0; i < links; ++i) {
+    const std::string name = fmt::format("bead{}", i), before = fmt::format("bead{}", i - 1);
+    scene.bodies.push_back(
+        make(Ball{.name = name, .position = (i + 1) * l * down, .radius = 0.04, .restitution = 0}));
+    scene.joints.emplace_back(
+        stick(fmt::format("link{}", i), i == 0 ? std::string(kWorld) : before, name, l));
+  }
+  const Trace trace = lab.run(scene, 3);
+  double worst = 0;
+  std::size_t where = 0;
+  for (const auto& states : trace.states) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Vec2d from = i == 0 ? Vec2d{} : states[i - 1].position;
+      const double stretch = std::abs(length(states[i].position - from) - l) / l;
+      if (stretch > worst) worst = stretch, where = i;
+    }
+  }
+  double left = 0;
+  for (const auto& states : trace.states) left = std::min(left, states.back().position.x);
+  return Judgement()
+      .read("largest stretch of a link", "of its length", worst, 0, 0.25)
+      .read("farthest that the end swings to the other side", "m", left, -links * l / 2, 0.45 * links * l)
+      .mistake_if(
+          worst > 1 && where == 0, "too_few_iterations",
+          "The top link gives way under the others: go over all joints several times a step, 10 or more.")
+      .mistake_if(
+          worst > 0.25, "too_few_iterations",
+          fmt::format("Link {} stretches by {:.0f} %: go over all joints several times a step, 10 or more.",
+                      where, 100 * worst))
+      .mistake_if(left > -1e-9, "joint_ignored", "The chain does not swing through.")
+      .finding();
+}
+
+struct Limb {
+  const char* name;
+  Vec2d centre;
+  double width, height;
+};
+
+// A head, a torso, and limbs that hang from it by hinges; arms out, so that nothing touches. 1.5 m high.
+Scene ragdoll(Vec2d at, double spin, Vec2d gravity) {
+  constexpr Limb kLimbs[] = {{"left arm", {-0.45, 0.25}, 0.5, 0.12},
+                             {"right arm", {0.45, 0.25}, 0.5, 0.12},
+                             {"left leg", {-0.15, -0.65}, 0.12, 0.6},
+                             {"right leg", {0.15, -0.65}, 0.12, 0.6}};
+  Scene scene = scene_of(
+      "ragdoll", gravity,
+      {make(Crate{
+          .name = "torso", .mass = 20, .width = 0.35, .height = 0.7, .restitution = 0, .friction = 0.5})});
+  const auto join = [&](const std::string& name, Vec2d at_torso, Vec2d at_limb) {
+    RevoluteJoint joint;
+    joint.name = "joint of " + name;
+    joint.body_a = "torso";
+    joint.body_b = name;
+    joint.anchor_a = at_torso;
+    joint.anchor_b = at_limb;
+    scene.joints.emplace_back(joint);
+  };
+  scene.bodies.push_back(
+      make(Ball{.name = "head", .position = {0, 0.52}, .mass = 4, .radius = 0.13, .restitution = 0}));
+  join("head", {0, 0.37}, {0, -0.15});
+  for (const Limb& limb : kLimbs) {
+    scene.bodies.push_back(make(Crate{.name = limb.name,
+                                      .position = limb.centre,
+                                      .mass = 5,
+                                      .width = limb.width,
+                                      .height = limb.height,
+                                      .restitution = 0,
+                                      .friction = 0.5}));
+    const bool arm = limb.width > limb.height;
+    const Vec2d end =
+        arm ? Vec2d{limb.centre.x > 0 ? -limb.width / 2 : limb.width / 2, 0} : Vec2d{0, limb.height / 2};
+    join(limb.name, limb.centre + end, end);
+  }
+  Vec2d centre{};
+  double mass = 0;
+  for (const Body& body : scene.bodies) centre += body.mass * body.position, mass += body.mass;
+  centre *= 1 / mass;
+  for (Body& body : scene.bodies) {
+    body.velocity = cross(spin, body.position - centre);
+    body.angular_velocity = spin;
+    body.position += at - centre;
+  }
+  return scene;
+}
+
+// The widest that any hinge of `scene` comes apart.
+double widest_gap(const Scene& scene, const Trace& trace) {
+  double widest = 0;
+  for (const auto& states : trace.states) {
+    for (const Joint& joint : scene.joints) {
+      const auto& hinge = std::get<RevoluteJoint>(joint);
+      const auto anchor = [&](const std::string& name, Vec2d local) {
+        const BodyState& s = states[*find_body(scene, name)];
+        return s.position + Rotation<double>{std::cos(s.angle), std::sin(s.angle)} * local;
+      };
+      widest = std::max(widest,
+                        length(anchor(hinge.body_b, hinge.anchor_b) - anchor(hinge.body_a, hinge.anchor_a)));
+    }
+  }
+  return widest;
+}
+
+Finding ragdoll_flies(const Lab& lab) {
+  const double spin = 3;
+  const Scene scene = ragdoll({}, spin, {0, -kGravity});
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration();
+  Vec2d centre{}, velocity{};
+  double mass = 0, l0 = 0, l = 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const double m = scene.bodies[i].mass;
+    mass += m;
+    centre += m * trace.last(i).position;
+    velocity += m * trace.last(i).velocity;
+  }
+  centre *= 1 / mass;
+  velocity *= 1 / mass;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const Geometry& geometry = body.shapes[0].geometry;
+    const auto* box = std::get_if<Box>(&geometry);
+    const double r = box == nullptr ? std::get<Circle>(geometry).radius : 0;
+    const double inertia =
+        body.mass * (box == nullptr ? r * r / 2 : (box->width * box->width + box->height * box->height) / 12);
+    const auto about = [&](const BodyState& s, Vec2d at, Vec2d v) {
+      return body.mass * cross(s.position - at, s.velocity - v) + inertia * s.angular_velocity;
+    };
+    l0 += about(trace.first(i), {}, {});
+    l += about(trace.last(i), centre, velocity);
+  }
+  const double gap = widest_gap(scene, trace), fall = lab.way(0, -kGravity, t);
+  const double lost = 1 - 0.95 * lab.turn_kept(spin, t);
+  // Soft steps move what is held by semi-implicit Euler, what is free exactly.
+  const double held = lab.scheme() == reference::Scheme::SoftStep ? kGravity * t * lab.substep() / 2 : 0;
+  const double off = 0.005 * std::abs(fall) + held;
+  return Judgement()
+      .read("fall of the centre of mass", "m", centre.y, fall, off)
+      .read("drift of the centre of mass", "m", centre.x, 0, 0.01)
+      .read("spin kept", "of all", l / l0, 1, lost)
+      .read("widest gap in a joint", "m", gap, 0, 0.05)
+      .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
+      .mistake_if(
+          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
+          "The limbs pull the whole aside: a joint's two impulses are opposite, and corrections of positions "
+          "are shared by inverse mass.")
+      .mistake_if(std::abs(l / l0 - 1) > lost, "spin_not_kept",
+                  "Joints change the spin of the whole: an impulse at an anchor turns each body by r x j/I, "
+                  "with r as "
+                  "turned by its angle.")
+      .mistake_if(gap > 0.05, "too_few_iterations", "Joints come apart: go over them several times a step.")
+      .finding();
+}
+
+Finding ragdoll_drops(const Lab& lab) {
+  Scene scene = ragdoll({0, 2}, 0.5, {0, -kGravity});
+  scene.bodies.push_back(fixed(make(Crate{
+      .name = "ground", .position = {0, -1}, .width = 20, .height = 2, .restitution = 0, .friction = 0.5})));
+  const Trace trace = lab.run(scene, 4);
+  const double gap = widest_gap(scene, trace);
+  double lowest = 1e9, fastest = 0;
+  for (std::size_t i = 0; i + 1 < scene.bodies.size(); ++i) {
+    lowest = std::min(lowest, trace.last(i).position.y);
+    fastest = std::max(fastest, length(trace.last(i).velocity));
+  }
+  const double in_ground = std::max(0.0, -lowest);
+  // From 2 m nothing moves faster than sqrt(2 g 2.6); at rest after 4 s, slow sliding aside.
+  return Judgement()
+      .read("widest gap in a joint", "m", gap, 0, 0.25)
+      .read("deepest centre below the ground", "m", in_ground, 0, 0.02)
+      .read("fastest limb after 4 s", "m/s", fastest, 0, 1.5)
+      .mistake_if(in_ground > 0.5, "falls_through", "The ragdoll falls through the ground.")
+      .mistake_if(
+          gap > 0.25, "comes_apart",
+          "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
+      .mistake_if(
+          fastest > 1.5, "restless",
+          "The ragdoll does not settle: joints and contacts feed each other energy; correct positions by a "
+          "share (0.1 to 0.3) of the error.")
+      .finding();
+}
+
+}  // namespace
+
+Chapter constraints_and_ragdoll() {
+  return {
+      .number = 5,
+      .title = "Constraints and a ragdoll",
+      .page = "5-constraints-and-ragdoll.md",
+      .checks = {{"stick_keeps_its_length", "two circles on a stick keep their distance", kSticks,
+                  stick_keeps_its_length},
+                 {"stick_weighs_masses", "a stick moves the light end more", kSticks, stick_weighs_masses},
+                 {"pendulum", "a pendulum keeps its period and its swing", kSticks, pendulum},
+                 {"hinged_rod", "a rod on a hinge swings as a rod", kHinges, hinged_rod},
+                 {"chain_swings", "a chain swings like a rope", kChain, chain_swings},
+                 {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies},
+                 {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops}}};
+}
+
+}  // namespace plumb::course

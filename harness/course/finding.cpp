@@ -1,0 +1,88 @@
+#include "harness/course/finding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumb::course {
+namespace {
+
+constexpr double kShareOfTheWay = 0.02;
+
+std::string nothing_known(const std::vector<Reading>& readings) {
+  for (const Reading& reading : readings) {
+    if (reading.good()) continue;
+    if (reading.expected == 0)
+      return fmt::format("no mistake that plumb knows gives this; {} should be 0", reading.what);
+    return fmt::format("no mistake that plumb knows gives this; {} is {:.4g} times what it should be",
+                       reading.what, reading.measured / reading.expected);
+  }
+  return "";
+}
+
+}  // namespace
+
+bool Reading::good() const { return std::abs(measured - expected) <= tolerance; }
+
+Judgement& Judgement::read(std::string what, std::string unit, double measured, double expected,
+                           double tolerance) {
+  readings_.push_back({std::move(what), std::move(unit), measured, expected, tolerance});
+  return *this;
+}
+
+Judgement& Judgement::mistake(std::string name, std::vector<double> gives, std::string says) {
+  mistakes_.push_back({std::move(name), std::move(says), std::move(gives)});
+  return *this;
+}
+
+Judgement& Judgement::mistake_if(bool seen, std::string name, std::string says) {
+  if (seen) seen_.push_back({std::move(name), std::move(says), {}});
+  return *this;
+}
+
+Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says) {
+  if (seen) otherwise_.push_back({std::move(name), std::move(says), {}});
+  return *this;
+}
+
+// How far the readings are from what the mistake gives, in units of what is let pass; above 1 it is another.
+double Judgement::miss(const Mistake& mistake) const {
+  double worst = 0;
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    const Reading& reading = readings_[i];
+    const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
+    if (std::isnan(gives)) continue;
+    const double larger = std::max(1.0, std::abs(gives) / std::max(std::abs(reading.expected), 1e-300));
+    const double passes = std::max(reading.tolerance * (reading.expected == 0 ? 1 : std::min(larger, 1e4)),
+                                   kShareOfTheWay * std::abs(gives - reading.expected));
+    worst = std::max(worst, std::abs(reading.measured - gives) / passes);
+  }
+  return worst;
+}
+
+Finding Judgement::finding() const {
+  Finding out;
+  out.readings = readings_;
+  if (std::all_of(readings_.begin(), readings_.end(), [](const Reading& r) { return r.good(); })) return out;
+  out.verdict = Verdict::Fail;
+  const Mistake* nearest = seen_.empty() ? nullptr : &seen_.front();
+  double least = nearest == nullptr ? 1 : 0;
+  for (const Mistake& mistake : mistakes_) {
+    const double off = miss(mistake);
+    if (off >= least) continue;
+    least = off;
+    nearest = &mistake;
+  }
+  if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
+  if (nearest == nullptr) {
+    out.says = nothing_known(readings_);
+    return out;
+  }
+  out.mistake = nearest->name;
+  out.says = nearest->says;
+  return out;
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,54 @@
+#include "harness/course/lab.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::course {
+
+using reference::Scheme;
+
+Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settings)
+    : engine_(engine), settings_(settings), method_(engine.method(settings)) {
+  if (method_.scheme == Scheme::Adaptive) method_.substep = 0;
+}
+
+Trace Lab::run(const Scene& scene, double duration, int finer) const {
+  reference::StepSettings settings = settings_;
+  settings.dt /= finer;
+  if (const std::string reason = engine_.unsupported(scene, settings); !reason.empty()) throw NotYet(reason);
+  Trace trace;
+  trace.times.push_back(0);
+  trace.states.emplace_back();
+  for (const Body& body : scene.bodies) trace.states.back().push_back(initial_state(body));
+  const int steps = static_cast<int>(std::floor(duration / settings.dt + 1e-6));
+  const auto simulator = engine_.create(scene, settings);
+  simulator->record(steps, 1, scene.bodies.size(), [&](double time, std::span<const BodyState> states) {
+    trace.times.push_back(time);
+    trace.states.emplace_back(states.begin(), states.end());
+  });
+  return trace;
+}
+
+double Lab::rounding(double scale, double time) const {
+  const double steps = time / (method_.substep > 0 ? method_.substep : settings_.dt);
+  const double adaptive = method_.scheme == Scheme::Adaptive ? 1e-6 : 0;
+  return (2 * method_.epsilon * (steps + 1) + adaptive) * std::abs(scale);
+}
+
+double Lab::method_error(double rate, double floor) const {
+  const int order = method_.order;
+  return std::max(floor, order == 0 ? 0 : std::pow(rate * method_.substep, order) / 2);
+}
+
+double Lab::turn_kept(double w, double time) const {
+  return method_.order == 1 ? 1 / std::sqrt(1 + w * w * method_.substep * time) : 1;
+}
+
+double Lab::way(double v, double a, double time) const {
+  double late = 0;
+  if (method_.scheme == Scheme::ExplicitEuler) late = -method_.substep;
+  if (method_.scheme == Scheme::SemiImplicitEuler) late = method_.substep;
+  return v * time + a * time * (time + late) / 2;
+}
+
+}  // namespace plumb::course

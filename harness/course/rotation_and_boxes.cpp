@@ -1,0 +1,265 @@
+// Chapter 4: torque, inertia, levers, and boxes that collide.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "harness/course/course.h"
+#include "harness/course/scenes.h"
+
+namespace plumb::course {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr const char* kBox = "\"shapes\":[\"circle\",\"box\"]: bodies that turn";
+constexpr const char* kTorque = "\"shapes\":[\"circle\",\"box\"] and \"forces\":[\"torque\"]";
+constexpr const char* kPush = "\"shapes\":[\"circle\",\"box\"] and \"forces\":[\"point_force\"]";
+constexpr const char* kContacts =
+    "\"shapes\":[\"circle\",\"box\"] and \"features\":[\"contacts\"]: boxes that turn and collide";
+
+Finding torque_spins(const Lab& lab) {
+  const double mass = 3, side = 0.8, torque = 0.32;
+  const double inertia = mass * (side * side + side * side) / 12;
+  Scene scene = scene_of("torque", {}, {make(Crate{.mass = mass, .width = side, .height = side})});
+  scene.forces.emplace_back(Torque{.body = "box", .torque = torque});
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), w = torque / inertia * t;
+  return Judgement()
+      .read("spin after 1 s", "rad/s", trace.last(0).angular_velocity, w, lab.rounding(w, t))
+      .mistake("inertia_sixth", {w / 2},
+               "Twice too slow: is the inertia 1/6 where it should be 1/12? A box has m (w^2 + h^2)/12.")
+      .mistake(
+          "inertia_half", {2 * w},
+          "Twice too fast: is the inertia 1/24, or one side left out? A box has m (w^2 + h^2)/12, with both.")
+      .mistake("inertia_third", {w / 4},
+               "Four times too slow: 1/3 is a rod about its end; about its centre it is 1/12.")
+      .mistake("mass_for_inertia", {torque / mass * t},
+               "The torque is divided by the mass: divide it by the inertia.")
+      .mistake("inertia_of_one", {torque * t}, "The inertia is 1, or forgotten: w grows by torque dt/I.")
+      .mistake("torque_backwards", {-w},
+               "It spins the wrong way: a positive torque turns counter-clockwise, y up.")
+      .mistake("degrees", {w * kDegrees}, "57.3 times too fast: angles are in radians, not degrees.")
+      .mistake("torque_ignored", {0}, "The torque does nothing: add torque dt/I to the spin.")
+      .finding();
+}
+
+Finding shapes_have_inertia(const Lab& lab) {
+  const double mass = 3, width = 1.6, height = 0.1, r = 0.5;
+  const double thin = mass * (width * width + height * height) / 12, disc = mass * r * r / 2;
+  Scene scene = scene_of("inertia", {},
+                         {make(Crate{.position = {-2, 0}, .mass = mass, .width = width, .height = height}),
+                          make(Ball{.position = {2, 0}, .mass = mass, .radius = r})});
+  scene.forces.emplace_back(Torque{.body = "box", .torque = thin});
+  scene.forces.emplace_back(Torque{.body = "ball", .torque = disc});
+  const Trace trace = lab.run(scene, 1);
+  const double t = trace.duration(), tolerance = lab.rounding(1, t);
+  const auto box_as = [&](double inertia) { return thin / inertia * t; };
+  return Judgement()
+      .read("spin of a thin box", "rad/s", trace.last(0).angular_velocity, t, tolerance)
+      .read("spin of a disc", "rad/s", trace.last(1).angular_velocity, t, tolerance)
+      .mistake("thin_box_as_square", {box_as(mass * width * width / 6), kAny},
+               "The thin box spins as a square of its width does: w^2 + h^2, not 2 w^2.")
+      .mistake("thin_box_as_square", {box_as(mass * height * height / 6), kAny},
+               "The thin box spins as a square of its height does: w^2 + h^2, not 2 h^2.")
+      .mistake("inertia_sixth", {t / 2, kAny},
+               "The box is twice too slow: is it 1/6? A box has m (w^2 + h^2)/12.")
+      .mistake("inertia_half", {2 * t, kAny},
+               "The box is twice too fast: is it 1/24? A box has m (w^2 + h^2)/12.")
+      .mistake("box_by_area", {box_as(mass * width * height / 12), kAny},
+               "w h stands where w^2 + h^2 should.")
+      .mistake("disc_as_ring", {kAny, t / 2}, "The disc spins as a ring does: m r^2/2, not m r^2.")
+      .mistake("disc_as_sphere", {kAny, t * 5 / 4},
+               "The disc spins as a sphere does: m r^2/2, not 2/5 m r^2.")
+      .mistake("disc_as_box", {kAny, t * 3 / 4}, "The disc spins as the box around it does: m r^2/2.")
+      .finding();
+}
+
+Finding angle_in_radians(const Lab& lab) {
+  const double w = 2, start = 0.5;
+  const Trace trace = lab.run(scene_of("spin", {}, {make(Crate{.angle = start, .angular_velocity = w})}), 3);
+  const double t = trace.duration(), angle = start + w * t;
+  return Judgement()
+      .read("angle after 3 s", "rad", trace.last(0).angle, angle, lab.rounding(angle, t))
+      .mistake("wrapped", {angle - 2 * std::numbers::pi},
+               "The angle is wrapped at half a turn: it counts whole turns.")
+      .mistake("degrees", {angle * kDegrees}, "The angle is in degrees: radians are asked for.")
+      .mistake("degrees", {start + w * t * kDegrees},
+               "The spin turns the angle by degrees: radians a second times dt.")
+      .mistake("degrees", {start + w * t / kDegrees},
+               "The spin is read as degrees a second: it is radians a second.")
+      .mistake("turns_backwards", {start - w * t},
+               "It turns the wrong way: angles grow counter-clockwise, y up.")
+      .mistake("does_not_turn", {start}, "The angle never changes: add w dt to it.")
+      .mistake("first_angle_ignored", {w * t}, "The first angle is ignored: take \"angle\" from the scene.")
+      .finding();
+}
+
+// A push of 0.1 s at `point` of a box that stands at `angle`, away from the origin.
+Trace pushed(const Lab& lab, double angle, Vec2d force, Vec2d point) {
+  Scene scene = scene_of("push", {}, {make(Crate{.position = {5, 3}, .angle = angle, .mass = 2})});
+  PointForce law = push("box", force, point);
+  law.duration = 0.1;
+  scene.forces.emplace_back(law);
+  return lab.run(scene, 0.5);
+}
+
+constexpr double kPushed = 0.1;           // s
+constexpr double kPushInertia = 1.0 / 3;  // 2 kg, 1 m by 1 m
+
+// An engine that looks at the clock once a step sees a step more or less of a push.
+double share_of_push(const Lab& lab) { return lab.dt() / kPushed + 0.01; }
+
+Finding central_force(const Lab& lab) {
+  const Vec2d force{3, 4};
+  const Trace trace = pushed(lab, 0, force, {});
+  const double w_by_world = (5 * force.y - 3 * force.x) * kPushed / kPushInertia, v = force.x * kPushed / 2;
+  return Judgement()
+      .read("spin", "rad/s", trace.last(0).angular_velocity, 0, 1e-6)
+      .read("vx", "m/s", trace.last(0).velocity.x, v, v * share_of_push(lab))
+      .mistake("lever_from_origin", {w_by_world, kAny},
+               "It spins by the lever from the world's origin: r runs from the body's centre to the point.")
+      .mistake("lever_from_origin", {-w_by_world, kAny},
+               "It spins by the lever from the world's origin: r runs from the body's centre to the point.")
+      .mistake("force_ignored", {0, 0}, "The force does nothing.")
+      .finding();
+}
+
+Finding corner_force(const Lab& lab) {
+  const Trace corner = pushed(lab, 0, {0, 1}, {0.5, 0.5});
+  const Trace turned = pushed(lab, std::numbers::pi / 2, {1, 0}, {0.5, 0});
+  const double w = 0.5 * kPushed / kPushInertia, tolerance = w * share_of_push(lab);
+  return Judgement()
+      .read("spin by a push at the corner", "rad/s", corner.last(0).angular_velocity, w, tolerance)
+      .read("spin of a box that stands at 90 degrees", "rad/s", turned.last(0).angular_velocity, -w,
+            tolerance)
+      .mistake("torque_backwards", {-w, w},
+               "It spins the wrong way: the torque is rx Fy - ry Fx; r x F, not F x r.")
+      .mistake("point_not_turned", {w, 0},
+               "The point does not turn with the box: turn \"point\" by the body's angle before r x F.")
+      .mistake("point_ignored", {0, 0}, "A push at the corner does not spin the box: add the torque r x F.")
+      .mistake("dot_for_cross", {w, w}, "The torque is r . F: it is rx Fy - ry Fx.")
+      .mistake("inertia_sixth", {w / 2, -w / 2},
+               "Twice too slow: is the inertia 1/6? It is m (w^2 + h^2)/12.")
+      .mistake("inertia_half", {2 * w, -2 * w},
+               "Twice too fast: is one side left out? It is m (w^2 + h^2)/12.")
+      .finding();
+}
+
+constexpr const char* kFlipped =
+    "The rod spins the wrong way: r x n is flipped. w changes by (rx jy - ry jx)/I, r from the centre to the "
+    "contact.";
+
+Finding ball_hits_rod(const Lab& lab) {
+  const double v = 2, arm = 0.8, m = 1, rod_mass = 3, width = 0.2, height = 2;
+  const double inertia = rod_mass * (width * width + height * height) / 12;
+  const Body ball = make(Ball{.position = {-0.8, arm}, .velocity = {v, 0}, .mass = m, .radius = 0.2});
+  const Body rod = make(Crate{.name = "rod", .mass = rod_mass, .width = width, .height = height});
+  const Trace trace = lab.run(scene_of("rod", {}, {ball, rod}), 0.6);
+  const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
+  const double j = 2 * v / k, rigid = 2 * v / linear, w = -arm * j / inertia;
+  return Judgement()
+      .read("vx of the ball", "m/s", trace.last(0).velocity.x, v - j / m, 0.01 * v)
+      .read("vx of the rod", "m/s", trace.last(1).velocity.x, j / rod_mass, 0.01 * v)
+      .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.02 * std::abs(w))
+      .mistake("r_cross_n_flipped", {v - j / m, j / rod_mass, -w}, kFlipped)
+      .otherwise_if(trace.last(1).angular_velocity > -0.2 * w, "r_cross_n_flipped", kFlipped)
+      .mistake("no_rotation", {v - rigid / m, rigid / rod_mass, 0},
+               "The rod does not spin: an impulse off the centre changes w by r x j/I, and (r x n)^2/I "
+               "belongs into the "
+               "effective mass.")
+      .mistake("effective_mass_without_rotation", {v - rigid / m, rigid / rod_mass, -arm * rigid / inertia},
+               "The blow is too strong and energy grows: the effective mass lacks (r x n)^2/I.")
+      .mistake("spin_not_changed", {v - j / m, j / rod_mass, 0},
+               "The impulse never changes the spin: add r x j/I to w.")
+      .mistake("lever_not_squared", {kAny, kAny, -arm * 2 * v / (linear + arm / inertia) / inertia},
+               "The effective mass has (r x n)/I: it is squared, (r x n)^2/I.")
+      .mistake("no_collision", {v, 0, 0}, "The ball goes through the rod.")
+      .finding();
+}
+
+Body ground(double restitution, double friction) {
+  return fixed(make(Crate{.name = "ground",
+                          .position = {0, -1},
+                          .width = 20,
+                          .height = 2,
+                          .restitution = restitution,
+                          .friction = friction}));
+}
+
+constexpr const char* kBothCorners =
+    "Both corners take the whole impulse from the same velocity: solve them one after the other with what "
+    "the "
+    "first has left, several times, and keep their sums from pulling.";
+
+// At a corner of a square of mass m and side s, I = m s^2/6, an impulse feels 1/m + (s/2)^2/I = 2.5/m.
+Finding lands_flat(const Lab& lab) {
+  const double v = 2, e = 0.5, side = 0.8;
+  const Body box = make(Crate{.position = {0.3, 1.2},
+                              .velocity = {0, -v},
+                              .mass = 2,
+                              .width = side,
+                              .height = side,
+                              .restitution = e});
+  const Trace trace = lab.run(scene_of("flat", {}, {box, ground(e, 0)}), 0.8);
+  return Judgement()
+      .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.02 * v)
+      .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
+      .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
+      .mistake("restitution_ignored", {0, 0}, "The box does not bounce: restitution is not used for boxes.")
+      .mistake("always_elastic", {v, 0},
+               "The box bounces as fast as it came: restitution is not used for boxes.")
+      .mistake("both_corners_take_all", {-v + 2 * (1 + e) * v / 2.5, 0}, kBothCorners)
+      .mistake("both_corners_take_all", {-v + 2 * (1 + e) * v, 0}, kBothCorners)
+      .mistake_if(
+          std::abs(trace.last(0).angular_velocity) > 0.02, "one_corner",
+          "It spins after a flat landing: only one corner is answered, or each only once. A flat landing has "
+          "two points; go over them several times.")
+      .finding();
+}
+
+Finding box_rests(const Lab& lab) {
+  const double side = 0.8;
+  const Body box = make(Crate{.position = {0, side / 2 + 0.3},
+                              .mass = 2,
+                              .width = side,
+                              .height = side,
+                              .restitution = 0,
+                              .friction = 0.5});
+  const Trace trace = lab.run(scene_of("rest", {0, -kGravity}, {box, ground(0, 0.5)}), 4);
+  const BodyState& end = trace.last(0);
+  const double sunk = side / 2 - end.position.y, tolerance = kGravity * lab.dt() * lab.dt() + 0.03 * side;
+  return Judgement()
+      .read("sunk after 4 s", "m", sunk, 0, tolerance)
+      .read("angle", "rad", end.angle, 0, 0.02)
+      .read("vy", "m/s", end.velocity.y, 0, 2 * kGravity * lab.dt())
+      .read("slid", "m", end.position.x, 0, 0.02)
+      .mistake_if(sunk > side, "falls_through", "The box falls through the ground.")
+      .mistake_if(std::abs(end.angle) > 0.02, "one_corner",
+                  "The box tips over on flat ground: both of its lower corners carry it.")
+      .mistake_if(sunk > tolerance, "sinks",
+                  "The box sinks in: set positions right by a share of the overlap each step.")
+      .mistake_if(-sunk > tolerance, "restless",
+                  "The box does not settle: what gravity adds in a step must not bounce.")
+      .finding();
+}
+
+}  // namespace
+
+Chapter rotation_and_boxes() {
+  return {.number = 4,
+          .title = "Rotation and boxes",
+          .page = "4-rotation-and-boxes.md",
+          .checks = {{"torque_spins", "a torque spins a box by torque/I a second", kTorque, torque_spins},
+                     {"shapes_have_inertia", "thin boxes and discs have their own inertia", kTorque,
+                      shapes_have_inertia},
+                     {"angle_in_radians", "angles in radians, whole turns and all", kBox, angle_in_radians},
+                     {"central_force", "a push at the centre does not spin", kPush, central_force},
+                     {"corner_force", "a push at the corner spins", kPush, corner_force},
+                     {"ball_hits_rod", "a blow on a rod's end moves and spins it", kContacts, ball_hits_rod},
+                     {"lands_flat", "a box lands flat and bounces flat", kContacts, lands_flat},
+                     {"box_rests", "a box rests on the ground", kContacts, box_rests}}};
+}
+
+}  // namespace plumb::course

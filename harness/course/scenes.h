@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+/// Building blocks of the checks' scenes. Nothing rubs: friction is 0 but where a check asks for it.
+namespace plumb::course {
+
+struct Ball {
+  std::string name = "ball";
+  Vec2d position{}, velocity{};
+  double mass = 1;
+  double radius = 0.5;
+  double restitution = 1;
+};
+
+Body make(const Ball& ball);
+
+struct Crate {
+  std::string name = "box";
+  Vec2d position{}, velocity{};
+  double angle = 0, angular_velocity = 0;
+  double mass = 1;
+  double width = 1, height = 1;
+  double restitution = 1;
+  double friction = 0;
+};
+
+Body make(const Crate& crate);
+
+/// The same, but it stands still.
+Body fixed(Body body);
+
+Scene scene_of(std::string name, Vec2d gravity, std::vector<Body> bodies);
+
+/// The force `force` at the body's point `point` from `start` for `duration`.
+PointForce push(const std::string& body, Vec2d force, Vec2d point = {});
+
+}  // namespace plumb::course

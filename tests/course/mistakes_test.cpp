@@ -1,0 +1,141 @@
+// Every mistake that is planted in the learner's engine is recognised by name in the check that it spoils.
+#include <gmock/gmock.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "harness/course/course.h"
+#include "harness/course/report.h"
+#include "tests/course/student/student.h"
+
+namespace plumb::course {
+namespace {
+
+struct Seed {
+  const char* planted;
+  const char* check;
+  const char* recognised;
+};
+
+constexpr Seed kSeeds[] = {
+    {"no_gravity", "falls", "no_gravity"},
+    {"gravity_upwards", "falls", "gravity_upwards"},
+    {"gravity_twice", "falls", "gravity_twice"},
+    {"dt_twice", "falls", "dt_twice"},
+    {"dt_missing", "falls", "dt_missing"},
+    {"milliseconds", "falls", "milliseconds"},
+    {"explicit_euler", "falls_far_enough", "explicit_euler"},
+    {"half_a_step_twice", "falls_far_enough", "half_a_step_twice"},
+    {"velocity_without_dt", "falls_far_enough", "velocity_without_dt"},
+    {"gravity_hard_coded", "scene_says_gravity", "gravity_hard_coded"},
+    {"gravity_only_down", "scene_says_gravity", "gravity_only_down"},
+    {"starts_at_rest", "scene_says_gravity", "starts_at_rest"},
+    {"per_frame", "any_step_size", "per_frame"},
+    {"falls_through", "bounces", "falls_through"},
+    {"both_turned", "bounces", "both_turned"},
+    {"restitution_squared", "restitution", "restitution_squared"},
+    {"restitution_average", "restitution", "restitution_average"},
+    {"restitution_product", "restitution", "restitution_product"},
+    {"always_elastic", "restitution", "restitution_ignored"},
+    {"restitution_zero", "restitution", "restitution_zero"},
+    {"turned_every_step", "restitution", "turned_every_step"},
+    {"wall_missing", "four_walls", "wall_missing"},
+    {"always_elastic", "settles", "never_loses_energy"},
+    {"ignores_slow", "settles", "sinks"},
+    {"mass_not_divided", "ten_times_the_mass", "mass_not_divided"},
+    {"gravity_divided_by_mass", "all_fall_alike", "gravity_divided_by_mass"},
+    {"weight_not_divided", "all_fall_alike", "weight_not_divided"},
+    {"last_force_only", "forces_add", "last_force_only"},
+    {"first_force_lost", "forces_add", "first_force_lost"},
+    {"force_not_cleared", "force_accelerates", "force_not_cleared"},
+    {"push_never_ends", "push_ends", "push_never_ends"},
+    {"drag_pushes", "drag", "drag_pushes"},
+    {"drag_not_divided", "drag", "drag_not_divided"},
+    {"explicit_euler", "spring", "explicit_euler"},
+    {"spring_pushes", "spring", "spring_pushes"},
+    {"rest_length_ignored", "spring", "rest_length_ignored"},
+    {"no_detection", "detects", "no_detection"},
+    {"diameters", "detects", "diameters"},
+    {"one_radius", "detects", "one_radius"},
+    {"square_of_distance", "detects", "square_of_distance"},
+    {"normal_flipped", "equal_masses_swap", "normal_flipped"},
+    {"impulse_backwards", "equal_masses_swap", "impulse_backwards"},
+    {"each_turned", "equal_masses_swap", "each_turned"},
+    {"one_body_only", "equal_masses_swap", "one_body_only"},
+    {"masses_ignored", "heavy_hits_light", "masses_ignored"},
+    {"inverse_mass_forgotten", "heavy_hits_light", "inverse_mass_forgotten"},
+    {"masses_in_place_of_inverses", "heavy_hits_light", "masses_in_place_of_inverses"},
+    {"effective_mass_forgotten", "heavy_hits_light", "effective_mass_forgotten"},
+    {"masses_swapped", "heavy_hits_light", "masses_swapped"},
+    {"always_elastic", "restitution_of_two", "always_elastic"},
+    {"restitution_zero", "restitution_of_two", "restitution_ignored"},
+    {"restitution_squared", "restitution_of_two", "restitution_squared"},
+    {"whole_velocity", "oblique", "whole_velocity"},
+    {"normal_not_unit", "oblique", "normal_not_unit"},
+    {"static_has_mass", "post", "static_has_mass"},
+    {"correction_adds_energy", "break_shot", "correction_adds_energy"},
+    {"sinks", "pile_rests", "sinks"},
+    {"inertia_sixth", "torque_spins", "inertia_sixth"},
+    {"one_side_only", "torque_spins", "inertia_half"},
+    {"mass_for_inertia", "torque_spins", "mass_for_inertia"},
+    {"thin_box_as_square", "shapes_have_inertia", "thin_box_as_square"},
+    {"disc_as_ring", "shapes_have_inertia", "disc_as_ring"},
+    {"angle_in_degrees", "angle_in_radians", "degrees"},
+    {"spin_in_degrees", "angle_in_radians", "degrees"},
+    {"lever_from_origin", "central_force", "lever_from_origin"},
+    {"torque_backwards", "corner_force", "torque_backwards"},
+    {"point_ignored", "corner_force", "point_ignored"},
+    {"point_not_turned", "corner_force", "point_not_turned"},
+    {"r_cross_n_flipped", "ball_hits_rod", "r_cross_n_flipped"},
+    {"no_rotation", "ball_hits_rod", "no_rotation"},
+    {"effective_mass_without_rotation", "ball_hits_rod", "effective_mass_without_rotation"},
+    {"both_corners_take_all", "lands_flat", "both_corners_take_all"},
+    {"one_corner", "box_rests", "one_corner"},
+    {"joint_ignored", "stick_keeps_its_length", "joint_ignored"},
+    {"no_position_correction", "stick_keeps_its_length", "no_position_correction"},
+    {"stick_masses_ignored", "stick_weighs_masses", "masses_ignored"},
+    {"stick_one_body_only", "stick_weighs_masses", "one_body_only"},
+    {"gravity_twice", "pendulum", "gravity_twice"},
+    {"lever_forgotten", "hinged_rod", "lever_forgotten"},
+    {"inertia_sixth", "hinged_rod", "inertia_sixth"},
+    {"too_few_iterations", "chain_swings", "too_few_iterations"},
+    {"joint_ignored", "ragdoll_flies", "joint_ignored"},
+    {"stick_one_body_only", "ragdoll_flies", "momentum_not_kept"},
+    {"joint_ignored", "ragdoll_drops", "comes_apart"},
+};
+
+Finding finding_of(const std::string& mistake, const std::string& check) {
+  for (Chapter& chapter : chapters()) {
+    std::erase_if(chapter.checks, [&](const Check& each) { return each.name != check; });
+    if (chapter.checks.empty()) continue;
+    return examine(*make_student(mistake), {}, {&chapter, 1}, [](const Outcome&) {}).front().finding;
+  }
+  throw std::out_of_range(check);
+}
+
+TEST(Mistakes, ALearnerWhoMakesNonePassesEveryCheck) {
+  const std::vector<Chapter> all = chapters();
+  for (const Outcome& outcome : examine(*make_student(""), {}, all, [](const Outcome&) {}))
+    EXPECT_EQ(outcome.finding.verdict, Verdict::Pass) << line(outcome, {});
+}
+
+TEST(Mistakes, EachIsRecognisedByName) {
+  for (const Seed& seed : kSeeds) {
+    const Finding finding = finding_of(seed.planted, seed.check);
+    std::string readings;
+    for (const Reading& r : finding.readings) readings += "\n  " + r.what + " " + std::to_string(r.measured);
+    EXPECT_EQ(finding.verdict, Verdict::Fail) << seed.planted << " in " << seed.check;
+    EXPECT_EQ(finding.mistake, seed.recognised)
+        << seed.planted << " in " << seed.check << ": " << finding.says << readings;
+  }
+}
+
+TEST(Mistakes, EveryCheckIsSpoiltByOne) {
+  std::set<std::string> spoilt;
+  for (const Seed& seed : kSeeds) spoilt.insert(seed.check);
+  for (const Chapter& chapter : chapters())
+    for (const Check& check : chapter.checks) EXPECT_TRUE(spoilt.contains(check.name)) << check.name;
+}
+
+}  // namespace
+}  // namespace plumb::course

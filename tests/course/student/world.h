@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace plumb::course {
+
+struct Rigid {
+  Vec2d position, velocity, force;
+  double angle = 0, spin = 0, torque = 0;
+  double inverse_mass = 0, inverse_inertia = 0;
+  const Body* body = nullptr;
+
+  Vec2d to_world(Vec2d local) const;
+  Vec2d velocity_at(Vec2d arm) const { return velocity + cross(spin, arm); }
+};
+
+struct Touch {
+  std::size_t a = 0, b = 0;
+  Vec2d point, normal;  ///< from a to b
+  double depth = 0, bounce = 0, sum = 0;
+};
+
+/// The learner's world, and the mistakes in it.
+class StudentWorld {
+ public:
+  StudentWorld(const Scene& scene, double dt, std::string mistake);
+
+  void step();
+  double time() const { return static_cast<double>(steps_) * dt_; }
+  std::vector<BodyState> states() const;
+
+ private:
+  bool is(std::string_view mistake) const { return mistake_ == mistake; }
+  double inertia(const Body& body) const;
+  void gather_forces();
+  void apply(const ForceLaw& law, bool first, bool last);
+  void accelerate();
+  void move();
+  std::vector<Touch> touches() const;
+  void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
+  void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
+  void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
+  double restitution(const Touch& touch) const;
+  void prepare(Touch& touch) const;
+  void answer(Touch& touch);
+  void answer_all(std::vector<Touch>& found);
+  void push_out();
+  void solve(const Joint& joint);
+  void correct(const Joint& joint);
+  void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
+
+  struct Ends {
+    std::size_t a, b;
+    Vec2d arm_a, arm_b, gap;
+  };
+  Ends ends(const Joint& joint) const;
+
+  Scene scene_;
+  double dt_;
+  std::string mistake_;
+  bool once_ = false;  ///< contacts are answered once a step
+  long steps_ = 0;
+  std::vector<Rigid> bodies_;  ///< the scene's, then the world
+};
+
+}  // namespace plumb::course

@@ -1,0 +1,20 @@
+# The course: its checks, a learner's engine that makes mistakes when asked to, and the starters.
+plumb_add_tests(course process LINK plumb_catalogue nlohmann_json::nlohmann_json)
+set(student ${CMAKE_CURRENT_SOURCE_DIR}/course/student)
+target_sources(test_course PRIVATE ${student}/student.cpp ${student}/world.cpp
+  ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
+
+add_executable(plumb_course_student ${student}/main.cpp ${student}/student.cpp ${student}/world.cpp)
+target_link_libraries(plumb_course_student PRIVATE plumb_reference_support plumb_options)
+
+set(starters ${PROJECT_SOURCE_DIR}/docs/course/starters)
+add_executable(plumb_course_starter ${starters}/ball.cpp)
+target_link_libraries(plumb_course_starter PRIVATE nlohmann_json::nlohmann_json)
+
+find_program(PLUMB_NODE NAMES node nodejs)
+add_dependencies(test_course plumb_app plumb_course_student plumb_course_starter)
+target_compile_definitions(test_course PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plumb_app>"
+  PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+  PLUMB_STUDENT="$<TARGET_FILE:plumb_course_student>" PLUMB_STARTER_CPP="$<TARGET_FILE:plumb_course_starter>"
+  PLUMB_STARTERS="${starters}" PLUMB_CIRCLES="${CMAKE_CURRENT_SOURCE_DIR}/course/circles.py"
+  PLUMB_NODE="$<IF:$<BOOL:${PLUMB_NODE}>,${PLUMB_NODE},>")
