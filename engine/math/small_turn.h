@@ -9,7 +9,7 @@ namespace plumb {
 /// `q` turned on by `x`, rad: sine and cosine of a small angle to the order where a float rounds, the
 /// library's own beyond an eighth.
 template <class Real>
-Rotation<Real> turned_by(Rotation<Real> q, Real x) {
+[[gnu::always_inline]] inline Rotation<Real> turned_by(Rotation<Real> q, Real x) {
   if (std::abs(x) > Real(0.125)) {
     const Rotation<Real> r = rotation_of(x);
     return {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};

@@ -77,16 +77,20 @@ struct HingeConstraint {
   }
 
  private:
+  // In numbers of its own, written once: a pair that is stored by halves and loaded as one stalls.
   [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const BodyMotion<Real>& motion_a,
                                        const BodyMotion<Real>& motion_b, const JointVelocities<Real>& v) {
-    const JointPose<Real> pose{.offset = offset + (motion_b.moved - motion_a.moved),
-                               .rotation_a = bodies.rotation[a],
-                               .rotation_b = bodies.rotation[b]};
-    const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b).middle();
-    arm_a = point.arm_a;
-    arm_b = point.arm_b;
-    gap = point.gap;
-    mass = point_mass(v, arm_a, arm_b, share);
+    const Vec2<Real> to_a = bodies.rotation[a] * anchor_a, to_b = bodies.rotation[b] * anchor_b;
+    const Real gap_x = offset.x + (motion_b.moved.x - motion_a.moved.x) + (to_b.x - to_a.x);
+    const Real gap_y = offset.y + (motion_b.moved.y - motion_a.moved.y) + (to_b.y - to_a.y);
+    // Both arms lead to the middle of the gap, as AnchorPoint::middle says.
+    const Real half_x = Real(0.5) * gap_x, half_y = Real(0.5) * gap_y;
+    const Vec2<Real> new_a{to_a.x + half_x, to_a.y + half_y}, new_b{to_b.x - half_x, to_b.y - half_y};
+    gap.x = gap_x, gap.y = gap_y;
+    arm_a.x = new_a.x, arm_a.y = new_a.y;
+    arm_b.x = new_b.x, arm_b.y = new_b.y;
+    const Symmetric2<Real> now = point_mass(v, new_a, new_b, share);
+    mass.xx = now.xx, mass.xy = now.xy, mass.yy = now.yy;
   }
 };
 

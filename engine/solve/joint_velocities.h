@@ -24,8 +24,9 @@ struct JointVelocities {
 
   /// Bodies that do not give way are not written to: joints of one colour may share them.
   void store(BodyMotion<Real>& a, BodyMotion<Real>& b) const {
-    if (m_a + i_a > 0) a.velocity = v_a, a.angular_velocity = w_a;
-    if (m_b + i_b > 0) b.velocity = v_b, b.angular_velocity = w_b;
+    // By halves, as they were computed: a pair that is stored by halves and loaded as one stalls.
+    if (m_a + i_a > 0) a.velocity.x = v_a.x, a.velocity.y = v_a.y, a.angular_velocity = w_a;
+    if (m_b + i_b > 0) b.velocity.x = v_b.x, b.velocity.y = v_b.y, b.angular_velocity = w_b;
   }
 
   /// J v.
