@@ -8,6 +8,7 @@
 #include "engine/simulation/precise_clock.h"
 #include "engine/simulation/precise_companion.h"
 #include "engine/simulation/precise_driver.h"
+#include "engine/simulation/precise_origin.h"
 
 namespace plumb::precise {
 namespace {
@@ -114,7 +115,10 @@ namespace plumb {
 std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
                                             CompileOptions options) {
   const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
-    return std::make_unique<precise::PreciseDriver>(scene, p, options);
+    const Vec2d origin = precise::local_origin(scene);
+    if (origin == Vec2d{}) return std::make_unique<precise::PreciseDriver>(scene, p, options);
+    return std::make_unique<precise::OffsetDriver>(
+        std::make_unique<precise::PreciseDriver>(precise::seen_from(scene, origin), p, options), origin);
   };
   if (precise.estimate_error)
     return std::make_unique<precise::CompanionDriver>(precise, scene.bodies.size(), make);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/scene/scene.h"
+#include "engine/simulation/driver.h"
+
+namespace plumb::precise {
+
+/// A point near the scene, where it lies so far off the origin that coordinates would lose digits to it;
+/// else zero.
+Vec2d local_origin(const Scene& scene);
+
+/// The same scene seen from `origin`: all places in the world's frame are differences to it.
+Scene seen_from(const Scene& scene, Vec2d origin);
+
+/// A driver of a scene that is `seen_from` a point, as one of the scene itself.
+class OffsetDriver final : public Driver {
+ public:
+  OffsetDriver(std::unique_ptr<Driver> driver, Vec2d origin) : driver_(std::move(driver)), origin_(origin) {}
+
+  void step() override { driver_->step(); }
+  double time() const override { return driver_->time(); }
+  void read(std::span<BodyState> out) const override {
+    driver_->read(out);
+    for (BodyState& state : out) state.position += origin_;
+  }
+  void write(std::size_t body, const BodyState& state) override {
+    BodyState seen = state;
+    seen.position -= origin_;
+    driver_->write(body, seen);
+  }
+  std::vector<std::byte> save() const override { return driver_->save(); }
+  void restore(std::span<const std::byte> snapshot) override { driver_->restore(snapshot); }
+  const Plan& plan() const override { return driver_->plan(); }
+  void profile(bool on) override { driver_->profile(on); }
+  Statistics statistics() const override { return driver_->statistics(); }
+
+ private:
+  std::unique_ptr<Driver> driver_;
+  Vec2d origin_;
+};
+
+}  // namespace plumb::precise
