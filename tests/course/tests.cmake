@@ -18,3 +18,11 @@ target_compile_definitions(test_course PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plum
   PLUMB_STUDENT="$<TARGET_FILE:plumb_course_student>" PLUMB_STARTER_CPP="$<TARGET_FILE:plumb_course_starter>"
   PLUMB_STARTERS="${starters}" PLUMB_CIRCLES="${CMAKE_CURRENT_SOURCE_DIR}/course/circles.py"
   PLUMB_NODE="$<IF:$<BOOL:${PLUMB_NODE}>,${PLUMB_NODE},>")
+
+set(check ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/check_pages.py)
+add_test(NAME course/pages COMMAND ${check} ${PROJECT_SOURCE_DIR})
+add_test(NAME course/pages_self_test COMMAND ${check} --self-test)
+add_test(NAME course/output COMMAND ${check} --output ${PROJECT_SOURCE_DIR}
+  $<TARGET_FILE:plumb_app> $<TARGET_FILE:plumb_course_student>)
+add_test(NAME course/figures COMMAND ${check} --figures ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+set_tests_properties(course/pages course/pages_self_test course/output course/figures PROPERTIES LABELS unit TIMEOUT 120)
