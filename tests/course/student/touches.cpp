@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tests/course/student/world.h"
+
+// Where shapes touch: circles and circles, circles and boxes, corners in boxes.
+namespace plumb::course {
+namespace {
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
+
+}  // namespace
+
+void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
+  const double ra = std::get<Circle>(bodies_[a].body->shapes[0].geometry).radius;
+  const double rb = std::get<Circle>(bodies_[b].body->shapes[0].geometry).radius;
+  const Vec2d way = bodies_[b].position - bodies_[a].position;
+  const double d = length(way);
+  double reach = ra + rb;
+  if (is("diameters")) reach *= 2;
+  if (is("one_radius")) reach = ra;
+  if (is("no_detection")) reach = 0;
+  if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
+  Vec2d n = 1 / d * way;
+  if (is("normal_not_unit")) n = way;
+  if (is("normal_flipped")) n = -n;
+  out.push_back({a, b, bodies_[a].position + ra / d * way, n, is("normal_flipped") ? 0 : ra + rb - d});
+}
+
+void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
+  const Rigid &c = bodies_[circle], &b = bodies_[box];
+  const double r = std::get<Circle>(c.body->shapes[0].geometry).radius;
+  const Box& size = std::get<Box>(b.body->shapes[0].geometry);
+  const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
+  const Vec2d local = q.inverse() * (c.position - b.position);
+  const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
+                      std::clamp(local.y, -size.height / 2, size.height / 2)};
+  const Vec2d way = q * (nearest - local);
+  const double d = length(way);
+  if (d <= 0 || d >= r) return;
+  if (is("wall_missing") && b.position.x > 1) return;
+  out.push_back({circle, box, c.position + way, 1 / d * way, r - d});
+}
+
+// The corners of a box that lie in another box.
+void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const {
+  const Rigid &b = bodies_[box], &c = bodies_[corners];
+  const Box& size = std::get<Box>(b.body->shapes[0].geometry);
+  const Box& other = std::get<Box>(c.body->shapes[0].geometry);
+  const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
+  for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}}) {
+    const Vec2d corner = c.position + c.to_world({sign.x * other.width / 2, sign.y * other.height / 2});
+    const Vec2d local = q.inverse() * (corner - b.position);
+    const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
+    if (in_x <= 0 || in_y <= 0) continue;
+    const Vec2d n =
+        in_x < in_y ? Vec2d{std::copysign(1.0, local.x), 0} : Vec2d{0, std::copysign(1.0, local.y)};
+    out.push_back({box, corners, corner, q * n, std::min(in_x, in_y)});
+    if (is("one_corner")) return;
+  }
+}
+
+std::vector<Touch> StudentWorld::touches() const {
+  std::vector<Touch> out;
+  const auto joined = [&](std::size_t a, std::size_t b) {
+    for (const Joint& joint : scene_.joints) {
+      const Ends e = ends(joint);
+      if ((e.a == a && e.b == b) || (e.a == b && e.b == a)) return true;
+    }
+    return false;
+  };
+  for (std::size_t a = 0; a + 1 < bodies_.size(); ++a) {
+    for (std::size_t b = a + 1; b + 1 < bodies_.size(); ++b) {
+      if (bodies_[a].inverse_mass + bodies_[b].inverse_mass == 0 || joined(a, b)) continue;
+      const bool round_a = bodies_[a].body->shapes[0].geometry.index() == 0;
+      const bool round_b = bodies_[b].body->shapes[0].geometry.index() == 0;
+      if (round_a && round_b) touch_circles(a, b, out);
+      if (round_a && !round_b && !is("falls_through")) touch_circle_box(a, b, out);
+      if (!round_a && round_b) touch_circle_box(b, a, out);
+      if (!round_a && !round_b) touch_corners(b, a, out), touch_corners(a, b, out);
+    }
+  }
+  return out;
+}
+
+}  // namespace plumb::course
