@@ -32,7 +32,7 @@ struct Given {
   std::string name, script, screenshot, seconds, dt, theme = "dark";
   std::vector<std::string> settings, drawings, ghosts;
   int width = 1280, height = 800, colours = 0, frames = 0, size = 0;
-  bool list = false, headless = false, bare = false;
+  bool list = false, headless = false, bare = false, report = false;
 };
 
 void add_options(CLI::App& command, Given& given) {
@@ -47,6 +47,7 @@ void add_options(CLI::App& command, Given& given) {
       ->check(CLI::Range(2, 256));
   command.add_option("--theme", given.theme, "dark or light")->check(CLI::IsMember({"dark", "light"}));
   command.add_flag("--no-panel", given.bare, "start without the panel");
+  command.add_flag("--report", given.report, "print time, hash and figures at the end, as --headless does");
   command.add_option("--dt", given.dt, "length of a step, s: short for --set dt=DT")->type_name("DT");
   command.add_option("--set", given.settings, "a control, as NAME=VALUE (again for more)");
   command.add_option("--show", given.drawings,
@@ -93,6 +94,7 @@ int play(Player& player, const Given& given) {
     print(window::report(player));
   } else {
     window::run_in_window(player, options);
+    if (given.report) print(window::report(player));
   }
   return kOk;
 }
