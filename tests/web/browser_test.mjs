@@ -60,6 +60,29 @@ test("one file of less than 1.5 MB that asks the network for nothing", async () 
   await closed(page, "bouncing_ball");
 });
 
+test("the ball is painted where it is", async () => {
+  for (const [dark, colour] of [[false, [250, 196, 132]], [true, [176, 104, 44]]]) {
+    const page = await opened("bouncing_ball", {dark, scale: 2});
+    await page.until("plumb.time > 0.3");
+    await page.ask("plumb.paused = true");
+    await page.frames(2);
+    // Left and below, inside and outside: the colours at so many radii from the middle.
+    const [left, below, outside, above] = await page.ask(`(() => {
+      const {x, y} = where("ball"), radius = 0.3 * plumb.camera.scale, size = 2.6 * radius;
+      const box = document.getElementById("stage").getContext("2d")
+        .getImageData(2 * (x - size / 2), 2 * (y - size / 2), 2 * size, 2 * size);
+      return [[-0.9, 0], [0, 0.9], [-1.2, 0], [0, -1.2]].map(([across, down]) => {
+        const column = Math.round(size + 2 * radius * across), row = Math.round(size + 2 * radius * down);
+        return [...box.data.slice(4 * (row * box.width + column)).slice(0, 3)];
+      });
+    })()`);
+    assert.deepEqual([left, below], [colour, colour]);
+    assert.notDeepEqual(outside, colour);
+    assert.notDeepEqual(above, colour);
+    await closed(page, dark ? "ball_dark" : "ball");
+  }
+});
+
 test("every demo has the native hash after 1000 steps", async () => {
   const lines = execFileSync(native, {encoding: "utf8"}).split("\n").map((line) => line.split(" "));
   const expected = lines.filter(([, how]) => how === "untouched").map(([name, , , hash]) => [name, hash]);

@@ -54,6 +54,7 @@ export class Painter {
         default: throw new Error(`no command ${numbers[at]}`);
       }
     }
+    this.#scale_bar(width, height);
     context.font = "13px system-ui, sans-serif";
     context.textAlign = "center";
     for (const {at, role, text} of labels) {
@@ -123,7 +124,7 @@ export class Painter {
     this.#context.stroke();
   }
 
-  // Lines a round number of metres apart, and how long one such step is.
+  // Lines a round number of metres apart.
   #grid(width, height) {
     const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
     const lower = camera.to_world({x: 0, y: height}), upper = camera.to_world({x: width, y: 0});
@@ -139,6 +140,11 @@ export class Painter {
       context.lineWidth = i === 0 ? 2 : 1;
       this.#line(0, y, width, y);
     }
+  }
+
+  // How long a step of the grid is.
+  #scale_bar(width, height) {
+    const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
     context.strokeStyle = context.fillStyle = this.#theme.text;
     context.lineWidth = 2;
     const right = width - 20, left = right - step * camera.scale, y = this.scale_bar_y ?? height - 14;
