@@ -24,6 +24,7 @@ struct ActivePatch {
 /// body b along the tangent (the normal from a to b turned a quarter counter-clockwise).
 struct ContactForces {
   std::vector<double> normal, tangent;
+  std::vector<double> stop;  ///< of held stops of joints, N or N m, in their order
 };
 
 /// Rows and what a unit impulse along each of them changes, joints included.

@@ -75,8 +75,10 @@ void EquationsOfMotion::add_response(const ContactResponse& response, std::span<
       motion[body].angular_velocity += impulses[k] * change.angular_velocity;
     };
     if (response.all.empty()) {
-      add(static_cast<std::size_t>(response.rows[k].a), response.of_a[k]);
-      add(static_cast<std::size_t>(response.rows[k].b), response.of_b[k]);
+      if (response.rows[k].a != kFixedFrame)
+        add(static_cast<std::size_t>(response.rows[k].a), response.of_a[k]);
+      if (response.rows[k].b != kFixedFrame)
+        add(static_cast<std::size_t>(response.rows[k].b), response.of_b[k]);
     } else {
       for (const std::size_t body : bodies_) add(body, response.all[k * poses_.size() + body]);
     }
@@ -99,6 +101,12 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
       pushes.push_back(rubs ? sum(rows.normal, -patch.mode * patch.friction, rows.tangent) : rows.normal);
       if (i == 0 && patch.sticks()) tangents.push_back(rows.tangent);
       ++points_;
+    }
+  }
+  if (held_stops_ > 0) {
+    const std::span<const Row<double>> rows = stop_rows();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (stop_modes_[k] == StopMode::Held) tangents.push_back(rows[k]);
     }
   }
   constraints_.insert(constraints_.end(), tangents.begin(), tangents.end());
@@ -146,6 +154,40 @@ void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
     contact_forces_.tangent.push_back(patch.sticks() ? contact_side_[stuck++]
                                                      : -patch.mode * patch.friction * normal);
   }
+  contact_forces_.stop.assign(contact_side_.begin() + static_cast<std::ptrdiff_t>(stuck),
+                              contact_side_.end());
+}
+
+void EquationsOfMotion::hold_stops(std::vector<StopMode> modes) {
+  stop_modes_ = std::move(modes);
+  held_stops_ = pushing_stops_ = 0;
+  for (const StopMode mode : stop_modes_) {
+    held_stops_ += mode == StopMode::Held ? 1 : 0;
+    pushing_stops_ += mode == StopMode::Forward || mode == StopMode::Backward ? 1 : 0;
+  }
+}
+
+std::span<const Row<double>> EquationsOfMotion::stop_rows() {
+  stop_rows_.resize(kind_joints_.stops().size());
+  kind_joints_.stop_rows(bodies_now(), stop_rows_);
+  return stop_rows_;
+}
+
+/// Adds the forces of motors that push as hard as they can.
+void EquationsOfMotion::add_motors() {
+  const std::span<const Row<double>> rows = stop_rows();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (stop_modes_[k] != StopMode::Forward && stop_modes_[k] != StopMode::Backward) continue;
+    const double most = kind_joints_.stops()[k].max_force;
+    const double force = stop_modes_[k] == StopMode::Forward ? most : -most;
+    const auto add = [&](int body, Vec2d linear, double angular) {
+      if (body == kFixedFrame) return;
+      wrenches_[body].force += force * linear;
+      wrenches_[body].torque += force * angular;
+    };
+    add(rows[k].a, rows[k].linear_a, rows[k].angular_a);
+    add(rows[k].b, rows[k].linear_b, rows[k].angular_b);
+  }
 }
 
 /// What velocities (or, with `gaps`, positions) lack of holding the active contacts, on top of `shift`.
@@ -159,6 +201,14 @@ void EquationsOfMotion::close_contacts(std::span<const Twist<double>> motion, bo
     } else {
       contact_side_[i] = -(row_speed(constraints_[i], motion) + row_speed(constraints_[i], shift));
     }
+  }
+  std::size_t place = constraints_.size() - held_stops_;
+  for (std::size_t k = 0; held_stops_ > 0 && k < stop_modes_.size(); ++k) {
+    if (stop_modes_[k] != StopMode::Held) continue;
+    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    if (gaps && stop.role == RowRole::Limit) contact_side_[place] -= constraints_[place].residual;
+    if (!gaps && stop.role == RowRole::Motor) contact_side_[place] += stop.speed;
+    ++place;
   }
   solve_contacts(contact_side_);
   add_response(active_response_, contact_side_, shift);
@@ -192,10 +242,13 @@ void EquationsOfMotion::push(const ContactResponse& response, std::span<const do
 std::span<const Twist<double>> EquationsOfMotion::accelerations_without_contacts(double time,
                                                                                  std::span<const double> y) {
   std::vector<ActivePatch> held;
+  std::size_t stops = 0;
   std::swap(held, patches_);
+  std::swap(stops, held_stops_);
   scratch_.resize(y.size());
   rate(time, y, scratch_);
   std::swap(held, patches_);
+  std::swap(stops, held_stops_);
   return accelerations_;
 }
 

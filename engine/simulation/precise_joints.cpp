@@ -1,36 +1,12 @@
 #include "engine/simulation/precise_joints.h"
 
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
-#include "engine/joints/kind_of.h"
-#include "engine/math/trigonometry.h"
+#include "engine/simulation/precise_joint_coordinates.h"
 #include "engine/solve/joint_angle.h"
 
 namespace plumb::precise {
-
-/// How a joint's two bodies stand and move; derivatives are along `Directions`.
-struct KindJoints::Ends {
-  JointPose<Dual> pose{};
-  Vec2<Dual> velocity_a{}, velocity_b{};
-  Dual spin_a{}, spin_b{};
-};
-
-/// The rates at which places and velocities of both bodies change with whatever derivatives are taken by.
-struct KindJoints::Directions {
-  Twist<double> place_a{}, place_b{}, motion_a{}, motion_b{};
-};
-
-/// Forces on both bodies.
-struct KindJoints::Pull {
-  Wrench<Dual> a{}, b{};
-
-  void add(const JointRow<Dual>& row, Dual lambda) {
-    a.force += lambda * row.linear_a, a.torque += lambda * row.angular_a;
-    b.force += lambda * row.linear_b, b.torque += lambda * row.angular_b;
-  }
-};
 
 namespace {
 
@@ -38,17 +14,6 @@ Vec2<Dual> moving(Vec2d value, Vec2d change) { return {{value.x, change.x}, {val
 
 Rotation<Dual> turning(Rotation<double> q, double change) {
   return {{q.c, -q.s * change}, {q.s, q.c * change}};
-}
-
-template <class Rows>
-constexpr bool kPulley = std::is_same_v<Rows, PulleyRows<Dual>>;
-
-/// Whole turns that bring an angle into [-pi, pi].
-double turns_back(double angle) { return nearest_turn(angle, 0) - angle; }
-
-const Body* body_called(const Scene& scene, const std::string& name) {
-  const auto index = find_body(scene, name);
-  return index ? &scene.bodies[*index] : nullptr;
 }
 
 }  // namespace
@@ -84,37 +49,6 @@ KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const
       },
       e.kind);
   return ends;
-}
-
-/// Calls visit.row(row, rule) for each scalar coordinate with each of its rules, and visit.point(point, rule)
-/// for a point whose rule is not rigid. The residual of a row is C.
-template <class Visit>
-void KindJoints::each_coordinate(const Entry& e, const Ends& ends, const Visit& visit) {
-  std::visit(
-      [&](const auto& kind) {
-        using Rows = std::remove_cvref_t<decltype(kind)>;
-        JointRows<Dual> rows;
-        kind.evaluate(ends.pose, rows);
-        const auto coordinate = [&](JointRow<Dual> row, const RowRules& rules) {
-          const Dual q = row.residual;
-          for (int i = 0; i < rules.count; ++i) {
-            row.residual = q - rules.rule[i].origin;
-            visit.row(row, rules.rule[i]);
-          }
-        };
-        for (int i = 0; i < Rows::kBlock; ++i) visit.row(rows.block[i], RowRule{});
-        for (int i = 0; i < Rows::kAxial; ++i) coordinate(rows.axial[i], e.rules.axial[i]);
-        if constexpr (Rows::kTurn) coordinate({{}, {}, -1, 1, ends.pose.angle}, e.rules.turn);
-        if constexpr (Rows::kPoint) {
-          if (e.rules.point.role == RowRole::Rigid) {
-            visit.row(rows.point.plain_row({1, 0}), e.rules.point);
-            visit.row(rows.point.plain_row({0, 1}), e.rules.point);
-          } else {
-            visit.point(rows.point, e.rules.point);
-          }
-        }
-      },
-      e.kind);
 }
 
 KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
@@ -165,22 +99,6 @@ KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
   return pull;
 }
 
-namespace {
-
-/// Calls `take(row)` for each rigid row.
-template <class Take>
-struct RigidRows {
-  const Take& take;
-  void row(const JointRow<Dual>& j, const RowRule& rule) const {
-    if (rule.role == RowRole::Rigid) take(j);
-  }
-  void point(const AnchorPoint<Dual>&, const RowRule&) const {}
-};
-template <class Take>
-RigidRows(const Take&) -> RigidRows<Take>;
-
-}  // namespace
-
 KindJoints::Pull KindJoints::pull_of_rows(const Entry& e, const Ends& ends,
                                           std::span<const double> multipliers) {
   Pull pull;
@@ -190,27 +108,53 @@ KindJoints::Pull KindJoints::pull_of_rows(const Entry& e, const Ends& ends,
   return pull;
 }
 
+namespace {
+
+/// As a row of the equations of motion, from derivatives along the motion itself.
+Row<double> row_of(int a, int b, const JointRow<Dual>& j, double sign, const Twist<double>& motion_a,
+                   const Twist<double>& motion_b) {
+  const auto value = [&](Vec2<Dual> v) { return sign * Vec2d{v.x.value, v.y.value}; };
+  const auto change = [](Vec2<Dual> v) { return Vec2d{v.x.change, v.y.change}; };
+  const double bias =
+      dot(change(j.linear_a), motion_a.velocity) + j.angular_a.change * motion_a.angular_velocity +
+      dot(change(j.linear_b), motion_b.velocity) + j.angular_b.change * motion_b.angular_velocity;
+  return {a,
+          b,
+          value(j.linear_a),
+          value(j.linear_b),
+          sign * j.angular_a.value,
+          sign * j.angular_b.value,
+          sign * j.residual.value,
+          sign * bias};
+}
+
+Twist<double> twist_of(const BodiesNow& now, int body) {
+  return body == kFixedFrame ? Twist<double>{} : now.twists[body];
+}
+
+}  // namespace
+
 void KindJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const {
   for (const Entry& e : entries_) {
     if (e.rows == 0) continue;
-    const auto twist_of = [&](int body) { return body == kFixedFrame ? Twist<double>{} : now.twists[body]; };
-    const Twist<double> motion_a = twist_of(e.a), motion_b = twist_of(e.b);
+    const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
     std::size_t next = e.first_row;
     const auto take = [&](const JointRow<Dual>& j) {
-      const auto value = [](Vec2<Dual> v) { return Vec2d{v.x.value, v.y.value}; };
-      const auto change = [](Vec2<Dual> v) { return Vec2d{v.x.change, v.y.change}; };
-      Row<double>& row = out[next++];
-      row = {e.a,
-             e.b,
-             value(j.linear_a),
-             value(j.linear_b),
-             j.angular_a.value,
-             j.angular_b.value,
-             j.residual.value,
-             dot(change(j.linear_a), motion_a.velocity) + j.angular_a.change * motion_a.angular_velocity +
-                 dot(change(j.linear_b), motion_b.velocity) + j.angular_b.change * motion_b.angular_velocity};
+      out[next++] = row_of(e.a, e.b, j, 1, motion_a, motion_b);
     };
     each_coordinate(e, ends_of(e, now, {.place_a = motion_a, .place_b = motion_b}), RigidRows{take});
+  }
+}
+
+void KindJoints::stop_rows(const BodiesNow& now, std::span<Row<double>> out) const {
+  for (const Entry& e : entries_) {
+    if (e.stops == 0) continue;
+    const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
+    std::size_t next = e.first_stop;
+    const auto take = [&](const JointRow<Dual>& j, const RowRule& rule) {
+      out[next++] = row_of(e.a, e.b, j, rule.sign, motion_a, motion_b);
+    };
+    each_coordinate(e, ends_of(e, now, {.place_a = motion_a, .place_b = motion_b}), StopRows{take});
   }
 }
 
@@ -273,113 +217,6 @@ void KindJoints::add_tension_blocks(const BodiesNow& now, std::span<const double
     if (e.rows == 0) continue;
     add_blocks(
         e, now, 6, [&](const Ends& ends) { return pull_of_rows(e, ends, multipliers); }, out);
-  }
-}
-
-void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries) {
-  Entry e;
-  bool plain = false;
-  std::visit(
-      [&](const auto& definition) {
-        using Definition = std::remove_cvref_t<decltype(definition)>;
-        e.rules = rules_of(definition);
-        if constexpr (std::is_same_v<Definition, WeldDefinition>) {
-          if (definition.linear_spring || definition.angular_spring) {
-            e.kind = SoftWeldRows<Dual>(definition, {}, {});
-          } else {
-            e.kind = WeldRows<Dual>(definition, {}, {});
-          }
-        } else if constexpr (std::is_same_v<Definition, DistanceDefinition>) {
-          e.kind = DistanceRows<Dual>(definition, {}, {});
-          plain = !definition.spring && !definition.range;
-        } else if constexpr (std::is_same_v<Definition, RevoluteDefinition>) {
-          e.kind = RevoluteRows<Dual>(definition, {}, {});
-          e.rigid_elsewhere = true;
-          plain = !definition.spring;
-        } else if constexpr (std::is_same_v<Definition, PrismaticDefinition>) {
-          e.kind = PrismaticRows<Dual>(definition, {}, {});
-        } else if constexpr (std::is_same_v<Definition, WheelDefinition>) {
-          e.kind = WheelRows<Dual>(definition, {}, {});
-        } else if constexpr (std::is_same_v<Definition, MotorDefinition>) {
-          e.kind = MotorRows<Dual>(definition, {}, {});
-        } else if constexpr (std::is_same_v<Definition, MouseDefinition>) {
-          e.kind = MouseRows<Dual>(definition, {}, {});
-        } else if constexpr (std::is_same_v<Definition, GearDefinition>) {
-          e.kind = GearRows<Dual>(definition, {}, {});
-          e.ratio = definition.ratio;
-        } else if constexpr (std::is_same_v<Definition, PulleyDefinition>) {
-          e.kind = PulleyRows<Dual>(definition, {}, {});
-        } else {
-          plain = true;  // not one that Precise takes
-        }
-      },
-      kind_of(joint));
-  if (plain) return;
-  const auto& [name_a, name_b] =
-      std::visit([](const auto& j) { return std::pair(j.body_a, j.body_b); }, joint);
-  const auto take_body = [&](const std::string& name, int& index, double& mass, double& inertia) {
-    if (const auto body = find_body(scene, name)) index = static_cast<int>(*body);
-    const Body* body = body_called(scene, name);
-    if (body == nullptr || body->type != BodyType::Dynamic) return;
-    const double own = inertia_of(*body);
-    mass = 1 / body->mass;
-    inertia = own > 0 ? 1 / own : 0;
-  };
-  take_body(name_a, e.a, e.mass_a, e.inertia_a);
-  take_body(name_b, e.b, e.mass_b, e.inertia_b);
-  if (std::holds_alternative<MouseRows<Dual>>(e.kind)) e.a = kFixedFrame, e.mass_a = e.inertia_a = 0;
-  entries.push_back(std::move(e));
-}
-
-KindJoints::KindJoints(const Scene& scene) {
-  std::vector<Pose<double>> poses;
-  std::vector<double> angles;
-  for (const Body& body : scene.bodies) {
-    poses.push_back({body.position, rotation_of(body.angle)});
-    angles.push_back(body.angle);
-  }
-  const std::vector<Twist<double>> twists(scene.bodies.size());
-  const BodiesNow start{poses, angles, twists};
-  for (const Joint& joint : scene.joints) {
-    const std::size_t before = entries_.size();
-    add(scene, joint, entries_);
-    if (entries_.size() == before) continue;
-    Entry& e = entries_.back();
-    // Turns are counted from the angles that are nearest at the start, as gears and springs are put together.
-    const double angle_a = e.a == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.a)];
-    const double angle_b = e.b == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.b)];
-    std::visit(
-        [&](const auto& kind) {
-          using Rows = std::remove_cvref_t<decltype(kind)>;
-          if constexpr (Rows::kAngle == AngleUse::Geared) {
-            const double back_a = e.ratio * turns_back(angle_a), fits = e.ratio * angle_a + back_a;
-            e.angle_offset = turns_back(angle_b - fits - kind.reference) - back_a - kind.reference;
-          } else if constexpr (Rows::kAngle != AngleUse::None) {
-            e.angle_offset = turns_back(angle_b - angle_a) - kind.reference;
-          }
-          if constexpr (kPulley<Rows>) {
-            JointRows<Dual> rows;
-            kind.evaluate(ends_of(e, start, {}).pose, rows);
-            RowRule& rope = e.rules.axial[0].rule[0];
-            if (rope.origin == 0) rope.origin = rows.axial[0].residual.value;
-          }
-        },
-        e.kind);
-    e.first_row = row_names_.size();
-    const auto count = [&](const JointRow<Dual>&) { ++e.rows; };
-    if (!e.rigid_elsewhere) each_coordinate(e, ends_of(e, start, {}), RigidRows{count});
-    row_names_.insert(row_names_.end(), e.rows, std::visit([](const auto& j) { return j.name; }, joint));
-    struct Springs {
-      bool& any;
-      void row(const JointRow<Dual>&, const RowRule& rule) const {
-        any = any || rule.role == RowRole::Spring;
-      }
-      void point(const AnchorPoint<Dual>&, const RowRule& rule) const {
-        any = any || rule.role == RowRole::Spring;
-      }
-    };
-    each_coordinate(e, ends_of(e, start, {}), Springs{e.has_springs});
-    has_springs_ = has_springs_ || e.has_springs;
   }
 }
 

@@ -48,6 +48,17 @@ class KindJoints {
   /// The rigid rows; `out` has `row_count` elements.
   void rows(const BodiesNow& now, std::span<Row<double>> out) const;
 
+  /// What holds only at times: limits, C >= 0 with a force >= 0 along C, and motors, which drive dC/dt to a
+  /// speed with a force of bounded size.
+  struct Stop {
+    RowRole role = RowRole::Limit;
+    double speed = 0, max_force = 0;
+    std::string joint{};
+  };
+  const std::vector<Stop>& stops() const { return stops_; }
+  /// The rows of C; `out` has an element for each stop.
+  void stop_rows(const BodiesNow& now, std::span<Row<double>> out) const;
+
   /// Adds the forces of springs, N and N m: with J the row of a coordinate C and m = 1 / (J M^-1 J^T) the
   /// bodies' own effective mass there,
   ///   lambda = -m (w^2 C + 2 zeta w J v),   w = 2 pi hertz,
@@ -74,6 +85,7 @@ class KindJoints {
     bool rigid_elsewhere = false;        // its rigid rows are among `Joints`
     bool has_springs = false;
     std::size_t first_row = 0, rows = 0;
+    std::size_t first_stop = 0, stops = 0;
   };
   struct Ends;
   struct Directions;
@@ -91,6 +103,7 @@ class KindJoints {
 
   std::vector<Entry> entries_;
   std::vector<std::string> row_names_;
+  std::vector<Stop> stops_;
   bool has_springs_ = false;
 };
 

@@ -86,7 +86,8 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
-      has_forces_(!forces_.empty() || kind_joints_.has_springs() || every_stage),
+      has_forces_(!forces_.empty() || kind_joints_.has_springs() || !kind_joints_.stops().empty() ||
+                  every_stage),
       has_joints_(!rows_.empty() || every_stage),
       length_(scales_of(scene, parts).length) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
@@ -209,6 +210,7 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
     const Clock clock(cost.on, cost.forces);
     forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
     if (kind_joints_.has_springs()) kind_joints_.add_springs(bodies_now(), wrenches_);
+    if (pushing_stops_ > 0) add_motors();
   }
   for (const std::size_t body : bodies_) {
     out[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
@@ -227,7 +229,7 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
     solve_joints();
     pull(accelerations_);
   }
-  if (!patches_.empty()) press(accelerations_);
+  if (holds_anything()) press(accelerations_);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& acceleration = accelerations_[bodies_[slot]];
     const double* motion = y.data() + kPerBody * slot;
@@ -240,7 +242,7 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
 }
 
 void EquationsOfMotion::project(double time, Compensated& y) {
-  if (!has_joints_ && patches_.empty()) return;
+  if (!has_joints_ && !holds_anything()) return;
   close_gaps(time, y);
   // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
   std::vector<Twist<double>>& shift = accelerations_;
@@ -251,7 +253,7 @@ void EquationsOfMotion::project(double time, Compensated& y) {
     solve_joints();
     pull(shift);
   }
-  if (!patches_.empty()) {
+  if (holds_anything()) {
     linearise_contacts(false);
     close_contacts(twists_, false, shift);
   }
@@ -301,6 +303,7 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   for (int i = 0;; ++i) {
     place(time, y.value());
     if (has_joints_) find_rows(rows_);
+    if (held_stops_ > 0) stop_rows();
     const WorstGap worst = worst_gap();
     const bool stuck = worst.gap > 0.5 * before || i == kMost;
     if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;
@@ -316,7 +319,7 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
       solve_joints();
       pull(shift);
     }
-    if (!patches_.empty()) {
+    if (holds_anything()) {
       linearise_contacts(false);
       close_contacts(twists_, true, shift);
     }
@@ -339,6 +342,11 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   };
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     offer(rows_[r].residual, [&] { return "joint '" + joint_of_row_[r] + "'"; });
+  }
+  for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {
+    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    if (stop_modes_[k] != StopMode::Held || stop.role != RowRole::Limit) continue;
+    offer(stop_rows_[k].residual, [&] { return "joint '" + stop.joint + "'"; });
   }
   for (const ActivePatch& patch : patches_) {
     for (int i = 0; i < patch.count; ++i) {

@@ -71,6 +71,15 @@ class EquationsOfMotion final : public Flow {
   void hold_contacts(std::vector<ActivePatch> patches);
   std::span<const ActivePatch> held() const { return patches_; }
 
+  /// Stops of joints (`KindJoints::stops`) by how they act from now on: held as constraints, motors at their
+  /// bound pushing this way (+1, -1), or not at all. Cleared by an empty list.
+  enum class StopMode : signed char { Free, Held, Forward, Backward };
+  void hold_stops(std::vector<StopMode> modes);
+  std::span<const StopMode> stop_modes() const { return stop_modes_; }
+  bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
+  /// Their rows where bodies were placed last.
+  std::span<const Row<double>> stop_rows();
+
   /// The forces of the contacts that are held, at a state. Counts as one evaluation.
   const ContactForces& contact_forces(double time, std::span<const double> y);
 
@@ -136,6 +145,7 @@ class EquationsOfMotion final : public Flow {
   void linearise_contacts(bool forces);
   void solve_contacts(std::span<double> right_side);
   void press(std::span<Twist<double>> accelerations);
+  void add_motors();
   void close_contacts(std::span<const Twist<double>> motion, bool gaps, std::span<Twist<double>> shift);
 
   std::vector<std::size_t> bodies_;  // integrated, by slot
@@ -170,6 +180,10 @@ class EquationsOfMotion final : public Flow {
   DenseSystem contact_system_;
   std::vector<double> scale_, contact_side_, scratch_;
   ContactForces contact_forces_;
+
+  std::vector<StopMode> stop_modes_;  // by stop
+  std::size_t held_stops_ = 0, pushing_stops_ = 0;
+  std::vector<Row<double>> stop_rows_;
 };
 
 }  // namespace plumb::precise

@@ -22,7 +22,7 @@ struct Parts {
   std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
                                         ///< forces that depend on the motion
   bool ballistic = false;  ///< contacts apart, nothing but constant forces acts on the integrated bodies
-  std::vector<Outline> outlines;        ///< of shapes that have a partner to touch
+  std::vector<Outline> outlines;  ///< of shapes that have a partner to touch
   std::vector<std::pair<std::size_t, std::size_t>>
       apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
   std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending

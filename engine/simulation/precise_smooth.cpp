@@ -246,7 +246,7 @@ void SmoothMotion::accept(double end, double error) {
   equations_.forget_rank();
   rate_at_end();
   rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
-  if (method_ == MotionMethod::Automatic && equations_.held().empty()) watch_stiffness();
+  if (method_ == MotionMethod::Automatic && !equations_.holds_anything()) watch_stiffness();
 }
 
 /// The proposed step, or an equal share of the way to `limit`: no short last step.
@@ -341,7 +341,7 @@ void SmoothMotion::restart() {
   implicit_.forget();
   // The implicit method's Jacobian knows joints and forces, not contacts: while those last, steps are
   // explicit.
-  if (!equations_.held().empty()) {
+  if (equations_.holds_anything()) {
     stiff_ = false;
   } else if (method_ == MotionMethod::Implicit) {
     stiff_ = true;

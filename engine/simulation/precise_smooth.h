@@ -82,7 +82,7 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
-  bool flies() const { return ballistic_ && equations_.held().empty(); }
+  bool flies() const { return ballistic_ && !equations_.holds_anything(); }
   void fly(double end);
   bool leap(double limit);
   double symplectic_step(double limit);

@@ -3,7 +3,6 @@
 #include <variant>
 #include <vector>
 
-#include "engine/joints/kind_of.h"
 #include "engine/scene/features.h"
 #include "engine/scene/text.h"
 #include "engine/simulation/precise.h"
@@ -12,14 +11,6 @@
 
 namespace plumb {
 namespace {
-
-bool has_role(const JointRules& rules, RowRole role) {
-  const auto any = [&](const RowRules& row) {
-    return std::any_of(row.rule.begin(), row.rule.begin() + row.count,
-                       [&](const RowRule& rule) { return rule.role == role; });
-  };
-  return any(rules.turn) || any(rules.axial[0]) || any(rules.axial[1]) || rules.point.role == role;
-}
 
 /// What Precise lacks of a joint, or nothing.
 std::string missing_in(const Joint& joint) {
@@ -33,10 +24,6 @@ std::string missing_in(const Joint& joint) {
   if (!found.empty()) return "has " + found;
   if (std::holds_alternative<FrictionJoint>(joint)) return "is a friction joint";
   if (std::holds_alternative<RatchetJoint>(joint)) return "is a ratchet joint";
-  const JointRules rules = std::visit([](const auto& kind) { return rules_of(kind); }, kind_of(joint));
-  if (has_role(rules, RowRole::Motor)) return "has a motor";
-  if (has_role(rules, RowRole::Limit))
-    return std::holds_alternative<DistanceJoint>(joint) ? "has a range" : "has limits";
   return {};
 }
 
@@ -52,6 +39,12 @@ std::string precise_unsupported(const Scene& scene) {
     if (missing.empty()) continue;
     return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
            kElsewhere;
+  }
+  const bool touch = !precise::divide(scene).outlines.empty();
+  if (const precise::KindJoints joints(scene); touch && !joints.stops().empty()) {
+    return "joint " + quoted(joints.stops()[0].joint) +
+           " has limits or a motor, and shapes may touch, which Precise does not do at once; 'plumb-world' "
+           "runs it";
   }
   // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
   constexpr std::size_t kMostBodies = 300;
