@@ -8,7 +8,8 @@
 
 /// A world as bytes: all that its future depends on. A world that is restored goes on with the same bits as
 /// one that was never stopped, and handles from before the saving name the same things after it. The
-/// pre-solve hook is code and stays as it is.
+/// pre-solve hook and combine rules of the user's own are code, not part of the bytes: restoring leaves those
+/// that the world has. Contacts that were saved keep the coefficients that they were mixed with.
 namespace plumb {
 
 /// The same world gives the same bytes on every platform whose numbers are little-endian.

@@ -146,6 +146,9 @@ class BasicWorld {
   Material material(ShapeId shape) const;
   void set_material(ShapeId shape, const Material& material);
   Filter filter(ShapeId shape) const;
+  /// As it is now, in the body's frame and rounded to `Real`; it could be added again. Boxes are polygons; a
+  /// segment of a chain is a segment.
+  ShapeDefinition definition(ShapeId shape) const;
   double density(ShapeId shape) const;   ///< kg/m^2
   bool sensor(ShapeId shape) const;      ///< whether it is one
   bool hit_events(ShapeId shape) const;  ///< whether hard impacts on it are reported
@@ -158,6 +161,7 @@ class BasicWorld {
   bool valid(ChainId chain) const;
   std::vector<ShapeId> segments(ChainId chain) const;
   BodyId body(ChainId chain) const;
+  ChainDefinition definition(ChainId chain) const;  ///< as it is now, likewise
 
   // Joints.
   JointId create_joint(BodyId a, BodyId b, const JointDefinition& definition);

@@ -2,6 +2,7 @@
 
 #include "engine/world/bodies.h"
 #include "engine/world/islands.h"
+#include "engine/world/shape_reading.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
 
@@ -39,8 +40,11 @@ std::uint64_t BasicWorld<Real>::user_data(ShapeId shape) const {
 }
 template <class Real>
 Material BasicWorld<Real>::material(ShapeId shape) const {
-  const ShapeRecord<Real>& record = data_->shapes[place(shape)];
-  return {record.friction, record.restitution, record.rolling_resistance, record.surface_speed};
+  return material_of(data_->shapes[place(shape)]);
+}
+template <class Real>
+ShapeDefinition BasicWorld<Real>::definition(ShapeId shape) const {
+  return shape_definition(*data_, place(shape));
 }
 template <class Real>
 void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
@@ -104,6 +108,11 @@ std::vector<ShapeId> BasicWorld<Real>::segments(ChainId chain) const {
     all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   }
   return all;
+}
+
+template <class Real>
+ChainDefinition BasicWorld<Real>::definition(ChainId chain) const {
+  return chain_definition(*data_, place(chain));
 }
 
 template <class Real>

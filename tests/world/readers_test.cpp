@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/scene/error.h"
 #include "tests/world/support.h"
@@ -50,6 +52,76 @@ TEST(Readers, TellWhatAShapeAndAChainWereMadeFrom) {
   const ChainId chain = world.create_chain(ground, {.points = {{0, 0}, {1, 0}, {2, 1}}, .user_data = 9});
   EXPECT_EQ(world.body(chain), ground);
   for (const ShapeId segment : world.segments(chain)) EXPECT_EQ(world.user_data(segment), 9u);
+}
+
+// What was put in, after its transformation by hand.
+TEST(Readers, GiveShapesBackAsDefinitions) {
+  World world;
+  // The centre of mass is not the body's origin.
+  const BodyId body = world.create_body({.position = {3, 4}, .angle = 1});
+  const double quarter = 1.57079632679489662;
+  const ShapeId disc = world.create_shape(body, {.geometry = Circle{0.25}, .position = {2, 1}, .density = 3});
+  const ShapeId capsule = world.create_shape(
+      body, {.geometry = Capsule{{0, 0}, {1, 0}, 0.125}, .position = {1, 2}, .angle = quarter});
+  const ShapeId box = world.create_shape(
+      body, {.geometry = Box{2, 1}, .position = {-1, 0}, .material = {.friction = 0.5}, .user_data = 6});
+  const ShapeId round = world.create_shape(
+      body, {.geometry = Polygon{{{0, 0}, {1, 0}, {0, 1}}, 0.0625}, .sensor = true, .hit_events = true});
+  const ShapeId line = world.create_shape(body, {.geometry = Segment{{0, -1}, {2, -1}}, .pre_solve = true});
+  const auto near = [](Vec2d a, Vec2d b) { return length_squared(a - b) < 1e-12; };
+
+  const ShapeDefinition circle = world.definition(disc);
+  EXPECT_EQ(std::get<Circle>(circle.geometry), Circle{0.25});
+  EXPECT_TRUE(near(circle.position, {2, 1}));
+  EXPECT_EQ(circle.density, 3);
+  const Capsule pill = std::get<Capsule>(world.definition(capsule).geometry);
+  EXPECT_TRUE(near(pill.start, {1, 2}) && near(pill.end, {1, 3}));
+  EXPECT_EQ(pill.radius, 0.125);
+  const ShapeDefinition crate = world.definition(box);
+  const Polygon corners = std::get<Polygon>(crate.geometry);
+  ASSERT_EQ(corners.points.size(), 4u);
+  EXPECT_EQ(corners.radius, 0);
+  for (const Vec2d corner : {Vec2d{-2, -0.5}, Vec2d{0, -0.5}, Vec2d{0, 0.5}, Vec2d{-2, 0.5}})
+    EXPECT_EQ(std::ranges::count_if(corners.points, [&](Vec2d p) { return near(p, corner); }), 1);
+  EXPECT_EQ(crate.material.friction, 0.5);
+  EXPECT_EQ(crate.user_data, 6u);
+  const ShapeDefinition triangle = world.definition(round);
+  EXPECT_EQ(std::get<Polygon>(triangle.geometry).points.size(), 3u);
+  EXPECT_EQ(std::get<Polygon>(triangle.geometry).radius, 0.0625);
+  EXPECT_TRUE(triangle.sensor && triangle.hit_events && !triangle.pre_solve);
+  const Segment segment = std::get<Segment>(world.definition(line).geometry);
+  EXPECT_TRUE(near(segment.start, {0, -1}) && near(segment.end, {2, -1}));
+  EXPECT_TRUE(world.definition(line).pre_solve);
+  world.destroy(line);
+  EXPECT_THROW(world.definition(line), Error);
+
+  // Added again, they make the same body.
+  const BodyId copy = world.create_body({.position = {3, 4}, .angle = 1});
+  for (const ShapeId shape : {disc, capsule, box, round}) world.create_shape(copy, world.definition(shape));
+  EXPECT_NEAR(world.mass(copy), world.mass(body), 1e-6 * world.mass(body));
+  EXPECT_NEAR(world.inertia(copy), world.inertia(body), 1e-6 * world.inertia(body));
+  EXPECT_TRUE(near(world.centre(copy), world.centre(body)));
+}
+
+TEST(Readers, GiveChainsBackAsDefinitions) {
+  World world;
+  const BodyId ground = world.create_body({.type = BodyType::Static, .position = {5, 0}});
+  const std::vector<Vec2d> points = {{0, 0}, {1, 0.5}, {2, 0}, {2, 3}};
+  for (const bool closed : {false, true}) {
+    const ChainId chain = world.create_chain(ground, {.points = points,
+                                                      .closed = closed,
+                                                      .material = {.friction = 0.25},
+                                                      .filter = {.group = 3},
+                                                      .user_data = 8});
+    const ChainDefinition read = world.definition(chain);
+    EXPECT_EQ(read.points, points);
+    EXPECT_EQ(read.closed, closed);
+    EXPECT_EQ(read.material.friction, 0.25);
+    EXPECT_EQ(read.filter.group, 3);
+    EXPECT_EQ(read.user_data, 8u);
+    world.destroy(chain);
+    EXPECT_THROW(world.definition(chain), Error);
+  }
 }
 
 TEST(Readers, TellWhatAJointWasMadeFrom) {

@@ -22,7 +22,7 @@ TEST(Resting, ATowerOfTenNeitherSinksNorCreeps) {
     World world(without_sleep());
     add_ground(world, {.restitution = restitution});
     const std::vector<BodyId> boxes = add_tower(world, 10, {.restitution = restitution});
-    run(world, 20000);
+    run(world, 100000);
     for (int i = 0; i < 10; ++i) {
       EXPECT_NEAR(world.position(boxes[i]).y, 0.5 + i, 1e-4) << restitution;
       EXPECT_NEAR(world.position(boxes[i]).x, 0, 1e-4) << restitution;

@@ -255,5 +255,28 @@ TEST(SnapshotBytes, SignedDamageIsRefusedOrHarmless) {
   EXPECT_GT(taken, 100);
 }
 
+// A box falls onto the ground and slides: a restored world mixes contacts that begin later by its own rule.
+TEST(SnapshotRules, RestoringKeepsTheRulesThatTheWorldHas) {
+  const auto ice = [](double, double) { return 0.0; };
+  const auto build = [](World& world) {
+    world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{60, 2}});
+    return world.create_body({.position = {0, 0.6}, .velocity = {3, 0}}, {.geometry = Box{2, 1}});
+  };
+  const auto speed_after = [](World& world, BodyId box) {
+    for (int i = 0; i < 60; ++i) world.step();
+    return world.velocity(box).x;
+  };
+  World plain({.sleeping = false}), slippery({.sleeping = false});
+  const BodyId box = build(plain);
+  slippery.combine_with(ice, nullptr);
+  build(slippery);
+  // In the air: no contact has been mixed yet.
+  const std::vector<std::byte> from_plain = save(plain), from_slippery = save(slippery);
+  restore(slippery, from_plain);
+  EXPECT_NEAR(speed_after(slippery, box), 3, 1e-5);
+  restore(plain, from_slippery);
+  EXPECT_LT(speed_after(plain, box), 0.1);
+}
+
 }  // namespace
 }  // namespace plumb
