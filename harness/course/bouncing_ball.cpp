@@ -93,16 +93,21 @@ Finding any_step_size(const Lab& lab) {
     const Trace trace = lab.run(falling(), 1, finer);
     return trace.last(0).velocity.y / trace.duration();
   };
-  const double one = speed(1), half = speed(2), quarter = speed(4), tolerance = lab.rounding(kGravity, 4);
+  const double one = speed(1), half = speed(2), quarter = speed(4);
+  const auto over_one = [one](double other) { return one == 0 ? 0 : other / one; };
+  const double relative = lab.rounding(kGravity, 4) / std::max(std::abs(one), 1e-3);
   return Judgement()
-      .read("vy/t with dt/2 over that with dt", "", half / one, 1, tolerance / std::abs(one))
-      .read("vy/t with dt/4 over that with dt", "", quarter / one, 1, tolerance / std::abs(one))
+      .read("vy/t with dt/2 over that with dt", "", over_one(half), 1, relative)
+      .read("vy/t with dt/4 over that with dt", "", over_one(quarter), 1, relative)
       .mistake("per_frame", {2, 4},
                "Twice the steps, twice the speed: something is added per step and not per second; multiply "
                "it by dt.")
       .mistake("dt_twice", {0.5, 0.25}, "Half the step, half the speed: dt enters twice.")
       .finding();
 }
+
+constexpr const char* kStill =
+    "The ball never moves: take \"velocity\" from the scene, and add v dt to the position.";
 
 Finding bounces(const Lab& lab) {
   const Body floor = fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1}));
@@ -113,6 +118,7 @@ Finding bounces(const Lab& lab) {
   return Judgement()
       .read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
       .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
+      .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake("falls_through", {1, -2},
                "The ball goes through the floor: no contact is found, or it is not answered.")
       .mistake("both_turned", {-1, 2},
@@ -136,6 +142,15 @@ int turns(const Trace& trace) {
   return count;
 }
 
+// Whether it turns round in one step and back in the next.
+bool trembles(const Trace& trace) {
+  for (std::size_t k = 2; k < trace.states.size(); ++k) {
+    const auto speed = [&](std::size_t at) { return trace.states[at][0].velocity.y; };
+    if (speed(k - 2) * speed(k - 1) < 0 && speed(k - 1) * speed(k) < 0) return true;
+  }
+  return false;
+}
+
 constexpr const char* kTurnedEveryStep =
     "The ball sticks in the wall: its velocity is turned round each step that it is inside. Turn it "
     "only while it moves towards the wall, and push the ball out.";
@@ -149,7 +164,8 @@ Finding restitution(const Lab& lab) {
   const Trace trace = lab.run(scene_of("restitution", {}, {ball, floor}), 1);
   return Judgement()
       .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.01 * v)
-      .mistake_if(turns(trace) > 1, "turned_every_step", kTurnedEveryStep)
+      .mistake_if(trace.still(0), "starts_at_rest", kStill)
+      .mistake_if(trembles(trace), "turned_every_step", kTurnedEveryStep)
       .mistake(
           "restitution_squared", {e * e * v},
           "Restitution counts twice: it scales the speed, once; the energy falls by its square by itself.")
@@ -206,6 +222,7 @@ Finding four_walls(const Lab& lab) {
       .read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
       .read("turns at walls", "", turns(trace), due, 2)
       .read("speed after 5 s", "m/s", end, speed, 0.01 * speed)
+      .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
       .mistake_if(!passed.empty(), "wall_missing",
                   fmt::format("The ball leaves through the {} wall.", passed))
@@ -237,6 +254,7 @@ Finding settles(const Lab& lab) {
       .read("highest above the floor from 2.7 s on", "m", high, 0, tolerance)
       .read("deepest in the floor from 2.7 s on", "m", low, 0, tolerance)
       .read("vy after 5 s", "m/s", speed, 0, 2 * kGravity * lab.dt())
+      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(
           low < -r, "falls_through",
           "The ball sinks through the floor: stop its fall each step while it rests, however slow it is.")

@@ -62,7 +62,8 @@ Finding all_fall_alike(const Lab& lab) {
       .mistake("weight_not_divided", {v * 0.5, v * 10},
                "The heavy ball falls fast: m g is a force, divide it by the mass like any other.")
       .mistake("only_the_first", {v, 0}, "Only the first body falls: loop over all of them.")
-      .mistake("shared_velocity", {2 * v, 2 * v}, "Both bodies share one velocity: each needs its own.")
+      .mistake("gravity_twice", {2 * v, 2 * v},
+               "Both fall at twice g: gravity acts twice a step, or the two share one velocity.")
       .finding();
 }
 

@@ -12,6 +12,7 @@ namespace plumb::course {
 namespace {
 
 constexpr const char* kCircles = "\"shapes\":[\"circle\"] and \"features\":[\"contacts\"]: circles that move";
+constexpr double kNever = 1e9;   // m/s
 constexpr double kShare = 0.01;  // of the closing speed: what a contact's softness may take
 
 double distance(const Trace& trace, std::size_t k) {
@@ -50,7 +51,9 @@ Finding equal_masses_swap(const Lab& lab) {
   const Trace trace =
       head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}}, {.position = {1, 0}, .velocity = {w, 0}}, 2);
   const double mean = (u + w) / 2;
-  const bool caught = distance(trace, trace.states.size() - 1) < 0.9;
+  double nearest = distance(trace, 0);
+  for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
+  const bool caught = distance(trace, trace.states.size() - 1) < 0.9 && nearest < 0.25;  // radii of 0.5
   return Judgement()
       .read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
       .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
@@ -94,6 +97,9 @@ Finding heavy_hits_light(const Lab& lab) {
   const double j = 2 * v / (1 / heavy + 1 / light);
   const double after_heavy = v - j / heavy, after_light = j / light, wrong_j = 2 * v / (heavy + light);
   const double together = v * heavy / (heavy + light);  // after as many weak blows as it takes
+  int blows = 0;                                        // steps in which the heavy ball's velocity changes
+  for (std::size_t k = 1; k < trace.states.size(); ++k)
+    blows += std::abs(trace.states[k][0].velocity.x - trace.states[k - 1][0].velocity.x) > 1e-6 * v;
   return Judgement()
       .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, after_heavy, kShare * v)
       .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, after_light, kShare * v)
@@ -102,7 +108,9 @@ Finding heavy_hits_light(const Lab& lab) {
                "Both velocities change by j: each changes by j times its inverse mass, so the heavy ball "
                "barely slows.")
       .mistake("masses_in_place_of_inverses", {v - wrong_j / heavy, wrong_j / light}, kInverses)
-      .mistake("masses_in_place_of_inverses", {together, together}, kInverses)
+      .mistake("masses_in_place_of_inverses", {blows > 2 ? together : kNever, together}, kInverses)
+      .mistake("restitution_ignored", {blows > 2 ? kNever : together, together},
+               "They go on together: restitution 1 sends them apart as fast as they came.")
       .mistake("masses_swapped", {v - j / light, j / heavy}, "Each ball gets the other's inverse mass.")
       .mistake("effective_mass_forgotten", {v - 2 * v / heavy, 2 * v / light},
                "The impulse is not divided by 1/m1 + 1/m2.")
@@ -127,7 +135,7 @@ Finding restitution(const Lab& lab) {
                "Every collision is elastic: restitution is not used.")
       .mistake("restitution_ignored", {mean, 0, 0}, "No collision bounces: restitution is not used.")
       .mistake("restitution_squared", {mean, 0, e * e * closing},
-               "Restitution counts twice: it is a ratio of speeds, (1 + e) in the impulse.")
+               "Restitution counts twice, or both balls' are multiplied: it is a ratio of speeds, once.")
       .mistake("one_plus_forgotten", {u, -closing, -(1 - e) * closing},
                "The impulse has e where it should have 1 + e: without bounce it must still stop the two.")
       .mistake("halved", {kAny, -closing / 2, kAny},
@@ -166,17 +174,32 @@ Finding oblique(const Lab& lab) {
 }
 
 Finding post(const Lab& lab) {
-  const double v = 2;
-  const Body ball = make(Ball{.position = {-2, 0}, .velocity = {v, 0}});
+  const double v = 2, start = -2;
+  const Body ball = make(Ball{.position = {start, 0}, .velocity = {v, 0}});
   const Trace trace = lab.run(scene_of("post", {}, {ball, fixed(make(Ball{.name = "post"}))}), 1.5);
+  const double t = trace.duration(), touches = -1, late = v * lab.dt();
   return Judgement()
       .read("vx of the ball", "m/s", trace.last(0).velocity.x, -v, kShare * v)
+      .read("vy of the ball", "m/s", trace.last(0).velocity.y, 0, kShare * v)
+      .read("x of the ball", "m", trace.last(0).position.x, touches - (v * t - (touches - start)), 3 * late)
       .read("x of the post", "m", trace.last(1).position.x, 0, 1e-9)
-      .mistake("static_has_mass", {0, kAny},
-               "The post takes the blow as a ball of 1 kg would: a static body's inverse mass is 0.")
-      .mistake("static_moves", {-v, kAny}, "The static post moves: it stands still whatever hits it.")
-      .mistake("no_collision", {v, 0}, "The ball goes through the static post.")
+      .mistake_if(trace.still(0), "starts_at_rest", "The ball never moves.")
+      .mistake(
+          "static_has_mass", {0, 0, touches, kAny},
+          "The ball stops at the post: the post takes the blow as a ball of 1 kg would, and a static body's "
+          "inverse mass is 0; or no collision bounces, as the checks before would say.")
+      .mistake("static_moves", {-v, 0, kAny, kAny},
+               "The static post moves: it stands still whatever hits it.")
+      .mistake("no_collision", {v, 0, start + v * t, 0}, "The ball goes through the static post.")
       .finding();
+}
+
+// How fast two balls part that lie in each other at first: nothing should drive them.
+double kick(const Lab& lab) {
+  const double r = 0.5, deep = 0.1;
+  const Trace trace = head_on(lab, {.position = {-r + deep / 2, 0}, .radius = r, .restitution = 0},
+                              {.position = {r - deep / 2, 0}, .radius = r, .restitution = 0}, 2);
+  return trace.last(1).velocity.x - trace.last(0).velocity.x;
 }
 
 Finding break_shot(const Lab& lab) {
@@ -203,22 +226,28 @@ Finding break_shot(const Lab& lab) {
     }
   }
   const double e0 = v * v / 2, ratio = energy / e0, p = std::hypot(momentum.x - v, momentum.y) / v;
+  const double parting = kick(lab);
   return Judgement()
       .read("momentum lost", "of all", p, 0, lab.rounding(20, 3))
       .read("energy kept", "of all", ratio, 1, 0.05)
       .read("overlap at the end", "m", overlap, 0, v * lab.dt())
+      .read("speed apart of two that overlap", "m/s", parting, 0, 0.05)
+      .mistake_if(p > 0.01, "momentum_not_kept",
+                  "Momentum is lost or made: what one ball gets the other must lose. Are both changed, by "
+                  "opposite impulses, with velocities read before either is changed?")
       .mistake_if(
-          p > 0.01, "one_body_only",
-          "Momentum is lost or made: what one ball gets the other must lose. Are both changed, by opposite "
-          "impulses, with velocities read before either is changed?")
-      .mistake_if(
-          ratio > 1.05, "correction_adds_energy",
-          fmt::format("Energy grows to {:.2f} times: pushing overlaps apart must move positions and leave "
-                      "velocities alone.",
+          std::abs(parting) > 0.05, "correction_adds_energy",
+          fmt::format("Two balls that overlap fly apart, and energy is {:.2f} times what it was: pushing "
+                      "overlaps apart must move positions and leave velocities alone.",
                       ratio))
-      .mistake_if(ratio < 0.95, "energy_lost",
-                  "Elastic balls lose energy: is a contact answered twice a step, or with the "
-                  "velocities of before another one?")
+      .mistake_if(ratio > 1.05, "impulse_too_strong",
+                  fmt::format("Energy grows to {:.2f} times: impulses are too strong, or contacts that part "
+                              "already get one.",
+                              ratio))
+      .mistake_if(
+          ratio < 0.95, "energy_lost",
+          "Elastic balls lose energy: restitution is 1 here. Is a contact answered twice a step, or with "
+          "the velocities of before another one?")
       .mistake_if(overlap > v * lab.dt(), "overlaps_stay",
                   "Balls stay in each other: push them apart as well.")
       .finding();
@@ -239,6 +268,7 @@ Finding pile_rests(const Lab& lab) {
       .read("lower ball above the floor", "m", height, 0, tolerance)
       .read("upper ball above the lower", "m", gap, 0, tolerance)
       .read("vy of the upper", "m/s", trace.last(1).velocity.y, 0, 2 * g * lab.dt())
+      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(height < -2 * r || gap < -2 * r, "falls_through",
                   "A ball sinks through what it rests on: contacts hold as long as two overlap and close.")
       .mistake_if(
@@ -246,8 +276,9 @@ Finding pile_rests(const Lab& lab) {
           "The pile sinks in: besides the velocities, move two that overlap apart, each by its share of "
           "the inverse masses.")
       .mistake_if(height > tolerance || gap > tolerance, "restless",
-                  "The pile does not come to rest: pushing overlaps apart must move positions and leave "
-                  "velocities alone.")
+                  "The pile does not come to rest: restitution is 0 here, what gravity adds in a step must "
+                  "not bounce, and "
+                  "pushing overlaps apart must leave velocities alone.")
       .finding();
 }
 

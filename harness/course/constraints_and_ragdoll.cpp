@@ -63,6 +63,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
                "The stick grows as its speed is held and its length is not: besides the velocity, correct "
                "the positions "
                "by a share of the error each step.")
+      .mistake_if(trace.still(0), "starts_at_rest", "The balls never move: take \"velocity\" from the scene.")
       .mistake_if(
           worst <= tolerance && spin < 0.95 * w, "spin_lost",
           "The stick loses its spin: correcting positions or velocities must act along the stick only.")
@@ -130,7 +131,7 @@ Finding pendulum(const Lab& lab) {
   const double l = 1, amplitude = kPi / 3;
   const Vec2d start{l * std::sin(amplitude), -l * std::cos(amplitude)};
   Scene scene = scene_of("pendulum", {0, -kGravity},
-                         {make(Ball{.name = "bob", .position = start, .mass = 2, .radius = 0.1})});
+                         {make(Ball{.name = "bob", .position = start, .mass = 3, .radius = 0.1})});
   scene.joints.emplace_back(stick("string", std::string(kWorld), "bob", l));
   const Trace trace = lab.run(scene, 10);
   const auto angle = [](const std::vector<BodyState>& s) {
@@ -151,6 +152,8 @@ Finding pendulum(const Lab& lab) {
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("last swing", "rad", high, amplitude, amplitude - lowest)
       .read("largest change of length", "m", stretched, 0, 0.03 * l)
+      .mistake_if(trace.still(0), "no_gravity",
+                  "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
       .mistake_if(!period, "joint_ignored",
                   "It does not swing to and fro: is the end that is held by \"world\" a fixed point?")
       .otherwise_if(high > 1.1 * amplitude, "correction_adds_energy",
@@ -158,6 +161,10 @@ Finding pendulum(const Lab& lab) {
                     "Euler steps it.")
       .otherwise_if(high < lowest, "damped",
                     "It swings ever lower: correct along the string only, and by a share of the error.")
+      .mistake("weight_not_divided", {due / std::sqrt(3.0), kAny, kAny},
+               "It swings as under three times the gravity, with 3 kg: divide the weight by the mass.")
+      .mistake("gravity_divided_by_mass", {due * std::sqrt(3.0), kAny, kAny},
+               "It swings as under a third of the gravity, with 3 kg: the weight is m g.")
       .mistake("gravity_twice", {due / std::sqrt(2.0), kAny, kAny}, "It swings as under twice the gravity.")
       .mistake_if(stretched > 0.03 * l, "no_position_correction",
                   "The string stretches: correct the positions as well.")
@@ -199,10 +206,10 @@ Finding hinged_rod(const Lab& lab) {
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.03 * l)
-      .mistake_if(
-          !period && still, "lever_forgotten",
-          "The rod does not swing: the hinge holds its centre. It holds the anchor, r from the centre: the "
-          "anchor's velocity is v + w x r, and an impulse turns the rod by r x j/I.")
+      .mistake_if(!period && still, "lever_forgotten",
+                  "The rod does not swing: if gravity pulls at it, the hinge holds its centre. It holds the "
+                  "anchor, r from the centre: the "
+                  "anchor's velocity is v + w x r, and an impulse turns the rod by r x j/I.")
       .mistake(
           "rod_as_point", {period_with(mass * l * l / 4), kAny},
           "The rod swings as a point at its centre would: it turns as well, r x j/I, and its inertia counts.")
@@ -240,9 +247,13 @@ Finding chain_swings(const Lab& lab) {
   }
   double left = 0;
   for (const auto& states : trace.states) left = std::min(left, states.back().position.x);
+  const double fallen = trace.last(links - 1).position.y - trace.first(links - 1).position.y;
+  const bool falls = fallen < 0.9 * lab.way(0, -kGravity, trace.duration());
   return Judgement()
       .read("largest stretch of a link", "of its length", worst, 0, 0.25)
       .read("farthest that the end swings to the other side", "m", left, -links * l / 2, 0.45 * links * l)
+      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
+      .mistake_if(falls, "joint_ignored", "The chain falls freely: its links do nothing.")
       .mistake_if(
           worst > 1 && where == 0, "too_few_iterations",
           "The top link gives way under the others: go over all joints several times a step, 10 or more.")

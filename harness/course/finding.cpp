@@ -9,7 +9,8 @@
 namespace plumb::course {
 namespace {
 
-constexpr double kShareOfTheWay = 0.02;
+// Of the way between right and wrong: how near a figure must be to what the mistake gives.
+constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
 std::string nothing_known(const std::vector<Reading>& readings) {
   for (const Reading& reading : readings) {
@@ -54,9 +55,10 @@ double Judgement::miss(const Mistake& mistake) const {
     const Reading& reading = readings_[i];
     const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
     if (std::isnan(gives)) continue;
-    const double larger = std::max(1.0, std::abs(gives) / std::max(std::abs(reading.expected), 1e-300));
-    const double passes = std::max(reading.tolerance * (reading.expected == 0 ? 1 : std::min(larger, 1e4)),
-                                   kShareOfTheWay * std::abs(gives - reading.expected));
+    const double way = std::abs(gives - reading.expected);
+    // A figure that the mistake leaves right has the reading's own tolerance.
+    const double most = way <= reading.tolerance ? reading.tolerance : kLargestShare * way;
+    const double passes = std::max(std::min(reading.tolerance, most), kSmallestShare * way);
     worst = std::max(worst, std::abs(reading.measured - gives) / passes);
   }
   return worst;

@@ -33,8 +33,8 @@ struct Finding {
 inline constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
 /// Holds readings against what they should be, and where they are off, against what known mistakes give. A
-/// mistake is recognised when it explains every reading: within the reading's own tolerance, or 2 % of the
-/// way between right and wrong. Of several the nearest is named.
+/// mistake is recognised when it explains every reading: within the reading's own tolerance, but no more than
+/// a tenth of the way between right and wrong, and no less than 3 % of it. Of several the nearest is named.
 class Judgement {
  public:
   Judgement& read(std::string what, std::string unit, double measured, double expected, double tolerance);

@@ -16,6 +16,9 @@ struct Trace {
   const BodyState& first(std::size_t body) const { return states.front()[body]; }
   const BodyState& last(std::size_t body) const { return states.back()[body]; }
   double duration() const { return times.back(); }
+
+  /// Whether the body is where it was at the start, after all of it.
+  bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
 
 /// The engine does not do such scenes; `what()` is the reason.

@@ -124,10 +124,12 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("spin kept", "of all", l / l0, 1, lost)
       .read("widest gap in a joint", "m", gap, 0, 0.05)
       .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
-      .mistake_if(
-          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
-          "The limbs pull the whole aside: a joint's two impulses are opposite, and corrections of positions "
-          "are shared by inverse mass.")
+      .mistake_if(std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
+                  "The whole does not fall as a stone does. Chapter 1 has the fall itself; where that is "
+                  "right, the limbs "
+                  "pull the whole aside: a joint's two impulses are opposite, and corrections of positions "
+                  "are shared "
+                  "by inverse mass.")
       .mistake_if(std::abs(l / l0 - 1) > lost, "spin_not_kept",
                   "Joints change the spin of the whole: an impulse at an anchor turns each body by r x j/I, "
                   "with r as "
@@ -157,10 +159,10 @@ Finding ragdoll_drops(const Lab& lab) {
       .mistake_if(
           gap > 0.25, "comes_apart",
           "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
-      .mistake_if(
-          fastest > 1.5, "restless",
-          "The ragdoll does not settle: joints and contacts feed each other energy; correct positions by a "
-          "share (0.1 to 0.3) of the error.")
+      .mistake_if(fastest > 1.5, "restless",
+                  "The ragdoll does not settle: restitution is 0 here, and joints and contacts must not feed "
+                  "each other "
+                  "energy: correct positions by a share of the error each step, 0.1 to 0.3.")
       .finding();
 }
 

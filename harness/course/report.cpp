@@ -102,7 +102,10 @@ std::string score(std::span<const Outcome> outcomes, const Style& style) {
     if (next == nullptr && count.passed < count.all) next = chapter;
   }
   out += " (" + parts + ")\n";
-  if (next != nullptr) out += fmt::format("Next: chapter {}, docs/course/{}\n", next->number, next->page);
+  if (next != nullptr)
+    out +=
+        fmt::format("Next: chapter {}, docs/course/{}. What fails later may follow from what fails first.\n",
+                    next->number, next->page);
   return out;
 }
 

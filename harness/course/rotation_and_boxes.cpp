@@ -206,6 +206,7 @@ Finding lands_flat(const Lab& lab) {
   return Judgement()
       .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.02 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
+      .mistake_if(trace.still(0), "starts_at_rest", "The box never moves: take \"velocity\" from the scene.")
       .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
       .mistake("restitution_ignored", {0, 0}, "The box does not bounce: restitution is not used for boxes.")
       .mistake("always_elastic", {v, 0},
@@ -235,13 +236,15 @@ Finding box_rests(const Lab& lab) {
       .read("angle", "rad", end.angle, 0, 0.02)
       .read("vy", "m/s", end.velocity.y, 0, 2 * kGravity * lab.dt())
       .read("slid", "m", end.position.x, 0, 0.02)
+      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(sunk > side, "falls_through", "The box falls through the ground.")
       .mistake_if(std::abs(end.angle) > 0.02, "one_corner",
                   "The box tips over on flat ground: both of its lower corners carry it.")
       .mistake_if(sunk > tolerance, "sinks",
                   "The box sinks in: set positions right by a share of the overlap each step.")
-      .mistake_if(-sunk > tolerance, "restless",
-                  "The box does not settle: what gravity adds in a step must not bounce.")
+      .mistake_if(
+          -sunk > tolerance, "restless",
+          "The box does not settle: restitution is 0 here, and what gravity adds in a step must not bounce.")
       .finding();
 }
 
