@@ -16,7 +16,7 @@ constexpr double kRadii[] = {0.2, 0.43};  // m: as 10 to 1 in volume
 constexpr double kApart = 0.8;            // m, between two balls that are fired together
 constexpr std::size_t kMost = 40;         // balls at a time
 constexpr double kLost = 200;             // m from the muzzle, where a ball is given up
-constexpr double kForceScale = 0.02;      // m of arrow for 1 N
+constexpr double kForceScale = 0.03;      // m of arrow for 1 N
 constexpr double kPathStep = 0.05;        // s
 constexpr int kPathSteps = 60;
 

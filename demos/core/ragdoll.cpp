@@ -5,6 +5,7 @@
 #include "demos/core/doll.h"
 #include "demos/core/registry.h"
 #include "demos/core/world_demo.h"
+#include "engine/world/queries.h"
 
 namespace plumb::demos {
 namespace {
@@ -47,7 +48,7 @@ class Ragdoll final : public WorldDemo {
   }
   void key(char key) override {
     if (key == 'j') set("joints", joints_ == kHinges ? kSticks : kHinges);
-    if (key == 'n' && dolls_ < kMostDolls) add_doll({1.5 + 0.7 * (dolls_ % 3), 5.2});
+    if (key == 'n') add_another();
   }
 
   std::vector<Figure> figures() const override {
@@ -145,6 +146,17 @@ class Ragdoll final : public WorldDemo {
       if (i == 0) hang(kChainHook, bead);
       if (i > 0) add_stick(world_, last, bead);
       last = bead;
+    }
+  }
+
+  // Where there is room for one.
+  void add_another() {
+    constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, about the hip
+    for (const double x : {2.2, 0.8, 3.6, 5.0, -0.6, -2.0}) {
+      const Vec2d hip{x, kStart.y};
+      std::vector<ShapeId> there;
+      overlap_box(world_, {hip + kRoom.lower, hip + kRoom.upper}, {}, there);
+      if (there.empty() && dolls_ < kMostDolls) return add_doll(hip);
     }
   }
 

@@ -50,8 +50,8 @@ class Thousand final : public WorldDemo {
     };
     const ShapeDefinition walls[] = {
         wall({0, -0.5}, 2 * kHalfWidth + 2, 1), wall({-kHalfWidth - 0.5, 60}, 1, 122),
-        wall({kHalfWidth + 0.5, 60}, 1, 122), wall({-kHalfWidth, 3}, 6, 0.5, -0.6),
-        wall({kHalfWidth, 3}, 6, 0.5, 0.6)};
+        wall({kHalfWidth + 0.5, 60}, 1, 122), wall({-kHalfWidth + 2.3, 3}, 6, 0.5, -0.6),
+        wall({kHalfWidth - 2.3, 3}, 6, 0.5, 0.6)};
     world_.create_body({.name = "basin", .type = BodyType::Static}, walls);
     for (int i = 0; i < count_; ++i) {
       const int column = i % kColumns, row = i / kColumns;
