@@ -231,6 +231,7 @@ void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
     DirectIsland<Real>& island = w.scratch.direct[i];
     if (!make_system(w, island)) {
       island.contacts.clear(), island.joints.clear(), island.system.rows.clear(), island.links.clear();
+      island.joint_rows = 0;
       continue;
     }
     load_links(w, island, joints.h);
@@ -244,6 +245,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
                           bool push) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
+    if (island.system.rows.empty()) continue;  // left to the sweeps
     refresh_joints(w, island);
     std::size_t next = static_cast<std::size_t>(island.joint_rows);
     for (ContactConstraint<Real>* c : island.contacts) {

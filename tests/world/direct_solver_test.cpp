@@ -54,6 +54,26 @@ TEST(Direct, SoftStepsMayGoWithoutIt) {
   EXPECT_EQ(test::worst_gap(world, chain.joints), gap[0]);
 }
 
+// Few rows, but each one tied to all others: too costly to solve directly, so it is as without the direct
+// solution.
+TEST(Direct, AWheelOfSpokesIsLeftToTheSweeps) {
+  std::uint64_t hashes[2];
+  for (const bool on : {false, true}) {
+    WorldDefinition definition = with(Solver::SoftSteps);
+    definition.direct_islands = on;
+    World world(definition);
+    const BodyId hub = add_box(world, {0, 0}, 100);
+    for (int i = 0; i < 60; ++i) {
+      const BodyId spoke = add_box(world, {2.0 + i, 0}, 1, 0.5, 0.5);
+      world.create_joint(hub, spoke,
+                         {.kind = RevoluteDefinition{.anchor_a = {1.0 + i, 0}, .anchor_b = {-1, 0}}});
+    }
+    run(world, 20);
+    hashes[on ? 1 : 0] = world.hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
 // Joints and contacts in one: a chain that lies over a box.
 TEST(Direct, ChainsLieOnBodies) {
   World world(with(Solver::Direct));
