@@ -22,7 +22,7 @@ struct Interval {
 // The convex hull of some corners, with the distance to it.
 class Hull {
  public:
-  Hull(std::span<const Vec2d> corners) : count_(static_cast<int>(corners.size())) {
+  Hull(std::span<const Vec2d> corners, bool sharp) : count_(static_cast<int>(corners.size())), sharp_(sharp) {
     double area = 0;
     for (int i = 0; i < count_; ++i) area += cross(corners[i], corners[(i + 1) % count_]);
     for (int i = 0; i < count_; ++i) corners_[i] = corners[area < 0 ? count_ - 1 - i : i];
@@ -33,20 +33,21 @@ class Hull {
     }
   }
 
-  // px, negative inside.
+  // px, negative inside. Sharp: the edges go on beyond the corners until they meet.
   double distance(Vec2d point) const {
     if (count_ > 2) {
       double highest = -std::numeric_limits<double>::infinity();
       for (int i = 0; i < count_; ++i) highest = std::max(highest, dot(normals_[i], point - corners_[i]));
-      if (highest <= 0) return highest;
+      if (highest <= 0 || sharp_) return highest;
     }
     if (count_ == 1) return std::sqrt(length_squared(point - corners_[0]));
     double nearest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < (count_ == 2 ? 1 : count_); ++i) {
       const Vec2d along = corners_[(i + 1) % count_] - corners_[i];
       const double square = dot(along, along);
-      const double t = square > 0 ? std::clamp(dot(point - corners_[i], along) / square, 0.0, 1.0) : 0;
-      nearest = std::min(nearest, length_squared(point - corners_[i] - t * along));
+      const Vec2d from = point - corners_[i];
+      const double t = square > 0 ? std::clamp(dot(from, along) / square, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, length_squared(from - t * along));
     }
     return std::sqrt(nearest);
   }
@@ -58,9 +59,11 @@ class Hull {
     for (int i = 0; i < count_; ++i) {
       const double up = y - corners_[i].y, square = offset * offset - up * up;
       if (square >= 0) {
-        out.reach(corners_[i].x - std::sqrt(square));
-        out.reach(corners_[i].x + std::sqrt(square));
+        const double half = std::sqrt(square);
+        out.reach(corners_[i].x - half);
+        out.reach(corners_[i].x + half);
       }
+      if (count_ == 1) break;
       for (const double side : {offset, -offset}) {
         if (side != offset && count_ > 2) continue;  // a segment has two sides
         const Vec2d a = corners_[i] + side * normals_[i], b = corners_[(i + 1) % count_] + side * normals_[i];
@@ -99,6 +102,7 @@ class Hull {
   }
 
   int count_;
+  bool sharp_;
   Vec2d corners_[kMostCorners], normals_[kMostCorners];
 };
 
@@ -109,12 +113,15 @@ std::uint32_t at_edge(std::uint32_t under, double distance, const Paint& paint) 
   const double lined = cover(distance) - filled;
   const double fill = filled * paint.fill.a, line = lined * paint.line.a, alpha = fill + line;
   if (alpha < 0.5) return under;
+  const auto opacity = static_cast<std::uint32_t>(alpha + 0.5);
+  if (fill == 0) return blended(under, packed(paint.line), opacity);
+  if (line == 0) return blended(under, packed(paint.fill), opacity);
   const auto mixed = [&](double f, double l) {
     return static_cast<std::uint8_t>((fill * f + line * l) / alpha + 0.5);
   };
   const Colour over{mixed(paint.fill.r, paint.line.r), mixed(paint.fill.g, paint.line.g),
                     mixed(paint.fill.b, paint.line.b)};
-  return blended(under, packed(over), static_cast<std::uint32_t>(alpha + 0.5));
+  return blended(under, packed(over), opacity);
 }
 
 // The pixels whose centres lie in an interval, of `width`: [first, last).
@@ -145,7 +152,7 @@ void Canvas::paint(std::span<const Vec2d> corners, double radius, const Paint& p
   if (corners.empty() || corners.size() > kMostCorners) return;
   for (const Vec2d& corner : corners)
     if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return;
-  const Hull hull(corners);
+  const Hull hull(corners, radius == 0);
   const Span rows = pixels_in(hull.height(radius + 0.5), height_);
   const std::uint32_t fill = packed(paint.fill);
   for (int y = rows.first; y < rows.last; ++y) {

@@ -33,7 +33,7 @@ class Canvas {
   void clear(Colour colour);
 
   Colour at(int x, int y) const;
-  /// Rows from the top, each pixel as bytes r, g, b, a.
+  /// Rows from the top; each pixel is `packed`, as screens have it.
   std::span<const std::uint32_t> pixels() const { return pixels_; }
   std::span<std::uint32_t> pixels() { return pixels_; }
 
@@ -47,26 +47,26 @@ class Canvas {
   std::vector<std::uint32_t> pixels_;
 };
 
-/// A colour as a pixel's bytes in memory (little endian), and back.
+/// A colour as a pixel, 0xaarrggbb, and back.
 constexpr std::uint32_t packed(Colour c) {
-  return c.r | std::uint32_t{c.g} << 8 | std::uint32_t{c.b} << 16 | std::uint32_t{c.a} << 24;
+  return c.b | std::uint32_t{c.g} << 8 | std::uint32_t{c.r} << 16 | std::uint32_t{c.a} << 24;
 }
 constexpr Colour unpacked(std::uint32_t pixel) {
-  return {static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 8),
-          static_cast<std::uint8_t>(pixel >> 16), static_cast<std::uint8_t>(pixel >> 24)};
+  return {static_cast<std::uint8_t>(pixel >> 16), static_cast<std::uint8_t>(pixel >> 8),
+          static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 24)};
 }
 
 /// `over` with opacity `alpha` (0..255) on top of an opaque pixel.
 constexpr std::uint32_t blended(std::uint32_t under, std::uint32_t over, std::uint32_t alpha) {
-  // Two channels at a time. (x * alpha + 128) * 257 >> 16 is x * alpha / 255, rounded.
+  // (x * alpha + 128) * 257 >> 16 is x * alpha / 255, rounded.
   const auto mix = [alpha](std::uint32_t a, std::uint32_t b) {
     const std::uint32_t x = a * (255 - alpha) + b * alpha + 128;
     return (x * 257) >> 16;
   };
-  const std::uint32_t r = mix(under & 255, over & 255);
+  const std::uint32_t b = mix(under & 255, over & 255);
   const std::uint32_t g = mix(under >> 8 & 255, over >> 8 & 255);
-  const std::uint32_t b = mix(under >> 16 & 255, over >> 16 & 255);
-  return r | g << 8 | b << 16 | 0xff000000u;
+  const std::uint32_t r = mix(under >> 16 & 255, over >> 16 & 255);
+  return b | g << 8 | r << 16 | 0xff000000u;
 }
 
 }  // namespace plumb::window

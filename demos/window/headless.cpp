@@ -13,11 +13,11 @@ constexpr double kFrame = 1.0 / 60;  // s
 void measure(Player& player, Stage& stage, int frames) {
   FrameTimes times;
   for (int i = 0; i < frames; ++i) {
-    const double start = now_ms();
+    const double start = now_ms(), processor = processor_ms();
     player.advance(kFrame);
     const double stepped = now_ms();
     stage.frame({});
-    times.add({stepped - start, now_ms() - stepped, 0});
+    times.add({stepped - start, now_ms() - stepped, 0, processor_ms() - processor});
   }
   fmt::print("{}", times.report());
 }

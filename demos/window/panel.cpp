@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "demos/window/rasteriser.h"
+
 namespace plumb::window {
 namespace {
 
@@ -100,7 +102,7 @@ void draw_ghosts(Player& player, Companion& companion) {
     const Ghost& ghost = companion.ghosts()[i];
     bool shown = ghost.shown;
     const Colour colour = player.theme.ghost(static_cast<int>(i));
-    ImGui::PushStyleColor(ImGuiCol_CheckMark, packed(colour));
+    ImGui::PushStyleColor(ImGuiCol_CheckMark, imgui_colour(colour));
     if (ImGui::Checkbox(ghost.name.c_str(), &shown)) companion.show_ghost(i, shown);
     ImGui::PopStyleColor();
     if (!ghost.remark.empty()) {
@@ -178,7 +180,8 @@ void draw_message(const Player& player) {
   if (text.empty()) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float left = player.panel ? 370 : 12;
-  ImGui::GetBackgroundDrawList()->AddText({left, size.y - 24}, packed(player.theme.text()), text.c_str());
+  ImGui::GetBackgroundDrawList()->AddText({left, size.y - 24}, imgui_colour(player.theme.text()),
+                                          text.c_str());
 }
 
 }  // namespace plumb::window

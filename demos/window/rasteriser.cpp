@@ -12,6 +12,9 @@ namespace {
 // Corners lie on a grid of 1/16 px, so that edges are exact.
 constexpr int kSub = 16;
 
+// ImGui has red in the lowest byte.
+std::uint32_t swapped(std::uint32_t c) { return (c & 0xff00ff00u) | (c & 255) << 16 | (c >> 16 & 255); }
+
 struct Clip {
   int left, top, right, bottom;
 };
@@ -107,7 +110,7 @@ class Triangle {
   }
 
   void paint_plain(std::uint32_t* row, long first, long last) const {
-    const std::uint32_t colour = corners_[0]->col, alpha = colour >> 24;
+    const std::uint32_t colour = swapped(corners_[0]->col), alpha = colour >> 24;
     if (alpha == 255) {
       std::fill(row + first, row + last + 1, colour);
     } else if (alpha > 0) {

@@ -3,38 +3,32 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "demos/window/run.h"
+#include "demos/window/screen.h"
 #include "demos/window/stage.h"
-#include "engine/scene/error.h"
 
 namespace plumb::window {
 namespace {
 
 constexpr double kFrame = 1000.0 / 60;  // ms
 
-[[noreturn]] void fail(const std::string& subject, const std::string& problem, const std::string& why) {
-  throw Error(Error::Kind::Io, subject, "", "",
-              fmt::format("{}: {}; without one: --headless --seconds T --screenshot FILE", problem, why));
-}
-
 struct Destroy {
   void operator()(SDL_Window* window) const { SDL_DestroyWindow(window); }
-  void operator()(SDL_Renderer* renderer) const { SDL_DestroyRenderer(renderer); }
-  void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
 };
 
 struct Video {
   Video() {
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("the display", "cannot be used", SDL_GetError());
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) fail_without_window("the display", "cannot be used", SDL_GetError());
     // Where there is no display SDL takes a driver that shows nothing.
     const std::string driver = SDL_GetCurrentVideoDriver();
     const bool nowhere = driver == "offscreen" || driver == "dummy" || driver == "evdev";
     if (!nowhere || SDL_getenv("SDL_VIDEODRIVER") != nullptr) return;
     SDL_Quit();
-    fail("the display", "is not there", "neither DISPLAY nor WAYLAND_DISPLAY is set");
+    fail_without_window("the display", "is not there", "neither DISPLAY nor WAYLAND_DISPLAY is set");
   }
   ~Video() { SDL_Quit(); }
   Video(const Video&) = delete;
@@ -57,17 +51,13 @@ class Window {
   Window(Player& player, const Options& options, bool vsync) : player_(player), stage_(player, options) {
     window_.reset(SDL_CreateWindow("plumb", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, options.width,
                                    options.height, SDL_WINDOW_RESIZABLE));
-    if (window_ == nullptr) fail("a window", "cannot be opened", SDL_GetError());
-    renderer_.reset(SDL_CreateRenderer(window_.get(), -1, vsync ? SDL_RENDERER_PRESENTVSYNC : 0));
-    if (renderer_ == nullptr) fail("a window", "cannot be drawn to", SDL_GetError());
-    SDL_RendererInfo info{};
-    SDL_GetRendererInfo(renderer_.get(), &info);
-    vsync_ = (info.flags & SDL_RENDERER_PRESENTVSYNC) != 0;
-    fit_texture();
+    if (window_ == nullptr) fail_without_window("a window", "cannot be opened", SDL_GetError());
+    screen_.emplace(window_.get(), vsync);
+    fit_canvas();
     SDL_StartTextInput();
   }
 
-  bool vsync() const { return vsync_; }
+  bool vsync() const { return screen_->vsync(); }
   Stage& stage() { return stage_; }
 
   // False: the player has had enough.
@@ -90,21 +80,13 @@ class Window {
     }
   }
 
-  void show() {
-    const Canvas& canvas = stage_.canvas;
-    SDL_UpdateTexture(texture_.get(), nullptr, canvas.pixels().data(), canvas.width() * 4);
-    SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, nullptr);
-    SDL_RenderPresent(renderer_.get());
-  }
+  void show() { screen_->show(stage_.canvas); }
 
  private:
-  void fit_texture() {
+  void fit_canvas() {
     int width = 0, height = 0;
     SDL_GetWindowSize(window_.get(), &width, &height);
     stage_.canvas.resize(width, height);
-    texture_.reset(SDL_CreateTexture(renderer_.get(), SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING,
-                                     stage_.canvas.width(), stage_.canvas.height()));
-    if (texture_ == nullptr) fail("a window", "cannot be drawn to", SDL_GetError());
   }
 
   bool handle(const SDL_Event& event) {
@@ -112,7 +94,7 @@ class Window {
       case SDL_QUIT:
         return false;
       case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) fit_texture();
+        if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) fit_canvas();
         break;
       case SDL_MOUSEBUTTONDOWN:
       case SDL_MOUSEBUTTONUP:
@@ -190,23 +172,22 @@ class Window {
   Player& player_;
   Stage stage_;
   std::unique_ptr<SDL_Window, Destroy> window_;
-  std::unique_ptr<SDL_Renderer, Destroy> renderer_;
-  std::unique_ptr<SDL_Texture, Destroy> texture_;
+  std::optional<Screen> screen_;
   PanelInput input_;
   std::string typed_, title_;
-  bool panning_ = false, vsync_ = false;
+  bool panning_ = false;
 };
 
 void measure(Player& player, Window& window, int frames) {
   FrameTimes times;
   while (times.count() < static_cast<std::size_t>(frames) && window.handle_events()) {
-    const double start = now_ms();
+    const double start = now_ms(), processor = processor_ms();
     player.advance(kFrame / 1000);
     const double stepped = now_ms();
     window.draw(kFrame / 1000);
     const double drawn = now_ms();
     window.show();
-    times.add({stepped - start, drawn - stepped, now_ms() - drawn});
+    times.add({stepped - start, drawn - stepped, now_ms() - drawn, processor_ms() - processor});
   }
   fmt::print("{}", times.report());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 
 #include "demos/window/picture.h"
@@ -64,8 +65,11 @@ std::string FrameTimes::report() const {
   line("drawing", [](const Frame& f) { return f.drawing; });
   line("showing", [](const Frame& f) { return f.showing; });
   line("frame", [](const Frame& f) { return f.steps + f.drawing + f.showing; });
+  line("processor", [](const Frame& f) { return f.processor; });
   return out;
 }
+
+double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double now_ms() {
   using Milliseconds = std::chrono::duration<double, std::milli>;

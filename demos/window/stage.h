@@ -36,17 +36,20 @@ class FrameTimes {
  public:
   struct Frame {
     double steps = 0, drawing = 0, showing = 0;
+    double processor = 0;  // of all threads
   };
   void add(const Frame& frame) { frames_.push_back(frame); }
   std::size_t count() const { return frames_.size(); }
-  /// Median and 99th percentile of each part and of the whole.
+  /// Median and 99th percentile of each part, of the whole, and of the processor's time for it, which other
+  /// programs do not lengthen.
   std::string report() const;
 
  private:
   std::vector<Frame> frames_;
 };
 
-/// ms, of a clock that only goes on.
+/// ms, of a clock that only goes on; of the time that processors have spent on this program.
 double now_ms();
+double processor_ms();
 
 }  // namespace plumb::window

@@ -90,7 +90,7 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   for (const Label& label : painter.labels())
     ImGui::GetBackgroundDrawList()->AddText({static_cast<float>(static_cast<int>(label.pixel.x)),
                                              static_cast<float>(static_cast<int>(label.pixel.y))},
-                                            packed(label.colour), label.text.c_str());
+                                            imgui_colour(label.colour), label.text.c_str());
   ImGui::Render();
   rasterise(*ImGui::GetDrawData(), *io.Fonts, canvas);
 }

@@ -12,7 +12,7 @@ Canvas read_png(const std::string& file) {
     ADD_FAILURE() << file << ": " << image.message;
     return {1, 1};
   }
-  image.format = PNG_FORMAT_RGBA;
+  image.format = PNG_FORMAT_BGRA;
   Canvas canvas(static_cast<int>(image.width), static_cast<int>(image.height));
   if (png_image_finish_read(&image, nullptr, canvas.pixels().data(), 0, nullptr) == 0)
     ADD_FAILURE() << file << ": " << image.message;
