@@ -114,7 +114,7 @@ Finding bounces(const Lab& lab) {
   const Trace trace =
       lab.run(scene_of("bounce", {}, {make(Ball{.position = {0, 1}, .velocity = {1, -2}}), floor}), 1);
   const BodyState& end = trace.last(0);
-  const double tolerance = 0.01;
+  const double tolerance = 0.002;
   return Judgement()
       .read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
       .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
@@ -163,7 +163,7 @@ Finding restitution(const Lab& lab) {
   const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -v}, .restitution = e});
   const Trace trace = lab.run(scene_of("restitution", {}, {ball, floor}), 1);
   return Judgement()
-      .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.01 * v)
+      .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.002 * v)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(trembles(trace), "turned_every_step", kTurnedEveryStep)
       .mistake(
@@ -221,15 +221,15 @@ Finding four_walls(const Lab& lab) {
   return Judgement()
       .read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
       .read("turns at walls", "", turns(trace), due, 2)
-      .read("speed after 5 s", "m/s", end, speed, 0.01 * speed)
+      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
       .mistake_if(!passed.empty(), "wall_missing",
                   fmt::format("The ball leaves through the {} wall.", passed))
-      .mistake_if(end > 1.01 * speed, "speeds_up",
+      .mistake_if(end > 1.002 * speed, "speeds_up",
                   "The ball gains speed at walls: pushing it out must not change its "
                   "velocity, and restitution 1 gives back what came, no more.")
-      .mistake_if(end < 0.99 * speed, "slows_down",
+      .mistake_if(end < 0.998 * speed, "slows_down",
                   "The ball loses speed in the air or at walls: nothing here "
                   "damps it, and restitution is 1.")
       .finding();

@@ -84,8 +84,8 @@ Finding stick_weighs_masses(const Lab& lab) {
   const double t = trace.duration(), both = force * t / (heavy + light);
   const double momentum = heavy * trace.last(0).velocity.x + light * trace.last(1).velocity.x;
   return Judgement()
-      .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.02 * both)
-      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.02 * both)
+      .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.005 * both)
+      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.005 * both)
       .mistake("masses_ignored", {force * t / light / 2, force * t / light / 2},
                "Both ends are moved alike: share the correction by inverse mass, the light end takes ten "
                "parts in eleven.")
@@ -151,7 +151,7 @@ Finding pendulum(const Lab& lab) {
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("last swing", "rad", high, amplitude, amplitude - lowest)
-      .read("largest change of length", "m", stretched, 0, 0.03 * l)
+      .read("largest change of length", "m", stretched, 0, 0.02 * l * lab.coarseness())
       .mistake_if(trace.still(0), "no_gravity",
                   "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
       .mistake_if(!period, "joint_ignored",
@@ -166,7 +166,7 @@ Finding pendulum(const Lab& lab) {
       .mistake("gravity_divided_by_mass", {due * std::sqrt(3.0), kAny, kAny},
                "It swings as under a third of the gravity, with 3 kg: the weight is m g.")
       .mistake("gravity_twice", {due / std::sqrt(2.0), kAny, kAny}, "It swings as under twice the gravity.")
-      .mistake_if(stretched > 0.03 * l, "no_position_correction",
+      .mistake_if(stretched > 0.02 * l * lab.coarseness(), "no_position_correction",
                   "The string stretches: correct the positions as well.")
       .finding();
 }
@@ -205,7 +205,7 @@ Finding hinged_rod(const Lab& lab) {
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
-      .read("largest gap at the hinge", "m", gap, 0, 0.03 * l)
+      .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
       .mistake_if(!period && still, "lever_forgotten",
                   "The rod does not swing: if gravity pulls at it, the hinge holds its centre. It holds the "
                   "anchor, r from the centre: the "
@@ -218,7 +218,7 @@ Finding hinged_rod(const Lab& lab) {
       .mistake("inertia_half", {period_with(about_centre / 2 + mass * l * l / 4), kAny},
                "It swings fast: is the inertia 1/24 where it should be 1/12?")
       .mistake_if(gap > 0.2 * l, "joint_ignored", "The rod leaves its hinge.")
-      .mistake_if(gap > 0.03 * l, "no_position_correction",
+      .mistake_if(gap > 0.01 * l * lab.coarseness(), "no_position_correction",
                   "The hinge comes apart: correct the positions as well.")
       .finding();
 }
@@ -250,7 +250,7 @@ Finding chain_swings(const Lab& lab) {
   const double fallen = trace.last(links - 1).position.y - trace.first(links - 1).position.y;
   const bool falls = fallen < 0.9 * lab.way(0, -kGravity, trace.duration());
   return Judgement()
-      .read("largest stretch of a link", "of its length", worst, 0, 0.25)
+      .read("largest stretch of a link", "of its length", worst, 0, 0.25 * lab.coarseness())
       .read("farthest that the end swings to the other side", "m", left, -links * l / 2, 0.45 * links * l)
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(falls, "joint_ignored", "The chain falls freely: its links do nothing.")
@@ -258,7 +258,7 @@ Finding chain_swings(const Lab& lab) {
           worst > 1 && where == 0, "too_few_iterations",
           "The top link gives way under the others: go over all joints several times a step, 10 or more.")
       .mistake_if(
-          worst > 0.25, "too_few_iterations",
+          worst > 0.25 * lab.coarseness(), "too_few_iterations",
           fmt::format("Link {} stretches by {:.0f} %: go over all joints several times a step, 10 or more.",
                       where, 100 * worst))
       .mistake_if(left > -1e-9, "joint_ignored", "The chain does not swing through.")

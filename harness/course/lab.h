@@ -52,6 +52,10 @@ class Lab {
   /// order.
   double turn_kept(double w, double time) const;
 
+  /// How much wider joints may come apart than at 1/60 s: a step along the tangent leaves a circle by
+  /// (w dt)^2/2 of its radius.
+  double coarseness() const;
+
   /// The way in `time` s from velocity `v` under acceleration `a`, as the declared method computes it:
   /// Euler's two methods are off by a h t/2, to either side; the others are exact.
   double way(double v, double a, double time) const;

@@ -122,7 +122,7 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("fall of the centre of mass", "m", centre.y, fall, off)
       .read("drift of the centre of mass", "m", centre.x, 0, 0.01)
       .read("spin kept", "of all", l / l0, 1, lost)
-      .read("widest gap in a joint", "m", gap, 0, 0.05)
+      .read("widest gap in a joint", "m", gap, 0, 0.02 * lab.coarseness())
       .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
       .mistake_if(std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
                   "The whole does not fall as a stone does. Chapter 1 has the fall itself; where that is "
@@ -134,7 +134,8 @@ Finding ragdoll_flies(const Lab& lab) {
                   "Joints change the spin of the whole: an impulse at an anchor turns each body by r x j/I, "
                   "with r as "
                   "turned by its angle.")
-      .mistake_if(gap > 0.05, "too_few_iterations", "Joints come apart: go over them several times a step.")
+      .mistake_if(gap > 0.02 * lab.coarseness(), "too_few_iterations",
+                  "Joints come apart: go over them several times a step.")
       .finding();
 }
 
@@ -152,12 +153,12 @@ Finding ragdoll_drops(const Lab& lab) {
   const double in_ground = std::max(0.0, -lowest);
   // From 2 m nothing moves faster than sqrt(2 g 2.6); at rest after 4 s, slow sliding aside.
   return Judgement()
-      .read("widest gap in a joint", "m", gap, 0, 0.25)
+      .read("widest gap in a joint", "m", gap, 0, 0.1 * lab.coarseness())
       .read("deepest centre below the ground", "m", in_ground, 0, 0.02)
       .read("fastest limb after 4 s", "m/s", fastest, 0, 1.5)
       .mistake_if(in_ground > 0.5, "falls_through", "The ragdoll falls through the ground.")
       .mistake_if(
-          gap > 0.25, "comes_apart",
+          gap > 0.1 * lab.coarseness(), "comes_apart",
           "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
       .mistake_if(fastest > 1.5, "restless",
                   "The ragdoll does not settle: restitution is 0 here, and joints and contacts must not feed "

@@ -160,9 +160,9 @@ Finding ball_hits_rod(const Lab& lab) {
   const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
   const double j = 2 * v / k, rigid = 2 * v / linear, w = -arm * j / inertia;
   return Judgement()
-      .read("vx of the ball", "m/s", trace.last(0).velocity.x, v - j / m, 0.01 * v)
-      .read("vx of the rod", "m/s", trace.last(1).velocity.x, j / rod_mass, 0.01 * v)
-      .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.02 * std::abs(w))
+      .read("vx of the ball", "m/s", trace.last(0).velocity.x, v - j / m, 0.002 * v)
+      .read("vx of the rod", "m/s", trace.last(1).velocity.x, j / rod_mass, 0.002 * v)
+      .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.005 * std::abs(w))
       .mistake("r_cross_n_flipped", {v - j / m, j / rod_mass, -w}, kFlipped)
       .otherwise_if(trace.last(1).angular_velocity > -0.2 * w, "r_cross_n_flipped", kFlipped)
       .mistake("no_rotation", {v - rigid / m, rigid / rod_mass, 0},
@@ -204,7 +204,7 @@ Finding lands_flat(const Lab& lab) {
                               .restitution = e});
   const Trace trace = lab.run(scene_of("flat", {}, {box, ground(e, 0)}), 0.8);
   return Judgement()
-      .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.02 * v)
+      .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.005 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
       .mistake_if(trace.still(0), "starts_at_rest", "The box never moves: take \"velocity\" from the scene.")
       .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
