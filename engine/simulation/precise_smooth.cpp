@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "engine/scene/error.h"
@@ -29,6 +30,14 @@ constexpr double kAfterJump = 1000;
 constexpr double kShortestLeap = 1e-4;
 /// How far the weakest row falls within a step that meets a singular place.
 constexpr double kSingular = 0.03;
+/// What is weaker than this share of the usual, is singular for a step; the usual is forgotten by steps.
+constexpr double kVeryWeak = 1e-3, kForget = 0.97;
+/// A step with a stage or its end at a singular place is made shorter by little, such that they lie beside
+/// it.
+/// Once for the error that steps may have, and once for the tolerance itself, as leaps.
+constexpr double kDetours[] = {0.94, 0.87, 0.81, 0.72, 0.63, 0.55,  //
+                               2.3,  2.1,  1.9,  1.7,  1.5,  1.3,  1.15, 1, 0.9, 0.8, 0.7, 0.6};
+constexpr std::size_t kStrict = 6;
 /// The error of a step whose stages were not found: the next try is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
@@ -93,20 +102,45 @@ double SmoothMotion::step(double limit) {
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
-  const double weak = kSingular * rank_at_start_.weakest;
+  usual_weakest_ = std::max(kForget * usual_weakest_, rank_at_start_.weakest);
+  const double weak = std::max(kSingular * rank_at_start_.weakest, kVeryWeak * usual_weakest_);
+  const bool inside = rank_at_start_.weakest < weak;
+  double first_length = 0;  // of the step that met a singular place, s
+  std::size_t detour = 0;
   for (;;) {
-    const double end = end_of_step(limit), h = end - start_;
+    const double end =
+        first_length > 0 ? std::min(start_ + kDetours[detour++] * first_length, limit) : end_of_step(limit);
+    const double h = end - start_;
+    const bool may_choose = !stiff_ && detour < std::size(kDetours) && end > start_;
+    const double allowed = detour > kStrict ? 1 / kLocalShare : 1;
     equations_.forget_rank();
     if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) blame_fastest();
     const double error = try_step(end, again);
-    if (error <= 1) {
-      accept(end, error);
-      return end;
+    if (error <= allowed) {
+      last_implicit_ = stiff_;
+      take_increment(end);
+      equations_.forget_rank();
+      rate_at_end();
+      const bool regular =
+          equations_.weakest() >= weak && equations_.dependent_rows() == rank_at_start_.dependent;
+      if (regular || inside || !may_choose) {
+        leaps_ += detour > 0 ? 1 : 0;
+        accept(h, std::min(error, 1.0));
+        return end;
+      }
+      y_ = y0_;  // a singular place is no place to end at
+      time_ = start_;
+      rate_known_ = false;
     }
     again = true;
     ++rejected_;
     const bool singular =
         equations_.weakest() < weak || equations_.dependent_rows() > rank_at_start_.dependent;
+    if (singular && may_choose) {
+      if (first_length == 0) first_length = h;
+      continue;
+    }
+    first_length = 0;
     if (singular && !stiff_ && leap(limit)) return time_;
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
@@ -182,45 +216,6 @@ bool SmoothMotion::leap(double limit) {
   return false;
 }
 
-/// Fixed steps, shorter only where they would go beyond `limit`.
-double SmoothMotion::symplectic_step(double limit) {
-  if (proposed_step_ == 0) proposed_step_ = longest_symplectic_step();
-  const double end = std::min(start_ + proposed_step_, limit);
-  symplectic_.step(start_, end - start_, y_);
-  time_ = end;
-  rate_known_ = false;
-  return end;
-}
-
-/// A step that meets the tolerance from here on: its error is the difference to two steps of half its length.
-double SmoothMotion::longest_symplectic_step() {
-  constexpr double kFewest = 1e-12;
-  const auto fits = [&](double h) {
-    Compensated whole = y0_, halves = y0_;
-    symplectic_.step(start_, h, whole);
-    symplectic_.step(start_, 0.5 * h, halves);
-    symplectic_.step(start_ + 0.5 * h, 0.5 * h, halves);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-      if (!(std::abs(whole[i] - halves[i]) <= error_scale_[i])) return false;
-    }
-    return true;
-  };
-  const auto meets = [&](double h) {
-    try {
-      return fits(h);
-    } catch (const Error&) {  // joints that do not close over so long a step
-      return false;
-    }
-  };
-  // Few bits, so that times are sums without rounding.
-  double h = static_cast<float>(first_step());
-  const double least = kFewest * h;
-  while (!meets(h) && h > least) h *= 0.5;
-  if (h <= least) blame_fastest();
-  while (2 * h <= longest_step_ && meets(1.25 * h)) h = static_cast<float>(1.25 * h);
-  return h;
-}
-
 /// The error of a step to `end`, 1 at most when it may be accepted. `again`: there was none before, or it
 /// failed.
 double SmoothMotion::try_step(double end, bool again) {
@@ -235,16 +230,12 @@ double SmoothMotion::try_step(double end, bool again) {
   return implicit_.error(stiff_motion_, start_, h, y0_.value(), rate_at_start(), error_scale_, again);
 }
 
-void SmoothMotion::accept(double end, double error) {
-  const double h = end - start_;
+/// The step just taken, of length h.
+void SmoothMotion::accept(double h, double error) {
   const double factor = stiff_ ? StepControl::sixth_order(error) : control_.after_acceptance(error);
   const double next = std::min(h * factor, longest_step_);
   proposed_step_ = h < proposed_step_ ? std::max(next, proposed_step_) : next;
-  last_implicit_ = stiff_;
   implicit_steps_ += stiff_ ? 1 : 0;
-  take_increment(end);
-  equations_.forget_rank();
-  rate_at_end();
   rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   if (method_ == MotionMethod::Automatic && !equations_.holds_anything()) watch_stiffness();
 }

@@ -88,7 +88,7 @@ class SmoothMotion {
   double symplectic_step(double limit);
   double longest_symplectic_step();
   double try_step(double end, bool again);
-  void accept(double end, double error);
+  void accept(double h, double error);
   void take_increment(double end);
   void watch_stiffness();
   double fastest_rate();
@@ -128,7 +128,8 @@ class SmoothMotion {
     double weakest = 1;
     int dependent = 0;
   };
-  Rank rank_at_start_;  // of the joints' rows, where the next step begins
+  double usual_weakest_ = 1;  // of the joints' rows, in the last tens of steps
+  Rank rank_at_start_;        // of the joints' rows, where the next step begins
   std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 

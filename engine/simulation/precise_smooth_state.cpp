@@ -14,7 +14,7 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
     for (const double number : numbers) out.put(number);
   };
   put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step(),
-                 rank_at_start_.weakest});
+                 rank_at_start_.weakest, usual_weakest_});
   for (const std::int64_t number :
        {rejected_, implicit_steps_, leaps_, std::int64_t{rank_at_start_.dependent},
         std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_}, std::int64_t{stiff_},
@@ -36,7 +36,8 @@ void SmoothMotion::restore(SnapshotReader& in) {
   };
   const auto integer = [&] { return in.get<std::int64_t>(); };
   double previous = 0, last_step = 0;
-  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.weakest})
+  for (double* number :
+       {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.weakest, &usual_weakest_})
     *number = in.get<double>();
   control_.reset(previous);
   rejected_ = integer();

@@ -164,6 +164,15 @@ TEST(PreciseChain, KeepsEnergyAndStaysClosed) {
   }
 }
 
+TEST(PreciseChain, AThousandLinksFall) {
+  const int n = 1000;
+  const auto driver = make_precise_driver(rods(n), {.tolerance = 1e-6}, {});
+  const RodsCheck after = check_rods(advance(*driver, n, 6));
+  EXPECT_LT(std::abs(after.energy) / after.kinetic, 1e-9);
+  EXPECT_LT(after.gap, 1e-11);
+  EXPECT_LT(driver->statistics().evaluations, 1000);
+}
+
 TEST(PreciseChain, ErrorFallsWithTheTolerance) {
   double before = 1;
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
