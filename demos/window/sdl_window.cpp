@@ -73,6 +73,7 @@ class Window {
   void draw(double seconds) {
     input_.seconds = seconds;
     input_.text = typed_;
+    input_.control_key = (SDL_GetModState() & KMOD_CTRL) != 0;
     stage_.frame(input_);
     if (title_ != player_.demo().about().name) {
       title_ = player_.demo().about().name;

@@ -35,6 +35,7 @@ void set_style(bool dark) {
   }
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
+  style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white would not be seen
   style.AntiAliasedLinesUseTex = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
 }
@@ -70,6 +71,8 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   io.MousePos = {static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y)};
   io.MouseDown[0] = input.left;
   io.MouseDown[1] = input.right;
+  io.KeyCtrl = input.control_key;
+  io.KeyMods = input.control_key ? ImGuiKeyModFlags_Ctrl : ImGuiKeyModFlags_None;
   io.MouseWheel += static_cast<float>(input.wheel);
   for (const char c : input.text) io.AddInputCharacter(static_cast<unsigned char>(c));
   if (player.theme.dark != dark_) set_style(dark_ = player.theme.dark);

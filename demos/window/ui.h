@@ -13,7 +13,7 @@ namespace plumb::window {
 /// The pointer and the keyboard as the panel sees them.
 struct PanelInput {
   Vec2d pointer{-1, -1};  ///< px
-  bool left = false, right = false;
+  bool left = false, right = false, control_key = false;
   double wheel = 0;
   double seconds = 1.0 / 60;  ///< since the frame before
   std::string_view text{};    ///< that was typed

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws docs/pictures/DEMO.png, a picture of each demo at play, without a display: `docs/pictures/demos.sh [PLUMB]`.
+# Draws docs/pictures/DEMO.png, a picture of each demo at play, and view.png, without a display: `docs/pictures/demos.sh [PLUMB]`.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")"
 plumb=${1:-../../build/release/bin/plumb}
@@ -36,3 +36,6 @@ picture ragdoll 0.9 '0.1 press -5.5 1.5
 0.3 drag -4 3
 0.5 drag -3 4
 0.8 drag -2.5 4.5'
+picture thousand 2.5 '0 set bodies=1000'
+"$plumb" view 'pendulum_chain[5]' --headless --theme light --width 900 --height 560 --colours 64 --seconds 0.9 \
+  --ghost box2d --ghost bullet --screenshot view.png >/dev/null
