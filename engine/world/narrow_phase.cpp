@@ -169,12 +169,21 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
   return true;
 }
 
+// Most of a load, and all of it where it has pressed the shapes into each other.
+template <class Real>
+void expect_loads(ContactConstraint<Real>& c) {
+  constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
+  constexpr Real kRise = Real((1 - tuning::kExpectedShare) * tuning::kPushSpeed / tuning::kExpectedOverlap);
+  const Real rise = kRise / c.push_speed;
+  for (int i = 0; i < 2; ++i) {
+    const Real share = std::min(kShare + rise * std::max(-c.separation[i], Real(0)), Real(1));
+    c.expected_impulse[i] += kRate * (share * c.normal_impulse[i] - c.expected_impulse[i]);
+  }
+}
+
 template <class Real>
 void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c) {
-  for (int i = 0; i < 2; ++i) {
-    const Real load = Real(tuning::kExpectedShare) * c.normal_impulse[i];
-    c.expected_impulse[i] += Real(tuning::kExpectedRate) * (load - c.expected_impulse[i]);
-  }
+  expect_loads(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
   if (!c.bounces) return;
   w.scratch.may_bounce = w.scratch.may_bounce || c.restitution > 0;
