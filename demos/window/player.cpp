@@ -116,7 +116,10 @@ void Player::hover(Vec2d point) {
 }
 
 void Player::set(std::string_view control, double value) {
-  guarded([&] { demo().set(control, value); });
+  guarded([&] {
+    demo().set(control, value);
+    sample();
+  });
 }
 
 void Player::advance(double seconds) {

@@ -75,6 +75,8 @@ class Window {
     input_.text = typed_;
     input_.control_key = (SDL_GetModState() & KMOD_CTRL) != 0;
     stage_.frame(input_);
+    // A click that began and ended between two frames lasted for one.
+    input_.left = left_down_;
     if (title_ != player_.demo().about().name) {
       title_ = player_.demo().about().name;
       SDL_SetWindowTitle(window_.get(), ("plumb: " + title_).c_str());
@@ -125,7 +127,8 @@ class Window {
     const bool ours = over_world(button.x);
     const Vec2d point = player_.camera.to_world(input_.pointer);
     if (button.button == SDL_BUTTON_LEFT) {
-      input_.left = down;
+      left_down_ = down;
+      if (down) input_.left = true;
       if (!down) {
         player_.release(point);
       } else if (ours) {
@@ -176,7 +179,7 @@ class Window {
   std::optional<Screen> screen_;
   PanelInput input_;
   std::string typed_, title_;
-  bool panning_ = false;
+  bool panning_ = false, left_down_ = false;
 };
 
 void measure(Player& player, Window& window, int frames) {
@@ -203,8 +206,8 @@ void run_in_window(Player& player, const Options& options) {
   double last = start;
   while (window.handle_events()) {
     const double now = now_ms(), shown = (now - start) / 1000;
-    player.advance((now - last) / 1000);
     if (window.stage().follow_script(shown)) break;
+    player.advance((now - last) / 1000);
     window.draw((now - last) / 1000);
     window.show();
     last = now;

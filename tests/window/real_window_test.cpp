@@ -218,5 +218,20 @@ TEST_F(RealWindow, KeysAndThePanelWork) {
   EXPECT_NEAR(std::atof(at + 8), std::hypot(2.5, fall), 0.05) << ran_.out;
 }
 
+// Control and a click, so short that it begins and ends within a frame, on the slider for gravity; without
+// gravity the ball flies straight, at 2.5 m/s less the damping of 0.1 a second.
+TEST_F(RealWindow, NumbersAreTyped) {
+  ASSERT_NO_FATAL_FAILURE(start("bouncing_ball"));
+  const std::string row = std::to_string(static_cast<int>(first_knob("bouncing_ball").y));
+  shell("xdotool mousemove --window " + id_ + " 60 " + row +
+        " sleep 0.3 keydown ctrl sleep 0.2 click 1 sleep 0.3 keyup ctrl sleep 0.2 type 0");
+  key("Return");
+  for (int i = 0; i < 6; ++i) key("o");
+  finish();
+  EXPECT_EQ(ran_.code, 0) << ran_.err;
+  EXPECT_THAT(ran_.out, testing::HasSubstr("steps  6\n"));
+  EXPECT_THAT(ran_.out, testing::ContainsRegex("\nspeed: 2.4[78]")) << ran_.out;
+}
+
 }  // namespace
 }  // namespace plumb::window
