@@ -1,6 +1,7 @@
 #include "engine/solve/direct_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/math/small_turn.h"
 
@@ -11,6 +12,10 @@ namespace {
 constexpr double kSharing = 1e-7;
 // Times that rows are taken out before giving up.
 constexpr int kTries = 4;
+// The most that an impulse may give by itself along its row, in the largest velocity that is asked for. Rows
+// that contradict each other (a body pushed out of two walls at once) answer with up to 1 / kSharing; a load
+// on something lighter answers with the ratio of the masses.
+constexpr double kContradiction = 1e5;
 
 template <class Real>
 bool gives_way(const BodyMotion<Real>& body) {
@@ -132,7 +137,9 @@ void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
 template <class Real>
 bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
   x_.resize(rows.size());
+  double asked = 0;
   for (int attempt = 0; attempt < kTries; ++attempt) {
+    asked = 0;
     for (int i = 0; i < matrix_.size(); ++i) {
       const DirectRow<Real>& row = rows[sequence_[i]];
       const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
@@ -140,6 +147,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
                   ? -double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
                             dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias)
                   : 0;
+      asked = std::max(asked, std::abs(x_[i]));
     }
     matrix_.solve(x_.data());
     bool pulls = false;
@@ -150,7 +158,10 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
       pulls = true;
     }
     if (!pulls) break;
-    if (attempt + 1 == kTries) return false;
+    if (attempt + 1 == kTries) {
+      contradicted_ = contradicts(asked);
+      return false;
+    }
     // What is taken out gives back what it had.
     for (int i = 0; i < matrix_.size(); ++i) {
       DirectRow<Real>& row = rows[sequence_[i]];
@@ -161,7 +172,16 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
     }
     factorise(motion);
   }
-  return true;
+  contradicted_ = contradicts(asked);
+  return !contradicted_;
+}
+
+template <class Real>
+bool DirectRows<Real>::contradicts(double asked) const {
+  for (int i = 0; i < matrix_.size(); ++i) {
+    if (std::abs(x_[i]) * matrix_.at(i, i) > kContradiction * asked) return true;
+  }
+  return false;
 }
 
 template <class Real>

@@ -52,8 +52,11 @@ class DirectRows {
   /// Factorises for the bodies' masses and the rows' Jacobians as they are.
   void factorise(const BodyMotion<Real>* motion);
   /// Finds the impulses that are missing; false, and no more than pulls are taken out, when no set of
-  /// pressing rows was found in a few tries.
+  /// pressing rows was found in a few tries, or the rows contradict each other.
   bool find(BodyMotion<Real>* motion);
+  /// Whether `find` met rows that cannot hold together, as those of a body that is pushed out of two walls at
+  /// once: what it found is no answer.
+  bool contradicted() const { return contradicted_; }
   /// What `find` or `correct` found for a row.
   double found(int row) const { return x_[static_cast<std::size_t>(place_[row])]; }
   /// Finds impulses that move bodies instead of giving them a velocity, such that all gaps close.
@@ -64,6 +67,8 @@ class DirectRows {
   void move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const;
 
  private:
+  bool contradicts(double asked) const;
+
   std::pmr::vector<int> sequence_;  // place -> row
   std::pmr::vector<int> place_;     // row -> place
   std::pmr::vector<int> first_;
@@ -72,6 +77,7 @@ class DirectRows {
   std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
+  bool contradicted_ = false;
 };
 
 }  // namespace plumb

@@ -21,6 +21,7 @@ class EnvelopeMatrix {
   int size() const { return static_cast<int>(first_.size()); }
   int first(int row) const { return first_[row]; }
   double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
+  double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 
   /// In place. A row that those before it leave nothing of is left out: its unknown is 0.
   void factorise();

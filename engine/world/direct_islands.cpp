@@ -183,6 +183,15 @@ bool make_system(WorldData<Real>& w, DirectIsland<Real>& island) {
   return island.system.order(w.motion.data()) <= most;
 }
 
+// Leaves an island to the sweeps, for the rest of the step.
+template <class Real>
+void give_up(WorldData<Real>& w, DirectIsland<Real>& island) {
+  for (ContactConstraint<Real>* c : island.contacts) c->hardness = hardness_of(w, *c);
+  restore_links(w, island);
+  island.contacts.clear(), island.joints.clear(), island.system.rows.clear();
+  island.joint_rows = 0;
+}
+
 // Joints turn with their bodies: their rows are those of the last evaluation.
 template <class Real>
 void refresh_joints(WorldData<Real>& w, DirectIsland<Real>& island) {
@@ -230,8 +239,7 @@ void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
     if (!make_system(w, island)) {
-      island.contacts.clear(), island.joints.clear(), island.system.rows.clear(), island.links.clear();
-      island.joint_rows = 0;
+      give_up(w, island);
       continue;
     }
     load_links(w, island, joints.h);
@@ -271,6 +279,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
       found = island.system.find(w.motion.data());
     }
     if (found) island.system.apply(w.motion.data());
+    if (!found && island.system.contradicted()) give_up(w, island);
   }
 }
 
