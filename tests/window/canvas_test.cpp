@@ -73,6 +73,11 @@ TEST(Canvas, EdgesLieInsideTheShape) {
   EXPECT_EQ(canvas.at(23, 50), (Colour{255, 0, 0}));
   EXPECT_EQ(canvas.at(50, 79), (Colour{0, 255, 0}));
   EXPECT_EQ(canvas.at(50, 80), (Colour{0, 0, 0}));
+  // The inner edge of a line of 2.5 px goes through the middle of a pixel.
+  canvas.clear({0, 0, 0});
+  canvas.paint(std::array{Vec2d{20, 20}, Vec2d{80, 20}, Vec2d{80, 80}, Vec2d{20, 80}}, 0,
+               {{255, 0, 0}, {0, 255, 0}, 2.5});
+  EXPECT_EQ(canvas.at(22, 50), (Colour{128, 128, 0}));
 }
 
 TEST(Canvas, WhatIsTranslucentMixes) {
