@@ -43,7 +43,8 @@ struct Joints {
             std::span<Row<Real>> out) const;
 };
 
-/// The scene's hinges and rods (not springs and ropes) with names resolved to body indices. The scene is valid.
+/// The scene's hinges and rods (not springs and ropes) with names resolved to body indices. The scene is
+/// valid.
 template <class Real>
 Joints<Real> compile_joints(const Scene& scene);
 

@@ -72,12 +72,8 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
   redundant_joints_ = equations_.redundant_joints(0, y_.value());
 }
 
-double SmoothMotion::step(double limit) {
-  limit = std::min(limit, next_switch());
-  if (y_.size() == 0) {
-    start_ = time_;
-    return time_ = limit;
-  }
+/// The end of the last step becomes the start of the next.
+void SmoothMotion::begin() {
   equations_.set_window(time_, time_);  // what is switched on now stays on to the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
@@ -91,6 +87,15 @@ double SmoothMotion::step(double limit) {
   y_before_ = y0_;
   start_ = time_;
   y0_ = y_;
+}
+
+double SmoothMotion::step(double limit) {
+  limit = std::min(limit, next_switch());
+  if (y_.size() == 0) {
+    start_ = time_;
+    return time_ = limit;
+  }
+  begin();
   if (flies()) {
     fly(limit);
     return limit;

@@ -83,6 +83,7 @@ class SmoothMotion {
 
  private:
   bool flies() const { return ballistic_ && !equations_.holds_anything(); }
+  void begin();
   void fly(double end);
   bool leap(double limit);
   double symplectic_step(double limit);
