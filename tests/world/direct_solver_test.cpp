@@ -123,5 +123,26 @@ TEST(Direct, ChainsLieOnBodies) {
   }
 }
 
+// 15 x 15 discs in a net that hangs by its corners: a factorisation would cost too much, and sweeps hold it.
+TEST(DirectSolver, WhatCostsTooMuchIsSwept) {
+  World world({.sleeping = false, .solver = Solver::Direct});
+  constexpr int kSide = 15;
+  std::vector<BodyId> discs;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const bool held = i == 0 || i == kSide - 1;
+    const Vec2d at{1.0 * (i % kSide), -1.0 * (i / kSide)};
+    discs.push_back(world.create_body({.type = held ? BodyType::Static : BodyType::Dynamic, .position = at},
+                                      {.geometry = Circle{0.4}}));
+    const auto join = [&](int other, Vec2d half) {
+      world.create_joint(discs[other], discs[i],
+                         {.kind = RevoluteDefinition{.anchor_a = half, .anchor_b = -half}});
+    };
+    if (i % kSide > 0) join(i - 1, {0.5, 0});
+    if (i >= kSide) join(i - kSide, {0, -0.5});
+  }
+  run(world, 60);
+  for (const BodyId disc : discs) EXPECT_GT(world.position(disc).y, -3.0 * kSide);
+}
+
 }  // namespace
 }  // namespace plumb
