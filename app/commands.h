@@ -17,6 +17,9 @@ void add_run(CLI::App& app, Action& chosen);
 void add_scene(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
+void add_sweep(CLI::App& app, Action& chosen);
+void add_front(CLI::App& app, Action& chosen);
+void add_tune(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view
 

@@ -87,6 +87,9 @@ int main(int argc, char** argv) {
   add_scene(app, action);
   add_compare(app, action);
   add_check(app, action);
+  add_sweep(app, action);
+  add_front(app, action);
+  add_tune(app, action);
   add_bench(app);
   add_window(app);
   return reporting_errors([&] { return parse_and_run(app, action, argc, argv); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "harness/compare.h"
 
@@ -12,6 +13,7 @@ class ProgressLine {
  public:
   ProgressLine();
   void show(const harness::Progress& progress);
+  void say(const std::string& text);
   void clear();
 
  private:

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/usage.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
 
@@ -29,12 +30,6 @@ std::string read_file(const std::string& path) {
   if (!file)
     throw Error(Error::Kind::Io, subject, "", "", fmt::format("cannot be read: {}", std::strerror(errno)));
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-bool is_file(const std::string& text) {
-  std::error_code code;
-  return text == "-" || text.ends_with(".json") || std::filesystem::is_regular_file(text, code) ||
-         text.starts_with("/") || text.starts_with("./") || text.starts_with("../");
 }
 
 // How long a scene from a file runs: as long as the scenario whose name it bears.
@@ -66,6 +61,31 @@ scenarios::Instance one_instance(const std::string& name, int size) {
     fmt::print(stderr, "plumb: '{}' is {} scenes: {}; this is the first\n", name, members.size(), others);
   }
   return members.front();
+}
+
+bool is_file(const std::string& text) {
+  std::error_code code;
+  return text == "-" || text.ends_with(".json") || std::filesystem::is_regular_file(text, code) ||
+         text.starts_with("/") || text.starts_with("./") || text.starts_with("../");
+}
+
+void add_file_duration(CLI::App& command, std::string& duration) {
+  command.add_option("--duration", duration, "s that a file's scene runs (default: its scenario's, else 10)")
+      ->type_name("T");
+}
+
+scenarios::Instance file_instance(const std::string& path, const std::string& duration,
+                                  std::vector<std::unique_ptr<scenarios::Scenario>>& kept) {
+  Source source = load(path, 0);
+  if (!duration.empty()) source.duration = parse_positive("--duration", duration);
+  auto scenario = std::make_unique<scenarios::Scenario>();
+  scenario->name = source.scene.name.empty() ? path : source.scene.name;
+  scenario->summary = fmt::format("from the file '{}'", path);
+  scenario->build = [source](std::string_view, int) {
+    return scenarios::Problem{.scene = source.scene, .duration = source.duration};
+  };
+  kept.push_back(std::move(scenario));
+  return {kept.back().get(), "", 1};
 }
 
 Source load(const std::string& name_or_file, int size) {

@@ -1,7 +1,6 @@
 #include "harness/compare.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <memory>
@@ -9,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "harness/interrupt.h"
-#include "harness/isolate.h"
 #include "harness/isolated_run.h"
 #include "harness/track.h"
 
@@ -30,21 +28,10 @@ void measure_costs(const Case& scene_case, const CompareOptions& options, std::v
     for (Entrant& entrant : entrants) {
       if (entrant.run.result.status != Status::Ok) continue;
       const double expected = entrant.run.nanoseconds / scene_case.truth.steps();
-      const Outcome outcome = isolate(
-          [&] {
-            const CostSample sample =
-                measure_cost(scene_case, *entrant.backend, options.settings, expected, options.cost);
-            return fmt::format("{} {} {}", sample.ns_per_step, sample.setup_ns, sample.steps);
-          },
-          options.seconds_a_run);
-      if (outcome.kind == Outcome::Kind::Interrupted) return;
-      if (outcome.kind != Outcome::Kind::Done) continue;
-      char* end = nullptr;
-      CostSample sample;
-      sample.ns_per_step = std::strtod(outcome.text.c_str(), &end);
-      sample.setup_ns = std::strtod(end, &end);
-      sample.steps = static_cast<int>(std::strtol(end, nullptr, 10));
-      entrant.samples.push_back(sample);
+      const IsolatedCost cost = measure_cost_isolated(scene_case, *entrant.backend, options.settings,
+                                                      expected, options.cost, options.seconds_a_run);
+      if (cost.interrupted) return;
+      if (cost.sample) entrant.samples.push_back(*cost.sample);
     }
   }
 }
@@ -75,6 +62,7 @@ std::vector<Result> all_failed(const scenarios::Instance& instance, const Compar
     result.label = instance.label();
     result.engine = backend->name();
     result.dt = options.settings.dt;
+    result.asked = options.settings;
     result.status = Status::Failed;
     result.reason = fmt::format("the scenario itself: {}", why);
     judge(result, is_default(options.settings));

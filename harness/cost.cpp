@@ -34,7 +34,7 @@ CostSample measure_cost(const Case& scene_case, const reference::Backend& backen
                         const reference::StepSettings& settings, double expected_ns_per_step,
                         const CostBudget& budget) {
   CostSample sample;
-  sample.steps = scene_case.truth.steps();
+  sample.steps = step_count(scene_case.problem.duration, settings.dt);
   const double allowed = budget.at_most_ns / std::max(expected_ns_per_step, 1e-3);
   if (allowed < sample.steps) sample.steps = std::max(1, static_cast<int>(allowed));
   const Clock::time_point start = Clock::now();
@@ -57,7 +57,7 @@ CostSample measure_cost(const Case& scene_case, const reference::Backend& backen
   return sample;
 }
 
-Cost summarise(std::vector<CostSample> samples, double dt) {
+Cost summarise(const std::vector<CostSample>& samples, double dt) {
   const std::vector<double> steps = sorted(samples, &CostSample::ns_per_step);
   Cost cost;
   cost.ns_per_step = quantile(steps, 0.5);
@@ -67,6 +67,7 @@ Cost summarise(std::vector<CostSample> samples, double dt) {
   cost.setup_ns = quantile(sorted(samples, &CostSample::setup_ns), 0.5);
   cost.repetitions = static_cast<int>(samples.size());
   cost.steps = samples.front().steps;
+  for (const CostSample& sample : samples) cost.each_ns_per_step.push_back(sample.ns_per_step);
   return cost;
 }
 

@@ -28,7 +28,7 @@ CostSample measure_cost(const Case& scene_case, const reference::Backend& backen
                         const CostBudget& budget);
 
 /// The median of the samples, with the quartiles.
-Cost summarise(std::vector<CostSample> samples, double dt);
+Cost summarise(const std::vector<CostSample>& samples, double dt);
 
 /// Whether two costs' middle halves lie apart, so that one is really the smaller.
 bool clearly_differ(const Cost& a, const Cost& b);

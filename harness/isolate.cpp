@@ -1,10 +1,13 @@
 #include "harness/isolate.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -20,6 +23,8 @@ namespace plumb::harness {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kLongest = 1e9;  // s, so that a deadline stays within the clock
 
 struct Pipe {
   int read = -1, write = -1;
@@ -114,41 +119,111 @@ std::string how_it_died(int status, const std::string& printed) {
   return words.empty() ? text : fmt::format("{}: {}", text, words);
 }
 
+/// A forked child at work.
+struct Child {
+  std::size_t index = 0;
+  pid_t process = -1;
+  Pipe answer, output;
+  std::string text, printed;
+  Clock::time_point deadline;
+  bool open = true;
+
+  Child() = default;
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (process > 0) wait();
+  }
+
+  // Kills it with what it has started; returns how it ended.
+  int wait() {
+    if (open) kill(-process, SIGKILL);
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    kill(-process, SIGKILL);
+    process = -1;
+    return status;
+  }
+};
+
+std::unique_ptr<Child> start(std::size_t index, const std::function<std::string()>& work, double seconds) {
+  auto child = std::make_unique<Child>();
+  child->index = index;
+  child->process = fork();
+  if (child->process < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
+  if (child->process == 0) run_child(work, child->answer, child->output);
+  setpgid(child->process, child->process);
+  child->answer.close_write();
+  child->output.close_write();
+  child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                       std::chrono::duration<double>(std::min(seconds, kLongest)));
+  return child;
+}
+
+// Waits for any of the children to say something and takes it down.
+void listen(const std::vector<std::unique_ptr<Child>>& children) {
+  std::vector<pollfd> files;
+  for (const auto& child : children) {
+    files.push_back({child->answer.read, POLLIN, 0});
+    files.push_back({child->output.read, POLLIN, 0});  // one that is closed is -1, which poll passes over
+  }
+  poll(files.data(), files.size(), 100);
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    Child& child = *children[i];
+    if (files[2 * i + 1].revents != 0 && !drain(child.output.read, child.printed)) child.output.close_read();
+    if (child.printed.size() > 65536) child.printed.erase(0, child.printed.size() - 4096);
+    if (files[2 * i].revents != 0) child.open = drain(child.answer.read, child.text);
+  }
+}
+
+Outcome end(Child& child, double seconds) {
+  const int status = child.wait();
+  if (child.open && interrupted()) return {Outcome::Kind::Interrupted, ""};
+  if (child.open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", seconds)};
+  while (child.output.read >= 0 && poll_now(child.output.read) && drain(child.output.read, child.printed)) {
+  }
+  if (child.text.empty()) return {Outcome::Kind::Crashed, how_it_died(status, child.printed)};
+  const bool failed = child.text.front() == '-';
+  return {failed ? Outcome::Kind::Failed : Outcome::Kind::Done, child.text.substr(1)};
+}
+
 }  // namespace
 
-Outcome isolate(const std::function<std::string()>& work, double seconds) {
-  if (interrupted()) return {Outcome::Kind::Interrupted, ""};
-  Pipe answer, output;
-  const pid_t child = fork();
-  if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
-  if (child == 0) run_child(work, answer, output);
-  setpgid(child, child);
-  answer.close_write();
-  output.close_write();
+void isolate_all(std::size_t count, int jobs, double seconds,
+                 const std::function<std::string(std::size_t)>& work,
+                 const std::function<void(std::size_t, const Outcome&)>& done) {
+  std::vector<std::unique_ptr<Child>> running;
+  std::size_t next = 0;
+  while (next < count || !running.empty()) {
+    while (next < count && running.size() < static_cast<std::size_t>(std::max(1, jobs)) && !interrupted()) {
+      running.push_back(start(
+          next, [&] { return work(next); }, seconds));
+      ++next;
+    }
+    if (running.empty()) break;  // interrupted
+    listen(running);
+    for (std::size_t i = 0; i < running.size();) {
+      Child& child = *running[i];
+      if (child.open && !interrupted() && Clock::now() <= child.deadline) {
+        ++i;
+        continue;
+      }
+      const std::size_t index = child.index;
+      const Outcome outcome = end(child, seconds);
+      running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
+      done(index, outcome);
+    }
+  }
+  for (; next < count; ++next) done(next, {Outcome::Kind::Interrupted, ""});
+}
 
-  std::string text, printed;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
-  bool open = true, late = false;
-  while (open && !interrupted() && !late) {
-    pollfd files[] = {{answer.read, POLLIN, 0}, {output.read, POLLIN, 0}};
-    poll(files, 2, 100);
-    if (files[1].revents != 0 && !drain(output.read, printed)) output.close_read();
-    if (printed.size() > 65536) printed.erase(0, printed.size() - 4096);
-    if (files[0].revents != 0) open = drain(answer.read, text);
-    late = Clock::now() > deadline;
-  }
-  if (open) kill(-child, SIGKILL);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  kill(-child, SIGKILL);  // what the child itself has started
-  if (open && interrupted()) return {Outcome::Kind::Interrupted, ""};
-  if (open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", seconds)};
-  while (output.read >= 0 && poll_now(output.read) && drain(output.read, printed)) {
-  }
-  if (text.empty()) return {Outcome::Kind::Crashed, how_it_died(status, printed)};
-  const bool failed = text.front() == '-';
-  return {failed ? Outcome::Kind::Failed : Outcome::Kind::Done, text.substr(1)};
+Outcome isolate(const std::function<std::string()>& work, double seconds) {
+  Outcome result;
+  isolate_all(
+      1, 1, seconds, [&](std::size_t) { return work(); },
+      [&](std::size_t, const Outcome& outcome) { result = outcome; });
+  return result;
 }
 
 }  // namespace plumb::harness

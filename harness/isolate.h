@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -22,5 +23,12 @@ struct Outcome {
 /// when an interrupt comes. What it prints goes nowhere but to the last words of a crash. Call without
 /// threads running.
 Outcome isolate(const std::function<std::string()>& work, double seconds);
+
+/// `work(0)` to `work(count - 1)`, at most `jobs` at a time, each as `isolate` runs it. `done` is called in
+/// this process as they end, once for each; after an interrupt with `Interrupted` for those that have not
+/// ended. Where `done` throws, the children that are at work are killed.
+void isolate_all(std::size_t count, int jobs, double seconds,
+                 const std::function<std::string(std::size_t)>& work,
+                 const std::function<void(std::size_t, const Outcome&)>& done);
 
 }  // namespace plumb::harness

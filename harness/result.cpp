@@ -36,7 +36,24 @@ Json cost_json(const Cost& cost) {
           {"ns_per_simulated_second", cost.ns_per_simulated_second},
           {"setup_ns", cost.setup_ns},
           {"repetitions", cost.repetitions},
-          {"steps", cost.steps}};
+          {"steps", cost.steps},
+          {"each_ns_per_step", cost.each_ns_per_step}};
+}
+
+Json asked_json(const reference::StepSettings& asked) {
+  Json json{{"dt", asked.dt}};
+  if (asked.substeps) json["substeps"] = *asked.substeps;
+  if (asked.tolerance) json["tolerance"] = *asked.tolerance;
+  if (!asked.options.empty()) json["options"] = asked.options;
+  return json;
+}
+
+reference::StepSettings asked_from(const Json& json) {
+  reference::StepSettings asked{.dt = number(json.at("dt"))};
+  if (json.contains("substeps")) asked.substeps = json.at("substeps").get<int>();
+  if (json.contains("tolerance")) asked.tolerance = number(json.at("tolerance"));
+  if (json.contains("options")) asked.options = json.at("options").get<std::map<std::string, std::string>>();
+  return asked;
 }
 
 Json checks_json(const std::vector<Check>& checks) {
@@ -70,6 +87,7 @@ Json result_json(const Result& result) {
           {"dt", result.dt},
           {"duration", result.duration},
           {"truth", result.truth},
+          {"asked", asked_json(result.asked)},
           {"settings", settings},
           {"status", name_of(result.status)},
           {"reason", result.reason},
@@ -88,7 +106,7 @@ Cost cost_from(const Json& json) {
   return {number(json.at("ns_per_step")),      number(json.at("ns_per_step_low")),
           number(json.at("ns_per_step_high")), number(json.at("ns_per_simulated_second")),
           number(json.at("setup_ns")),         json.at("repetitions").get<int>(),
-          json.at("steps").get<int>()};
+          json.at("steps").get<int>(),         json.value("each_ns_per_step", std::vector<double>{})};
 }
 
 Result result_from(const Json& json) {
@@ -103,6 +121,8 @@ Result result_from(const Json& json) {
   result.dt = number(json.at("dt"));
   result.duration = number(json.at("duration"));
   result.truth = json.at("truth");
+  result.asked =
+      json.contains("asked") ? asked_from(json.at("asked")) : reference::StepSettings{.dt = result.dt};
   for (const auto& [name, value] : json.at("settings").items()) result.settings.emplace_back(name, value);
   static constexpr Status kStatuses[] = {Status::Ok,      Status::Skipped, Status::Failed,
                                          Status::Crashed, Status::Timeout, Status::Diverged};

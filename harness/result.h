@@ -32,7 +32,8 @@ struct Cost {
   double ns_per_simulated_second = 0;
   double setup_ns = 0;  ///< from the scene to the first step
   int repetitions = 0;
-  int steps = 0;  ///< steps a repetition, from the start of the run
+  int steps = 0;                           ///< steps a repetition, from the start of the run
+  std::vector<double> each_ns_per_step{};  ///< of every repetition, in the order in which they were measured
 };
 
 /// One engine's run of one instance.
@@ -41,9 +42,10 @@ struct Result {
   int size = 1;
   std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
   std::string engine, engine_version, precision;
-  double dt = 0;        ///< s
-  double duration = 0;  ///< s
-  std::string truth;    ///< where the exact answer comes from
+  double dt = 0;                    ///< s
+  double duration = 0;              ///< s
+  std::string truth;                ///< where the exact answer comes from
+  reference::StepSettings asked{};  ///< what the run was asked for: the same again gives the same run
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok

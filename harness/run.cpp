@@ -1,5 +1,6 @@
 #include "harness/run.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,8 +12,8 @@
 
 namespace plumb::harness {
 
-Case::Case(const scenarios::Instance& which, double dt)
-    : instance(which), label(which.label()), problem(which.build()), truth(problem, dt) {
+Case::Case(const scenarios::Instance& which, double sample)
+    : instance(which), label(which.label()), problem(which.build()), truth(problem, sample) {
   validate(problem.scene);
 }
 
@@ -28,6 +29,7 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
   result.engine_version = identity.version;
   result.precision = identity.precision;
   result.dt = settings.dt;
+  result.asked = settings;
   result.duration = scene_case.problem.duration;
   result.truth = scene_case.problem.truth.source;
   if (!identity.available) {
@@ -46,11 +48,26 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
   return result;
 }
 
+namespace {
+
+// Steps from one sample of the truth to the next.
+int steps_a_sample(double sample, double dt) {
+  const double steps = sample / dt, whole = std::round(steps);
+  if (whole < 1 || std::abs(steps - whole) > 1e-6 * whole) {
+    throw Error(Error::Kind::Value, "the run", "dt", fmt::format("{}", dt),
+                fmt::format("must divide the {} s from one sample to the next", sample));
+  }
+  return static_cast<int>(whole);
+}
+
+}  // namespace
+
 Result run(const Case& scene_case, const reference::Backend& backend, const reference::StepSettings& settings,
            Track* track, double* nanoseconds) {
   Result result = describe(scene_case, backend, settings);
   if (result.status == Status::Skipped) return result;
   const Scene& scene = scene_case.problem.scene;
+  const int every = steps_a_sample(scene_case.truth.dt(), settings.dt);
   Observer observer(scene_case, backend.method(settings), settings, track);
   const auto simulator = backend.create(scene, settings);
   std::vector<BodyState> start(scene.bodies.size());
@@ -58,7 +75,7 @@ Result run(const Case& scene_case, const reference::Backend& backend, const refe
   observer.add(0, start);
   int sample = 0;
   const auto sink = [&](double, std::span<const BodyState> states) { observer.add(++sample, states); };
-  const double spent = simulator->record(scene_case.truth.steps(), 1, scene.bodies.size(), sink);
+  const double spent = simulator->record(scene_case.truth.steps(), every, scene.bodies.size(), sink);
   if (nanoseconds != nullptr) *nanoseconds = spent;
   if (sample != scene_case.truth.steps()) {
     throw Error(Error::Kind::Run, fmt::format("engine '{}'", backend.name()), "samples",

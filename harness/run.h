@@ -10,7 +10,8 @@ namespace plumb::harness {
 
 /// One instance with what all engines' runs of it share.
 struct Case {
-  Case(const scenarios::Instance& instance, double dt);
+  /// `sample`, in s, is how far apart the samples lie on which runs are measured: their dt, or a multiple.
+  Case(const scenarios::Instance& instance, double sample);
 
   scenarios::Instance instance;
   std::string label;
@@ -22,9 +23,9 @@ struct Case {
 Result describe(const Case& scene_case, const reference::Backend& backend,
                 const reference::StepSettings& settings);
 
-/// Runs `backend` once over the whole duration, samples every dt, and measures and checks it. `track` (may be
-/// null) takes down where the bodies were. `nanoseconds` (may be null) is the wall time that the engine
-/// spent. Throws `Error` where the engine does; runs in the caller's own process.
+/// Runs `backend` once over the whole duration, samples it where the case has samples, and measures and
+/// checks it. `track` (may be null) takes down where the bodies were. `nanoseconds` (may be null) is the wall
+/// time that the engine spent. Throws `Error` where the engine does; runs in the caller's own process.
 Result run(const Case& scene_case, const reference::Backend& backend, const reference::StepSettings& settings,
            Track* track = nullptr, double* nanoseconds = nullptr);
 

@@ -28,6 +28,13 @@ struct Option {
   std::string help;
 };
 
+/// A setting that trades accuracy for cost, for sweeps.
+struct Knob {
+  std::string name;                 ///< "substeps", "tolerance", or one of the engine's options
+  std::vector<std::string> values;  ///< worth trying; where they are ordered, from cheap to accurate
+  bool ordered = true;              ///< false: kinds, like integrators
+};
+
 /// Name/value pairs for people and reports, in the order in which they matter.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -58,6 +65,9 @@ class Backend {
   virtual std::string_view summary() const = 0;
   virtual Identity identity() const = 0;
   virtual std::vector<Option> options() const { return {}; }
+
+  /// What a sweep turns besides dt. The first run is always with the engine's defaults.
+  virtual std::vector<Knob> knobs() const { return {}; }
 
   /// Throws `Error` for settings that this engine cannot take.
   virtual Method method(const StepSettings& settings) const = 0;

@@ -238,6 +238,11 @@ class Box2dBackend final : public Backend {
             {"position_iterations", "3", "sweeps over position constraints a substep"},
             {"continuous", "on", "on or off: continuous collision against static bodies"}};
   }
+  std::vector<Knob> knobs() const override {
+    return {{"velocity_iterations", {"1", "2", "4", "8", "16", "32", "64", "128"}},
+            {"position_iterations", {"0", "1", "3", "6", "12", "24"}},
+            {"continuous", {"off", "on"}, false}};
+  }
 
   Method method(const StepSettings& settings) const override {
     return {.scheme = Scheme::SemiImplicitEuler,

@@ -107,6 +107,18 @@ class RealtimeBackend final : public PlumbBackend {
              "sweeps over contacts and iterative joints a substep"}};
   }
 
+  std::vector<Knob> knobs() const override {
+    return {{"substeps", {"1", "2", "4", "8", "16"}},
+            {"integrator",
+             {std::string(name_of(Integrator::VelocityVerlet)),
+              std::string(name_of(Integrator::SemiImplicitEuler))},
+             false},
+            {"joint_solver",
+             {std::string(name_of(JointSolver::Direct)), std::string(name_of(JointSolver::Iterative))},
+             false},
+            {"iterations", {"1", "2", "4", "8", "16"}}};
+  }
+
   Method method(const StepSettings& settings) const override {
     const Realtime chosen = realtime(settings);
     Method out{.substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
@@ -169,6 +181,16 @@ class PreciseBackend final : public PlumbBackend {
     return {
         {"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"},
         {"estimate_error", "no", "yes: a second run at a tenth of the tolerance beside, to compare with"}};
+  }
+
+  std::vector<Knob> knobs() const override {
+    return {
+        {"tolerance",
+         {"1e-1", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12"}},
+        {"method",
+         {std::string(name_of(MotionMethod::Automatic)), std::string(name_of(MotionMethod::Explicit)),
+          std::string(name_of(MotionMethod::Symplectic))},
+         false}};
   }
 
   Method method(const StepSettings& settings) const override {

@@ -77,6 +77,10 @@ class WorldBackend final : public Backend {
             {"sleep", "off", "on or off: islands at rest stop being computed"}};
   }
 
+  std::vector<Knob> knobs() const override {
+    return {{"substeps", {"1", "2", "4", "8", "16", "32"}}, {"continuous", {"off", "on"}, false}};
+  }
+
   Method method(const StepSettings& settings) const override {
     const WorldSettings chosen = read_settings(settings);
     return {.scheme = Scheme::SoftStep,

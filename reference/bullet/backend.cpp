@@ -37,6 +37,11 @@ class BulletBackend final : public Backend {
             {"speculative", "off", "on or off: contacts act before shapes touch, which swallows bounces"}};
   }
 
+  std::vector<Knob> knobs() const override {
+    return {{"iterations", {"1", "2", "5", "10", "20", "50", "100", "200"}},
+            {"joint_erp", {"0.1", "0.2", "0.4", "0.8"}}};
+  }
+
   Method method(const StepSettings& settings) const override {
     return {.scheme = Scheme::SemiImplicitEuler,
             .order = 1,

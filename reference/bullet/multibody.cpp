@@ -191,6 +191,7 @@ class MultibodyBackend final : public Backend {
   std::vector<Option> options() const override {
     return {{"integrator", "rk4", "rk4 or euler (semi-implicit)"}};
   }
+  std::vector<Knob> knobs() const override { return {{"integrator", {"euler", "rk4"}, false}}; }
 
   Method method(const StepSettings& settings) const override {
     const MultibodySettings chosen = read_settings(settings);

@@ -172,6 +172,11 @@ class ProcessBackend final : public Backend {
     return known.hello ? known.hello->options : std::vector<Option>{};
   }
 
+  std::vector<Knob> knobs() const override {
+    const Known& known = ask_once();
+    return known.hello ? known.hello->knobs : std::vector<Knob>{};
+  }
+
   Method method(const StepSettings& settings) const override {
     const protocol::Hello& hello = checked(settings);
     Method out = hello.method;

@@ -93,10 +93,13 @@ Json to_json(const Hello& hello) {
   for (const Option& option : hello.options) {
     options.push_back({{"name", option.name}, {"fallback", option.fallback}, {"help", option.help}});
   }
+  Json knobs = Json::array();
+  for (const Knob& knob : hello.knobs)
+    knobs.push_back({{"name", knob.name}, {"values", knob.values}, {"ordered", knob.ordered}});
   return {{"protocol", kVersion},         {"name", hello.name},       {"version", hello.version},
           {"precision", hello.precision}, {"summary", hello.summary}, {"method", method},
           {"shapes", hello.shapes},       {"joints", hello.joints},   {"forces", hello.forces},
-          {"features", hello.features},   {"options", options}};
+          {"features", hello.features},   {"options", options},       {"knobs", knobs}};
 }
 
 Hello hello_from_json(const Json& message) {
@@ -125,6 +128,10 @@ Hello hello_from_json(const Json& message) {
   for (const Json& option : member<Json>(message, "options", Json::array())) {
     out.options.push_back({member<std::string>(option, "name"), as_text(member<Json>(option, "fallback")),
                            member<std::string>(option, "help", "")});
+  }
+  for (const Json& knob : member<Json>(message, "knobs", Json::array())) {
+    out.knobs.push_back({member<std::string>(knob, "name"), member<Names>(knob, "values"),
+                         member<bool>(knob, "ordered", true)});
   }
   return out;
 }

@@ -25,6 +25,7 @@ struct Hello {
   int substeps = 1;  ///< that it makes of a step when none are asked for
   std::vector<std::string> shapes, joints, forces, features;
   std::vector<Option> options;
+  std::vector<Knob> knobs{};
 };
 
 /// A message that is JSON, but not what is due; `what()` says how.

@@ -101,6 +101,7 @@ class Server {
     out.forces.assign(kForceNames.begin(), kForceNames.end());
     out.features = {"contacts", "filters", "kinematic", "fixed_rotation"};
     out.options = backend_.options();
+    out.knobs = backend_.knobs();
     output_.answer(protocol::to_json(out));
   }
 

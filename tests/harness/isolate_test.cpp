@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,6 +25,25 @@ TEST(Isolate, HandsOverWhatIsReturned) {
   EXPECT_EQ(outcome.kind, Outcome::Kind::Done);
   EXPECT_EQ(outcome.text, long_text);
   EXPECT_EQ(isolate([] { return std::string(); }, 10).kind, Outcome::Kind::Done);
+}
+
+TEST(Isolate, AllOfThemAFewAtATime) {
+  std::vector<std::string> texts(7);
+  const auto begin = std::chrono::steady_clock::now();
+  isolate_all(
+      texts.size(), 7, 10,
+      [](std::size_t i) -> std::string {
+        usleep(100'000);
+        if (i == 3) throw std::runtime_error("three");
+        return std::to_string(i);
+      },
+      [&](std::size_t i, const Outcome& outcome) {
+        EXPECT_EQ(outcome.kind, i == 3 ? Outcome::Kind::Failed : Outcome::Kind::Done);
+        texts[i] += outcome.text;
+      });
+  EXPECT_EQ(texts, (std::vector<std::string>{"0", "1", "2", "three", "4", "5", "6"}));
+  const auto passed = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(std::chrono::duration<double>(passed).count(), 0.6) << "one after the other";
 }
 
 TEST(Isolate, AnExceptionIsAFailure) {

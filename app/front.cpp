@@ -1,0 +1,54 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/metric.h"
+#include "app/output.h"
+#include "harness/sweep/front_tables.h"
+#include "harness/sweep/rows.h"
+
+namespace plumb::app {
+namespace {
+
+namespace sweep = harness::sweep;
+
+struct Options {
+  std::string folder, metric, format = "console";
+};
+
+int start(const Options& options) {
+  const std::vector<harness::Result> rows = sweep::read_rows(options.folder);
+  const harness::MetricField* metric = options.metric.empty() ? nullptr : &metric_by_name(options.metric);
+  if (options.format != "console") {
+    print(sweep::trade_data(rows, metric, options.format));
+    return kOk;
+  }
+  const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
+  for (const std::vector<harness::Result>& scene : sweep::by_label(rows))
+    print(sweep::front_table(scene, metric, style) + "\n");
+  print(sweep::dominance_table(sweep::dominance(rows, metric), style));
+  return kOk;
+}
+
+}  // namespace
+
+void add_front(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "front", "from results: each engine's front, cost at equal error, error at equal cost, dominance");
+  auto options = std::make_shared<Options>();
+  command->add_option("results", options->folder, "a folder that `plumb sweep` wrote, or a results.jsonl")
+      ->required()
+      ->type_name("DIR");
+  add_metric(*command, options->metric,
+             "that the fronts are of (default: position_error, or what the scene has)");
+  command->add_option("--format", options->format, "console, json or csv")
+      ->check(CLI::IsMember({"console", "json", "csv"}));
+  command->footer("Examples:\n  plumb front sweep\n  plumb front sweep --metric energy_drift --format json");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

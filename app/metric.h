@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "harness/metrics.h"
+
+namespace CLI {
+class App;
+}
+
+namespace plumb::app {
+
+/// Adds --metric, which takes the names of `harness::kMetricFields`.
+void add_metric(CLI::App& command, std::string& metric, const std::string& help);
+
+/// `name` is one of them.
+const harness::MetricField& metric_by_name(const std::string& name);
+
+}  // namespace plumb::app

@@ -1,0 +1,68 @@
+#include "app/selection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/command_line.h"
+#include "app/usage.h"
+#include "reference/process_backend.h"
+
+namespace plumb::app {
+
+void EngineOptions::add_to(CLI::App& command) {
+  command.add_option("--engine", names, "engines, parted by commas (default: all)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("E");
+  command
+      .add_option("--engine-command", commands,
+                  "one more engine: a program that speaks docs/protocol.md; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=COMMAND");
+}
+
+std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size) {
+  std::vector<scenarios::Instance> out;
+  const auto append = [&](const std::string& name) {
+    for (scenarios::Instance& instance : scenarios::select(name, size)) out.push_back(std::move(instance));
+  };
+  for (const std::string& name : wanted) append(name);
+  if (!wanted.empty()) return out;
+  for (const scenarios::Scenario& scenario : scenarios::all())
+    if (size == 0 || scenario.scales) append(scenario.name);
+  if (out.empty()) throw UsageError("--size is given, but no scenario scales");
+  return out;
+}
+
+std::vector<const reference::Backend*> chosen_engines(
+    const EngineOptions& options, std::vector<std::unique_ptr<reference::Backend>>& programs) {
+  std::vector<const reference::Backend*> out;
+  for (const std::string& name : options.names) {
+    const reference::Backend* backend = &reference::find_backend(name);
+    if (std::find(out.begin(), out.end(), backend) == out.end()) out.push_back(backend);
+  }
+  if (options.names.empty()) out = reference::backends();
+  for (const std::string& text : options.commands) {
+    const std::size_t equals = text.find('=');
+    const std::vector<std::string> command =
+        equals == std::string::npos ? std::vector<std::string>{} : split_command(text.substr(equals + 1));
+    if (equals == 0 || command.empty())
+      throw UsageError(
+          fmt::format("--engine-command is '{}': give NAME=COMMAND, see docs/protocol.md", text));
+    const std::string name = text.substr(0, equals);
+    for (const reference::Backend* other : out)
+      if (other->name() == name)
+        throw UsageError(
+            fmt::format("--engine-command: there is an engine '{}' already; choose another name", name));
+    programs.push_back(reference::make_process_backend(name, command));
+    out.push_back(programs.back().get());
+    if (const reference::Identity identity = out.back()->identity(); !identity.available)
+      throw UsageError(fmt::format("--engine-command {}: {}", text, identity.reason));
+  }
+  return out;
+}
+
+}  // namespace plumb::app

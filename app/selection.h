@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/backend.h"
+#include "scenarios/scenario.h"
+
+namespace CLI {
+class App;
+}
+
+namespace plumb::app {
+
+/// The options that say which engines take part, as they were given.
+struct EngineOptions {
+  std::vector<std::string> names;     ///< --engine; none: all
+  std::vector<std::string> commands;  ///< --engine-command, "NAME=COMMAND"
+
+  void add_to(CLI::App& command);
+};
+
+/// The instances that `wanted` names, or all; `size` > 0 overrides their sizes. Throws `UsageError`, `Error`.
+std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size);
+
+/// The engines that were asked for, or all of them; programs given with --engine-command come last and are
+/// kept in `programs`. Throws `UsageError`, `Error`.
+std::vector<const reference::Backend*> chosen_engines(
+    const EngineOptions& options, std::vector<std::unique_ptr<reference::Backend>>& programs);
+
+}  // namespace plumb::app

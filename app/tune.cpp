@@ -1,0 +1,96 @@
+#include "harness/sweep/tune.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/metric.h"
+#include "app/output.h"
+#include "app/progress_line.h"
+#include "app/selection.h"
+#include "app/source.h"
+#include "app/usage.h"
+#include "harness/interrupt.h"
+
+namespace plumb::app {
+namespace {
+
+namespace sweep = harness::sweep;
+
+struct Options {
+  std::string name, tolerance, budget, step, seconds, duration, metric = "position_error", format = "console";
+  EngineOptions engines;
+  int size = 0;
+};
+
+int start(const Options& options) {
+  std::vector<std::unique_ptr<reference::Backend>> programs;
+  std::vector<std::unique_ptr<scenarios::Scenario>> files;
+  if (options.tolerance.empty() == options.budget.empty())
+    throw UsageError("give --tolerance or --budget-us: what must be reached, or what it may cost");
+  if (options.size > 0 && is_file(options.name))
+    throw UsageError("--size goes with a scenario's name, not with a file");
+  sweep::TuneOptions what{.instance = is_file(options.name)
+                                          ? file_instance(options.name, options.duration, files)
+                                          : one_instance(options.name, options.size),
+                          .engines = chosen_engines(options.engines, programs),
+                          .metric = &metric_by_name(options.metric)};
+  if (is_file(options.name)) what.run_as = options.name;
+  if (!options.tolerance.empty()) what.tolerance = parse_positive("--tolerance", options.tolerance);
+  if (!options.budget.empty()) what.budget_ns = 1e3 * parse_positive("--budget-us", options.budget);
+  if (!options.step.empty()) what.step = parse_positive("--step", options.step);
+  if (!options.seconds.empty()) what.seconds = parse_positive("--seconds", options.seconds);
+  what.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+
+  ProgressLine progress;
+  harness::catch_interrupts();
+  const sweep::Tuned tuned = sweep::tune(what, [&](const std::string& text) { progress.say(text); });
+  progress.clear();
+  if (tuned.interrupted) return kInterrupted;
+  print(options.format == "json" ? sweep::tune_json(what, tuned)
+                                 : sweep::tune_text(what, tuned, harness::Style::of_file(STDOUT_FILENO)));
+  const bool any = std::any_of(tuned.answers.begin(), tuned.answers.end(),
+                               [](const sweep::TuneAnswer& answer) { return answer.found; });
+  return any ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "tune",
+      "the cheapest settings that reach an accuracy, or the most accurate within a cost, on every engine");
+  auto options = std::make_shared<Options>();
+  command->add_option("name", options->name, "a scenario or a scene file")
+      ->required()
+      ->type_name("NAME|FILE");
+  command->add_option("--tolerance", options->tolerance, "what the metric may be, in its unit, like 1e-3")
+      ->type_name("X");
+  command
+      ->add_option("--budget-us", options->budget, "instead: microseconds that a step of the game may cost")
+      ->type_name("US");
+  add_metric(*command, options->metric, "what is to be small (default position_error)");
+  command->add_option("--step", options->step, "s, of the game (default 1/60): dt is this or divides it")
+      ->type_name("X");
+  command->add_option("--seconds", options->seconds, "s that the search may take (default 45)")
+      ->type_name("T");
+  add_file_duration(*command, options->duration);
+  options->engines.add_to(*command);
+  add_size(*command, options->size);
+  command->add_option("--format", options->format, "console or json")
+      ->check(CLI::IsMember({"console", "json"}));
+  command->footer(
+      "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
+      "  plumb tune my_scene.json --budget-us 200 --engine plumb,plumb-world,box2d\n"
+      "Exit codes: 0 an engine can, 1 none can, 2 usage, 130 interrupted. See docs/trade.md.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,51 @@
+#include "harness/sweep/cases.h"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+
+namespace plumb::harness::sweep {
+
+Cases::Cases(scenarios::Instance instance, Ladder ladder, double seconds)
+    : instance_(std::move(instance)),
+      ladder_(ladder),
+      seconds_(seconds),
+      has_truth_(static_cast<bool>(instance_.build().truth.exact)) {}
+
+Cases::Own& Cases::own(const reference::Backend& backend) {
+  const auto [place, fresh] = own_.try_emplace(std::string(backend.name()));
+  Own& own = place->second;
+  if (!fresh) return own;
+  own.limit = find_own_limit(instance_.build(), backend, ladder_, seconds_);
+  own.scenario = *instance_.scenario;
+  own.scenario.build = [build = instance_.scenario->build, limit = own.limit](std::string_view variant,
+                                                                              int size) {
+    scenarios::Problem problem = build(variant, size);
+    problem.truth = {.source = limit->source,
+                     .exact = [limit](double time, std::span<BodyState> out) { limit->at(time, out); }};
+    return problem;
+  };
+  return own;
+}
+
+const OwnLimit& Cases::limit(const reference::Backend& backend) { return *own(backend).limit; }
+
+const Case& Cases::at(const reference::Backend& backend, double dt) {
+  const double sample = sample_interval(dt);
+  auto& known = cases_[{has_truth_ ? std::string() : std::string(backend.name()), sample}];
+  if (known) return *known;
+  scenarios::Instance instance = instance_;
+  if (!has_truth_) {
+    Own& mine = own(backend);
+    if (!mine.limit->problem.empty())
+      throw Error(Error::Kind::Run, fmt::format("engine '{}'", backend.name()), "own limit", "",
+                  mine.limit->problem);
+    instance.scenario = &mine.scenario;
+  }
+  known = std::make_unique<Case>(instance, sample);
+  return *known;
+}
+
+}  // namespace plumb::harness::sweep

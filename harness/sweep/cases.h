@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "harness/run.h"
+#include "harness/sweep/own_limit.h"
+#include "harness/sweep/space.h"
+
+namespace plumb::harness::sweep {
+
+/// What the runs of one instance are held against, made as it is needed: the scenario's truth, shared by all
+/// engines; or each engine's own limit where the scenario has none.
+class Cases {
+ public:
+  /// `seconds`: how long the last run for an engine's own limit may take.
+  Cases(scenarios::Instance instance, Ladder ladder, double seconds);
+  Cases(const Cases&) = delete;
+  Cases& operator=(const Cases&) = delete;
+
+  /// Whether there is an answer that no engine computed.
+  bool has_truth() const { return has_truth_; }
+
+  /// For a run with steps of `dt`. Throws `Error` (Run) where the engine has no limit.
+  const Case& at(const reference::Backend& backend, double dt);
+
+  /// The engine's own limit, where `has_truth` is false.
+  const OwnLimit& limit(const reference::Backend& backend);
+
+ private:
+  struct Own {
+    std::shared_ptr<const OwnLimit> limit;
+    scenarios::Scenario scenario;
+  };
+  Own& own(const reference::Backend& backend);
+
+  scenarios::Instance instance_;
+  Ladder ladder_;
+  double seconds_;
+  bool has_truth_;
+  std::map<std::string, Own> own_;  // by engine
+  std::map<std::pair<std::string, double>, std::unique_ptr<Case>> cases_;
+};
+
+}  // namespace plumb::harness::sweep

@@ -1,0 +1,92 @@
+#include "harness/sweep/rows.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+
+namespace plumb::harness::sweep {
+namespace {
+
+std::string file_of(const std::string& folder_or_file) {
+  std::error_code code;
+  const std::filesystem::path path(folder_or_file);
+  return std::filesystem::is_directory(path, code) ? (path / "results.jsonl").string() : folder_or_file;
+}
+
+}  // namespace
+
+std::string key_of(const Result& row) {
+  std::string key = fmt::format("{}|{}|dt={}", row.label, row.engine, row.asked.dt);
+  if (row.asked.substeps) key += fmt::format("|substeps={}", *row.asked.substeps);
+  if (row.asked.tolerance) key += fmt::format("|tolerance={}", *row.asked.tolerance);
+  for (const auto& [name, value] : row.asked.options) key += fmt::format("|{}={}", name, value);
+  return key;
+}
+
+std::vector<std::vector<Result>> by_label(std::span<const Result> rows) {
+  std::vector<std::vector<Result>> out;
+  std::map<std::string, std::size_t> places;
+  for (const Result& row : rows) {
+    const auto [place, fresh] = places.try_emplace(row.label, out.size());
+    if (fresh) out.emplace_back();
+    out[place->second].push_back(row);
+  }
+  return out;
+}
+
+std::vector<std::string> engines_of(std::span<const Result> rows) {
+  std::vector<std::string> out;
+  for (const Result& row : rows)
+    if (std::find(out.begin(), out.end(), row.engine) == out.end()) out.push_back(row.engine);
+  return out;
+}
+
+std::vector<Result> latest(std::vector<Result> rows) {
+  std::map<std::string, std::size_t> places;
+  std::vector<Result> out;
+  for (Result& row : rows) {
+    const auto [place, fresh] = places.try_emplace(key_of(row), out.size());
+    if (fresh) {
+      out.push_back(std::move(row));
+    } else {
+      out[place->second] = std::move(row);
+    }
+  }
+  return out;
+}
+
+std::vector<Result> read_rows(const std::string& folder_or_file) {
+  const std::string path = file_of(folder_or_file);
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(Error::Kind::Io, fmt::format("file '{}'", path), "", "",
+                fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::vector<Result> rows;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.empty()) continue;
+    try {
+      rows.push_back(result_from_json(line));
+    } catch (const Error& error) {
+      if (file.eof()) break;  // no line end: the writer was stopped in the middle of it
+      throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
+    }
+  }
+  return latest(std::move(rows));
+}
+
+bool holds_rows(const std::string& folder_or_file) {
+  std::error_code code;
+  return std::filesystem::is_regular_file(file_of(folder_or_file), code);
+}
+
+}  // namespace plumb::harness::sweep

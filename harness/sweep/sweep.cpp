@@ -1,0 +1,393 @@
+#include "harness/sweep/sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+#include "harness/interrupt.h"
+#include "harness/isolated_run.h"
+#include "harness/sweep/cases.h"
+#include "harness/sweep/explorer.h"
+#include "harness/sweep/front.h"
+#include "harness/sweep/journal.h"
+#include "harness/sweep/record.h"
+#include "harness/sweep/rows.h"
+
+namespace plumb::harness::sweep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of an instance's time, what is spent on finding the fronts; the rest is for measuring costs.
+constexpr double kExploring = 0.55;
+// One run may take this share of an instance's time.
+constexpr double kDearest = 0.04;
+constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
+constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
+// What a repetition takes besides stepping: a process, its pages, its end.
+constexpr double kProcess = 4e6;  // ns
+
+// The middle of what is left first, so that the first few are spread over all.
+void spread(std::span<const Point> points, std::vector<Point>& out) {
+  std::vector<std::span<const Point>> left{points};
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const std::span<const Point> part = left[i];
+    if (part.empty()) continue;
+    const std::size_t middle = part.size() / 2;
+    out.push_back(part[middle]);
+    left.push_back(part.first(middle));
+    left.push_back(part.subspan(middle + 1));
+  }
+}
+
+// One engine's points: its front, ends first; then what is a front without that, and so on.
+std::vector<Point> by_importance(std::vector<Point> points) {
+  std::vector<Point> out;
+  while (!points.empty()) {
+    const std::vector<Point> front = front_of(points);
+    out.push_back(front.front());
+    if (front.size() > 1) {
+      out.push_back(front.back());
+      spread(std::span(front).subspan(1, front.size() - 2), out);
+    }
+    std::erase_if(points, [&](const Point& point) {
+      return std::any_of(front.begin(), front.end(),
+                         [&](const Point& other) { return other.row == point.row; });
+    });
+  }
+  return out;
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// An engine of an instance that is being explored.
+struct Entrant {
+  const reference::Backend* backend;
+  Explorer explorer;
+  bool finished = false;
+};
+
+/// One instance's part of the sweep.
+class InstanceSweep {
+ public:
+  InstanceSweep(const SweepOptions& options, const scenarios::Instance& instance, Record& record,
+                double seconds)
+      : options_(options),
+        instance_(instance),
+        label_(instance.label()),
+        record_(record),
+        known_(record.of(label_)),
+        cases_(instance, options.ladder, kDearest * seconds),
+        seconds_(seconds) {}
+
+  /// Both return false after an interrupt.
+  bool explore(const std::function<void(double share, const std::string& what)>& progress);
+  bool measure(const std::function<void(double share, const std::string& what)>& progress);
+
+ private:
+  void set_up();
+  std::vector<RunRequest> next_runs();
+  bool run(const std::vector<RunRequest>& requests);
+  void tell_all();
+  std::optional<RunRequest> request(Entrant& entrant, const Space::Place& place);
+  bool repeat(const std::string& key, int round);
+  std::vector<std::string> choose(double seconds) const;
+  double repetition_ns(const Trial& trial) const;
+
+  const SweepOptions& options_;
+  const scenarios::Instance& instance_;
+  std::string label_;
+  Record& record_;
+  InstanceRecord& known_;
+  Cases cases_;
+  double seconds_;
+  double explored_ = 0;  // s, spent on exploring
+  std::vector<Entrant> entrants_;
+  std::size_t turn_ = 0;
+};
+
+// Engines that cannot run the scene get one row that says so.
+void InstanceSweep::set_up() {
+  for (const reference::Backend* backend : options_.engines) {
+    const reference::Identity identity = backend->identity();
+    const scenarios::Problem problem = instance_.build();
+    std::string reason = identity.available ? "" : "not installed: " + identity.reason;
+    Status status = Status::Skipped;
+    const reference::StepSettings plain;
+    if (identity.available) reason = backend->unsupported(problem.scene, plain);
+    if (reason.empty() && !cases_.has_truth() && !cases_.limit(*backend).problem.empty()) {
+      reason = fmt::format("no limit of its own: {}", cases_.limit(*backend).problem);
+      status = Status::Failed;
+    }
+    if (reason.empty()) {
+      entrants_.push_back({backend, Explorer(Space(*backend, options_.ladder)), false});
+      continue;
+    }
+    Trial trial;
+    Result& result = trial.result;
+    result.scenario = instance_.scenario->name;
+    result.variant = instance_.variant;
+    result.size = instance_.size;
+    result.label = label_;
+    result.engine = backend->name();
+    result.engine_version = identity.version;
+    result.precision = identity.precision;
+    result.dt = plain.dt;
+    result.duration = problem.duration;
+    result.truth = problem.truth.source;
+    result.status = status;
+    result.reason = reason;
+    if (known_.find(key_of(result)) == nullptr) record_.ran(label_, trial);
+  }
+}
+
+// Every explorer hears of every run, in the metric that the rows so far call for.
+void InstanceSweep::tell_all() {
+  std::vector<Result> rows;
+  for (const Trial& trial : known_.trials) rows.push_back(trial.result);
+  const MetricField& metric = headline_metric(rows);
+  for (Entrant& entrant : entrants_) {
+    for (const Trial& trial : known_.trials) {
+      if (trial.result.engine != entrant.backend->name()) continue;
+      const auto place = entrant.explorer.space().find(trial.result.asked);
+      if (!place) continue;
+      const auto& error = trial.result.metrics.*metric.value;
+      if (trial.result.status == Status::Ok && error && trial.rough.steps > 0) {
+        entrant.explorer.tell(*place, *error, trial.rough.ns_per_step / trial.result.dt);
+      } else {
+        entrant.explorer.fail(*place);
+      }
+    }
+  }
+}
+
+std::optional<RunRequest> InstanceSweep::request(Entrant& entrant, const Space::Place& place) {
+  const reference::StepSettings settings = entrant.explorer.space().settings(place);
+  const Case& scene_case = cases_.at(*entrant.backend, settings.dt);
+  // Settings that an engine refuses are no run.
+  try {
+    entrant.backend->method(settings);
+    if (!entrant.backend->unsupported(scene_case.problem.scene, settings).empty()) {
+      entrant.explorer.fail(place);
+      return {};
+    }
+  } catch (const Error&) {
+    entrant.explorer.fail(place);
+    return {};
+  }
+  return RunRequest{&scene_case, entrant.backend, settings, nullptr, kRough};
+}
+
+// A few runs, engines in turns.
+std::vector<RunRequest> InstanceSweep::next_runs() {
+  std::vector<RunRequest> out;
+  const double duration = instance_.build().duration;
+  const double dearest = kDearest * seconds_ * 1e9 / duration;  // ns a simulated second
+  for (std::size_t looked = 0;
+       looked < entrants_.size() && out.size() < 2 * static_cast<std::size_t>(options_.jobs); ++looked) {
+    Entrant& entrant = entrants_[turn_++ % entrants_.size()];
+    if (entrant.finished) continue;
+    std::optional<Space::Place> place;
+    if (entrant.explorer.tried() < options_.most_points) place = entrant.explorer.next(dearest);
+    entrant.finished = !place;
+    if (!place) continue;
+    if (std::optional<RunRequest> next = request(entrant, *place)) {
+      out.push_back(std::move(*next));
+    }
+  }
+  return out;
+}
+
+bool InstanceSweep::run(const std::vector<RunRequest>& requests) {
+  bool interrupted = false;
+  const double seconds = std::min(options_.seconds_a_run, std::max(1.0, 5 * kDearest * seconds_));
+  run_isolated_all(requests, options_.jobs, seconds, [&](std::size_t, IsolatedRun run) {
+    interrupted = interrupted || run.interrupted;
+    if (run.interrupted) return;
+    if (!cases_.has_truth())
+      for (Check& check : run.result.checks)
+        if (check.oracle == Oracle::Exact) check.oracle = Oracle::Self;
+    record_.ran(label_, {std::move(run.result), run.rough.value_or(CostSample{}), {}});
+  });
+  return !interrupted;
+}
+
+bool InstanceSweep::explore(const std::function<void(double, const std::string&)>& progress) {
+  if (known_.explored) return true;
+  const Clock::time_point start = Clock::now();
+  set_up();
+  const auto open = [&] {
+    return std::any_of(entrants_.begin(), entrants_.end(), [](const Entrant& e) { return !e.finished; });
+  };
+  while (open() && seconds_since(start) < kExploring * seconds_) {
+    if (interrupted()) return false;
+    tell_all();
+    const std::vector<RunRequest> requests = next_runs();
+    if (!requests.empty())
+      progress(std::min(kExploring, seconds_since(start) / seconds_),
+               fmt::format("{} on {}", label_, requests.front().backend->name()));
+    if (!run(requests)) return false;
+  }
+  explored_ = seconds_since(start);
+  record_.explored(label_, choose(std::max((1 - kExploring) * seconds_, seconds_ - explored_)));
+  return true;
+}
+
+// What one repetition of a cost is going to take, in ns.
+double InstanceSweep::repetition_ns(const Trial& trial) const {
+  const double whole = trial.rough.ns_per_step * step_count(trial.result.duration, trial.result.dt);
+  const double stepping = std::clamp(2 * whole, 2 * kMeasured.at_least_ns, 2 * kMeasured.at_most_ns);
+  return kProcess + 2 * trial.rough.setup_ns + stepping;
+}
+
+// The points whose cost will be measured within `seconds`: every engine's in turns, so that none is left out.
+std::vector<std::string> InstanceSweep::choose(double seconds) const {
+  std::vector<Result> rows;
+  for (const Trial& trial : known_.trials) {
+    rows.push_back(trial.result);
+    if (trial.rough.steps > 0) rows.back().cost = summarise({trial.rough}, trial.result.dt);
+  }
+  const std::vector<Point> all = points_of(rows, headline_metric(rows));
+  std::vector<std::vector<Point>> engines;
+  for (const std::string& engine : engines_of(rows)) {
+    std::vector<Point> own;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+                 [&](const Point& point) { return point.row->engine == engine; });
+    engines.push_back(by_importance(std::move(own)));
+  }
+  std::vector<std::string> out;
+  double spent = 0;
+  for (std::size_t turn = 0; turn < known_.trials.size(); ++turn) {
+    for (const std::vector<Point>& points : engines) {
+      if (turn >= points.size()) continue;
+      const std::string key = key_of(*points[turn].row);
+      const double cost = 1e-9 * options_.repetitions * repetition_ns(known_.trials[known_.places.at(key)]);
+      if (spent + cost > seconds && !out.empty()) continue;
+      spent += cost;
+      out.push_back(key);
+    }
+  }
+  return out;
+}
+
+// One repetition of one setting; false after an interrupt.
+bool InstanceSweep::repeat(const std::string& key, int round) {
+  const Trial* trial = known_.find(key);
+  if (trial == nullptr || static_cast<int>(trial->samples.size()) > round) return true;
+  const Result& result = trial->result;
+  const auto backend = std::find_if(options_.engines.begin(), options_.engines.end(),
+                                    [&](const auto* engine) { return engine->name() == result.engine; });
+  const IsolatedCost cost =
+      measure_cost_isolated(cases_.at(**backend, result.dt), **backend, result.asked,
+                            trial->rough.ns_per_step, kMeasured, options_.seconds_a_run);
+  if (cost.interrupted) return false;
+  if (cost.sample) record_.costed(label_, key, *cost.sample);
+  return true;
+}
+
+bool InstanceSweep::measure(const std::function<void(double, const std::string&)>& progress) {
+  if (known_.done) return true;
+  const Clock::time_point start = Clock::now();
+  const double allowed = std::max(seconds_ - explored_, 0.3 * seconds_);
+  for (int round = 0; round < options_.repetitions; ++round) {
+    // A copy: what does not fit is taken off below.
+    const std::vector<std::string> chosen = known_.chosen;
+    const double each = (1 - kExploring) / options_.repetitions;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const double share = round + static_cast<double>(i) / static_cast<double>(chosen.size());
+      progress(kExploring + each * share, fmt::format("{}: costs, round {}", label_, round + 1));
+      if (!repeat(chosen[i], round)) return false;
+    }
+    const double needed = seconds_since(start) * (options_.repetitions - round) / (round + 1.0);
+    const double left = allowed - seconds_since(start);
+    if (round > 0 || needed <= left) continue;
+    // The machine is slower than was thought: the least important are left out.
+    const auto fit =
+        static_cast<std::size_t>(static_cast<double>(chosen.size()) * std::max(left, 0.0) / needed);
+    const std::size_t least = std::min(chosen.size(), options_.engines.size());
+    record_.explored(label_,
+                     {chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(std::max(fit, least))});
+  }
+  record_.done(label_);
+  return true;
+}
+
+// In the order of the engines, from coarse to fine.
+std::vector<Result> rows_of(const InstanceRecord& record, const std::vector<std::string>& engines) {
+  std::vector<Result> rows;
+  for (const Trial& trial : record.trials) {
+    rows.push_back(trial.result);
+    const bool chosen =
+        std::find(record.chosen.begin(), record.chosen.end(), key_of(trial.result)) != record.chosen.end();
+    if (chosen && !trial.samples.empty()) rows.back().cost = summarise(trial.samples, trial.result.dt);
+  }
+  const auto place = [&](const Result& row) {
+    return std::pair(std::find(engines.begin(), engines.end(), row.engine) - engines.begin(), -row.dt);
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Result& a, const Result& b) { return place(a) < place(b); });
+  return rows;
+}
+
+// An instance's rows go into the results when it is complete; those that are there already are left.
+void append_rows(Journal& results, std::span<const Result> rows) {
+  std::set<std::string> there;
+  for (const std::string& line : results.lines()) there.insert(key_of(result_from_json(line)));
+  for (const Result& row : rows)
+    if (!there.contains(key_of(row))) results.append(to_json_with_environment(row));
+}
+
+std::vector<std::string> names_of(const std::vector<const reference::Backend*>& engines) {
+  std::vector<std::string> names;
+  for (const reference::Backend* backend : engines) names.emplace_back(backend->name());
+  return names;
+}
+
+}  // namespace
+
+Swept sweep(const SweepOptions& options, const SweepEvents& events) {
+  const std::vector<std::string> engines = names_of(options.engines);
+  Record record(options.folder, engines,
+                fmt::format("{} repetitions, dt {} and finer", options.repetitions, options.ladder.coarsest));
+  Journal results(options.folder + "/results.jsonl");
+  Swept out;
+  const auto count = [&](bool done) {
+    return std::count_if(options.instances.begin(), options.instances.end(),
+                         [&](const auto& instance) { return record.of(instance.label()).done == done; });
+  };
+  const double each = 1.0 / static_cast<double>(options.instances.size());
+  // What is left to do has its part of the budget, and what an instance does not use goes to the next ones.
+  double left = options.budget * each * static_cast<double>(count(false));
+  long before = count(true);
+  for (const scenarios::Instance& instance : options.instances) {
+    const std::string label = instance.label();
+    if (!record.of(label).done) {
+      const Clock::time_point start = Clock::now();
+      const double seconds = left / static_cast<double>(count(false));
+      InstanceSweep part(options, instance, record, seconds);
+      const auto progress = [&](double share, const std::string& what) {
+        const double all = (static_cast<double>(before) + share) * each;
+        if (events.progress) events.progress({static_cast<std::size_t>(1000 * all), 1000, what});
+      };
+      out.interrupted = !part.explore(progress) || !part.measure(progress);
+      if (out.interrupted) return out;
+      left = std::max(left - seconds_since(start), 0.1 * seconds);
+      ++before;
+    }
+    const std::vector<Result> rows = rows_of(record.of(label), engines);
+    append_rows(results, rows);
+    if (events.finished) events.finished(rows);
+    out.rows.insert(out.rows.end(), rows.begin(), rows.end());
+  }
+  return out;
+}
+
+}  // namespace plumb::harness::sweep

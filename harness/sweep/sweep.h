@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/compare.h"
+#include "harness/result.h"
+#include "harness/sweep/space.h"
+#include "reference/backend.h"
+#include "scenarios/scenario.h"
+
+namespace plumb::harness::sweep {
+
+struct SweepOptions {
+  std::vector<scenarios::Instance> instances;
+  std::vector<const reference::Backend*> engines;
+  std::string folder;            ///< results.jsonl and sweep.jsonl are kept there
+  double budget = 540;           ///< s of wall time for all instances
+  int jobs = 1;                  ///< runs at a time; costs are measured one at a time
+  int repetitions = 9;           ///< of every cost
+  double seconds_a_run = 20;     ///< then a run is stopped
+  std::size_t most_points = 48;  ///< an engine on an instance
+  Ladder ladder{};
+};
+
+struct SweepEvents {
+  /// Called with an instance's rows when it is complete, once for each instance, also for those that were
+  /// complete before.
+  std::function<void(std::span<const Result>)> finished{};
+  /// `done` and `total` are thousandths of the budget.
+  std::function<void(const Progress&)> progress{};
+};
+
+struct Swept {
+  std::vector<Result> rows;
+  bool interrupted = false;
+};
+
+/// Runs every engine over its knobs on every instance, nearer and nearer to its front of error against cost;
+/// then measures costs in repetitions in which all points of an instance take turns. Everything is appended
+/// to `sweep.jsonl` as it comes, and an instance's rows to `results.jsonl` when it is complete: the same call
+/// goes on from there. Throws `Error` (Io; Value where the folder is another sweep's).
+Swept sweep(const SweepOptions& options, const SweepEvents& events = {});
+
+}  // namespace plumb::harness::sweep

@@ -1,0 +1,83 @@
+#include "harness/sweep/trade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "harness/sweep/rows.h"
+
+namespace plumb::harness::sweep {
+namespace {
+
+// The settings without dt: points that share them are one series.
+std::string series_of(const Result& row) {
+  Result other = row;
+  other.asked.dt = 0;
+  return key_of(other);
+}
+
+std::optional<Order> order_of(std::span<const Point> points) {
+  std::map<std::string, std::vector<Point>> series;
+  for (const Point& point : points) series[series_of(*point.row)].push_back(point);
+  std::optional<Order> best;
+  for (const auto& [name, members] : series) {
+    if (members.front().row->asked.tolerance) continue;  // steps are the engine's own
+    const std::optional<Order> order = observed_order(members);
+    if (order && (!best || order->pairs > best->pairs)) best = order;
+  }
+  return best;
+}
+
+std::string why_none(std::span<const Result> rows, const std::string& engine) {
+  for (const Result& row : rows)
+    if (row.engine == engine && row.status != Status::Ok)
+      return fmt::format("{}: {}", name_of(row.status), row.reason);
+  return "no cost was measured";
+}
+
+std::vector<double> decades(double from, double to) {
+  std::vector<double> out;
+  const int first = static_cast<int>(std::ceil(std::log10(from) - 1e-9));
+  const int last = static_cast<int>(std::floor(std::log10(to) + 1e-9));
+  for (int power = first; power <= last; ++power) out.push_back(std::pow(10.0, power));
+  return out;
+}
+
+}  // namespace
+
+SceneTrade trade_of(std::span<const Result> rows, const MetricField* metric) {
+  SceneTrade out;
+  out.metric = metric != nullptr ? metric : &headline_metric(rows);
+  out.label = rows.front().label;
+  double least_error = INFINITY, most_error = 0, least_cost = INFINITY, most_cost = 0;
+  const std::vector<Point> all = points_of(rows, *out.metric);
+  for (const std::string& engine : engines_of(rows)) {
+    EngineTrade trade{.engine = engine};
+    std::copy_if(all.begin(), all.end(), std::back_inserter(trade.points),
+                 [&](const Point& point) { return point.row->engine == engine; });
+    trade.front = front_of(trade.points);
+    trade.order = order_of(trade.points);
+    if (trade.front.empty()) trade.why_none = why_none(rows, engine);
+    for (const Point& point : trade.front) {
+      least_error = std::min(least_error, point.error);
+      most_error = std::max(most_error, point.error);
+      least_cost = std::min(least_cost, point.cost);
+      most_cost = std::max(most_cost, point.cost);
+      out.truth = point.row->truth;
+      out.duration = point.row->duration;
+    }
+    out.engines.push_back(std::move(trade));
+  }
+  if (most_error > 0) {
+    out.errors = decades(least_error, most_error);
+    std::reverse(out.errors.begin(), out.errors.end());
+    out.costs = decades(least_cost, most_cost);
+  }
+  return out;
+}
+
+}  // namespace plumb::harness::sweep

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/sweep/front.h"
+
+namespace plumb::harness::sweep {
+
+/// One engine's part of a scene's trade.
+struct EngineTrade {
+  std::string engine;
+  std::vector<Point> points{};  ///< all of them
+  std::vector<Point> front{};
+  std::string why_none{};        ///< where the front is empty: skipped or failed, and why
+  std::optional<Order> order{};  ///< in dt, of the series with the most steps
+};
+
+/// What the rows of one scene say. Points refer to the rows that it was made from.
+struct SceneTrade {
+  std::string label, truth;
+  double duration = 0;  ///< s
+  const MetricField* metric = nullptr;
+  std::vector<EngineTrade> engines;
+  std::vector<double> errors;  ///< decades that some engine's front spans, from large to small
+  std::vector<double> costs;   ///< likewise, ns per simulated second, from cheap to dear
+};
+
+/// `metric` null: the scene's headline. `rows` are of one label.
+SceneTrade trade_of(std::span<const Result> rows, const MetricField* metric);
+
+}  // namespace plumb::harness::sweep

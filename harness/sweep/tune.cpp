@@ -1,0 +1,249 @@
+#include "harness/sweep/tune.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+#include "harness/interrupt.h"
+#include "harness/isolated_run.h"
+#include "harness/sweep/cases.h"
+#include "harness/sweep/explorer.h"
+#include "harness/sweep/front.h"
+
+namespace plumb::harness::sweep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
+constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
+// One run may take this share of the search.
+constexpr double kDearest = 0.06;
+// The rough costs of the best are this uncertain: as many are measured well.
+constexpr std::size_t kFinalists = 3;
+constexpr int kRungs = 11;
+constexpr std::size_t kMostTried = 64;
+
+struct Trial {
+  Result row;
+  double error = 0, rough_ns = 0;  // a step of dt
+  std::vector<CostSample> samples{};
+
+  double ns_a_second() const {
+    return samples.empty() ? rough_ns / row.dt : summarise(samples, row.dt).ns_per_simulated_second;
+  }
+};
+
+struct Entrant {
+  const reference::Backend* backend = nullptr;
+  Explorer explorer;
+  std::vector<Trial> trials{};  // that ran to their end
+  std::string problem{};
+  std::string last_failure{};
+  bool finished = false;
+};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class Tuner {
+ public:
+  explicit Tuner(const TuneOptions& options)
+      : options_(options),
+        ladder_{.coarsest = options.step, .rungs = kRungs},
+        cases_(options.instance, ladder_, kDearest * options.seconds) {
+    if (options.tolerance) goal_.error = std::max(*options.tolerance, kErrorFloor);
+    if (options.budget_ns) goal_.cost = *options.budget_ns / options.step;
+  }
+
+  Tuned run(const std::function<void(const std::string&)>& progress);
+
+ private:
+  void enter();
+  bool search(const std::function<void(const std::string&)>& progress);
+  bool measure(const std::function<void(const std::string&)>& progress);
+  std::vector<std::pair<Entrant*, RunRequest>> next_runs();
+  void take(Entrant& entrant, IsolatedRun run);
+  bool better(const Trial& a, const Trial& b) const;
+  TuneAnswer answer(Entrant& entrant);
+  void confirm(const Entrant& entrant, TuneAnswer& answer);
+
+  const TuneOptions& options_;
+  Ladder ladder_;
+  Cases cases_;
+  Explorer::Goal goal_;
+  std::vector<Entrant> entrants_;
+};
+
+void Tuner::enter() {
+  const scenarios::Problem problem = options_.instance.build();
+  for (const reference::Backend* backend : options_.engines) {
+    const reference::Identity identity = backend->identity();
+    std::string why = identity.available ? "" : "not installed: " + identity.reason;
+    if (why.empty()) why = backend->unsupported(problem.scene, {.dt = options_.step});
+    if (why.empty() && !cases_.has_truth()) {
+      const OwnLimit& limit = cases_.limit(*backend);
+      why = limit.problem.empty() ? "" : "no limit of its own: " + limit.problem;
+      // Errors are as uncertain as the limit.
+      if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
+        why = fmt::format("{}: too uncertain for this tolerance", limit.source);
+    }
+    entrants_.push_back({.backend = backend, .explorer = Explorer(Space(*backend, ladder_))});
+    entrants_.back().problem = why;
+    entrants_.back().finished = !why.empty();
+  }
+}
+
+std::vector<std::pair<Entrant*, RunRequest>> Tuner::next_runs() {
+  std::vector<std::pair<Entrant*, RunRequest>> out;
+  const double dearest = kDearest * options_.seconds * 1e9 / options_.instance.build().duration;
+  for (Entrant& entrant : entrants_) {
+    if (entrant.finished) continue;
+    std::optional<Space::Place> place;
+    if (entrant.explorer.tried() < kMostTried) place = entrant.explorer.next_towards(goal_, dearest);
+    entrant.finished = !place;
+    if (!place) continue;
+    const reference::StepSettings settings = entrant.explorer.space().settings(*place);
+    const Case& scene_case = cases_.at(*entrant.backend, settings.dt);
+    out.push_back({&entrant, RunRequest{&scene_case, entrant.backend, settings, nullptr, kRough}});
+  }
+  return out;
+}
+
+void Tuner::take(Entrant& entrant, IsolatedRun run) {
+  const auto place = entrant.explorer.space().find(run.result.asked);
+  const auto& error = run.result.metrics.*options_.metric->value;
+  if (run.result.status != Status::Ok || !error || !run.rough) {
+    entrant.explorer.fail(*place);
+    entrant.last_failure = run.result.status == Status::Ok
+                               ? fmt::format("{} has no meaning for this scene", options_.metric->name)
+                               : fmt::format("{}: {}", name_of(run.result.status), run.result.reason);
+    return;
+  }
+  entrant.explorer.tell(*place, *error, run.rough->ns_per_step / run.result.dt);
+  entrant.trials.push_back({std::move(run.result), *error, run.rough->ns_per_step});
+}
+
+bool Tuner::search(const std::function<void(const std::string&)>& progress) {
+  const Clock::time_point start = Clock::now();
+  while (seconds_since(start) < options_.seconds) {
+    if (interrupted()) return false;
+    const auto runs = next_runs();
+    if (runs.empty()) break;
+    std::vector<RunRequest> requests;
+    for (const auto& [entrant, request] : runs) requests.push_back(request);
+    if (progress) progress(fmt::format("searching: {} engines left", runs.size()));
+    bool stopped = false;
+    run_isolated_all(requests, options_.jobs, options_.seconds_a_run, [&](std::size_t i, IsolatedRun run) {
+      stopped = stopped || run.interrupted;
+      if (!run.interrupted) take(*runs[i].first, std::move(run));
+    });
+    if (stopped) return false;
+  }
+  return true;
+}
+
+// Whether `a` is nearer to what is asked for.
+bool Tuner::better(const Trial& a, const Trial& b) const {
+  if (goal_.error) {
+    const bool a_meets = a.error <= *goal_.error, b_meets = b.error <= *goal_.error;
+    if (a_meets != b_meets) return a_meets;
+    return a_meets ? a.ns_a_second() < b.ns_a_second() : a.error < b.error;
+  }
+  const bool a_keeps = a.ns_a_second() <= *goal_.cost, b_keeps = b.ns_a_second() <= *goal_.cost;
+  if (a_keeps != b_keeps) return a_keeps;
+  return a_keeps ? a.error < b.error : a.ns_a_second() < b.ns_a_second();
+}
+
+bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
+  std::vector<std::pair<const Entrant*, Trial*>> finalists;
+  for (Entrant& entrant : entrants_) {
+    std::stable_sort(entrant.trials.begin(), entrant.trials.end(),
+                     [&](const Trial& a, const Trial& b) { return better(a, b); });
+    for (std::size_t i = 0; i < std::min(kFinalists, entrant.trials.size()); ++i)
+      finalists.push_back({&entrant, &entrant.trials[i]});
+  }
+  // Into vectors of their own first: a trial's rough cost orders it until all are measured.
+  std::vector<std::vector<CostSample>> samples(finalists.size());
+  for (int round = 0; round < options_.repetitions; ++round) {
+    if (progress) progress(fmt::format("measuring: {} of {} rounds", round, options_.repetitions));
+    for (std::size_t i = 0; i < finalists.size(); ++i) {
+      const auto& [entrant, trial] = finalists[i];
+      const IsolatedCost cost =
+          measure_cost_isolated(cases_.at(*entrant->backend, trial->row.dt), *entrant->backend,
+                                trial->row.asked, trial->rough_ns, kMeasured, options_.seconds_a_run);
+      if (cost.interrupted) return false;
+      if (cost.sample) samples[i].push_back(*cost.sample);
+    }
+  }
+  for (std::size_t i = 0; i < finalists.size(); ++i) finalists[i].second->samples = std::move(samples[i]);
+  return true;
+}
+
+void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
+  const Case& scene_case = cases_.at(*entrant.backend, answer.row.dt);
+  const IsolatedRun again =
+      run_isolated(scene_case, *entrant.backend, answer.row.asked, nullptr, options_.seconds_a_run);
+  const auto& error = again.result.metrics.*options_.metric->value;
+  answer.confirmed = again.result.status == Status::Ok && error &&
+                     std::bit_cast<std::uint64_t>(*error) == std::bit_cast<std::uint64_t>(answer.error);
+}
+
+TuneAnswer Tuner::answer(Entrant& entrant) {
+  TuneAnswer out;
+  out.engine = entrant.backend->name();
+  out.problem = entrant.problem;
+  out.tried = static_cast<int>(entrant.explorer.tried());
+  const Trial* best = nullptr;
+  for (const Trial& trial : entrant.trials)
+    if (!trial.samples.empty() && (best == nullptr || better(trial, *best))) best = &trial;
+  if (best == nullptr) {
+    if (out.problem.empty())
+      out.problem = entrant.last_failure.empty() ? "no run within the time" : entrant.last_failure;
+    return out;
+  }
+  out.row = best->row;
+  out.row.cost = summarise(best->samples, best->row.dt);
+  out.error = best->error;
+  out.ns_a_step = best->ns_a_second() * options_.step;
+  out.found = goal_.error ? best->error <= *goal_.error : best->ns_a_second() <= *goal_.cost;
+  if (!out.found)
+    out.problem =
+        goal_.error
+            ? fmt::format("the most accurate of {} settings reaches {}", out.tried, figure(out.error))
+            : fmt::format("the cheapest of {} settings costs {}", out.tried, duration_text(out.ns_a_step));
+  if (out.found) confirm(entrant, out);
+  return out;
+}
+
+Tuned Tuner::run(const std::function<void(const std::string&)>& progress) {
+  Tuned out;
+  out.has_truth = cases_.has_truth();
+  enter();
+  if (!search(progress) || !measure(progress)) {
+    out.interrupted = true;
+    return out;
+  }
+  for (Entrant& entrant : entrants_) out.answers.push_back(answer(entrant));
+  std::stable_sort(out.answers.begin(), out.answers.end(), [&](const TuneAnswer& a, const TuneAnswer& b) {
+    if (a.found != b.found) return a.found;
+    if (!a.found) return false;
+    return goal_.error || a.error == b.error ? a.ns_a_step < b.ns_a_step : a.error < b.error;
+  });
+  return out;
+}
+
+}  // namespace
+
+Tuned tune(const TuneOptions& options, const std::function<void(const std::string&)>& progress) {
+  return Tuner(options).run(progress);
+}
+
+}  // namespace plumb::harness::sweep

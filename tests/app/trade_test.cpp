@@ -1,0 +1,103 @@
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.h"
+
+// What a user does with sweep, front, tune and the comparison of results.
+namespace plumb::app {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Sweep, KilledInTheMiddleTheSameCommandGoesOn) {
+  const Folder folder;
+  const std::vector<std::string> command{
+      "sweep", "free_fall/drag", "--engine", "plumb,box2d", "--budget", "8", "--out", folder.path("s")};
+  const pid_t process = start_plumb(command);
+  for (int i = 0; i < 600 && lines_of(folder.read("s/sweep.jsonl")).size() < 8; ++i) usleep(20'000);
+  kill(process, SIGKILL);
+  EXPECT_EQ(wait_for(process), -SIGKILL);
+  const std::size_t before = lines_of(folder.read("s/sweep.jsonl")).size();
+  EXPECT_GE(before, 8u);
+  const Ran ran = plumb(command);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const char* part : {"free_fall/drag", "dominance", "box2d", "overall", "front"})
+    EXPECT_NE(ran.out.find(part), std::string::npos) << part << ran.out;
+  std::map<std::string, int> runs;
+  for (const std::string& line : lines_of(folder.read("s/sweep.jsonl"))) {
+    const Json json = Json::parse(line);
+    if (json["kind"] == "run") ++runs[json["result"]["engine"].dump() + json["result"]["asked"].dump()];
+  }
+  for (const auto& [run, count] : runs) EXPECT_EQ(count, 1) << run;
+  // What is complete is not run again.
+  const std::string results = folder.read("s/results.jsonl");
+  const Ran again = plumb(command);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(folder.read("s/results.jsonl"), results);
+
+  const Ran front = plumb({"front", folder.path("s"), "--format", "json"});
+  EXPECT_EQ(front.code, 0) << front.err;
+  const Json json = Json::parse(front.out);
+  EXPECT_EQ(json["scenes"][0]["label"], "free_fall/drag");
+  EXPECT_EQ(json["dominance"][0]["rival"], "box2d");
+  EXPECT_GT(json["dominance"][0]["points"], 3);
+
+  const Ran same = plumb({"compare", folder.path("s"), folder.path("s/results.jsonl")});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  EXPECT_NE(same.out.find("0 figures better, 0 worse"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("costs: 0 better, 0 worse"), std::string::npos) << same.out;
+}
+
+TEST(Compare, ResultsAndScenariosAreNotMixed) {
+  const Folder folder;
+  folder.write("results.jsonl", "");
+  EXPECT_EQ(plumb({"compare", folder.path(), "free_fall"}).code, 2);
+  EXPECT_EQ(plumb({"compare", folder.path()}).code, 2);
+  const Ran missing = plumb({"compare", folder.path(), "./nothing/"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("nothing"), std::string::npos) << missing.err;
+}
+
+TEST(Tune, FindsSettingsThatReachIt) {
+  const Ran ran = plumb({"tune", "pendulum_chain", "--size", "3", "--tolerance", "1e-3", "--seconds", "8",
+                         "--engine", "plumb,plumb-precise,box2d", "--format", "json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_EQ(json["against"], "truth");
+  ASSERT_EQ(json["answers"].size(), 3u);
+  const Json& best = json["answers"][0];
+  EXPECT_LE(best["reaches"]["position_error"], 1e-3);
+  EXPECT_TRUE(best["reaches"]["confirmed"]);
+  EXPECT_GT(best["reaches"]["ns_per_game_step"], 0);
+  EXPECT_EQ(json["answers"][0]["engine"].get<std::string>().substr(0, 5), "plumb");
+}
+
+// The scene of a user has no known answer: that is said, and the settings hold against the engine's limit.
+TEST(Tune, AFileOfTheUsersOwn) {
+  const Folder folder;
+  Json scene = Json::parse(plumb({"scene", "pendulum_chain", "--size", "2"}).out);
+  scene["name"] = "my pendulum";
+  const std::string path = folder.write("mine.json", scene.dump());
+  const Ran ran = plumb({"tune", path, "--tolerance", "1e-2", "--seconds", "8", "--engine", "plumb"});
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+  for (const char* part : {"own limit", "plumb", "to paste", "\"dt\""})
+    EXPECT_NE(ran.out.find(part), std::string::npos) << part << ran.out;
+}
+
+TEST(Tune, WithinABudget) {
+  const Ran ran = plumb({"tune", "free_fall/drag", "--budget-us", "50", "--seconds", "4", "--engine",
+                         "plumb,box2d", "--format", "json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  for (const Json& answer : Json::parse(ran.out)["answers"])
+    EXPECT_LE(answer["reaches"]["ns_per_game_step"], 50e3) << answer;
+  EXPECT_EQ(plumb({"tune", "free_fall/drag"}).code, 2);
+}
+
+}  // namespace
+}  // namespace plumb::app
