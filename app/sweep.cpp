@@ -1,6 +1,7 @@
 #include "harness/sweep/sweep.h"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +32,16 @@ struct Options {
   int jobs = 0;
 };
 
+// A sweep's folder knows scenes by their labels.
+void require_different(const std::vector<scenarios::Instance>& instances) {
+  std::set<std::string> labels;
+  for (const scenarios::Instance& instance : instances)
+    if (!labels.insert(instance.label()).second)
+      throw UsageError(
+          fmt::format("'{}' is named twice: give each scene once, and files' scenes names of their own",
+                      instance.label()));
+}
+
 int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
@@ -44,6 +55,7 @@ int start(const Options& options) {
     }
   }
   if (options.names.empty()) what.instances = chosen_instances({}, options.size);
+  require_different(what.instances);
   what.engines = chosen_engines(options.engines, programs);
   what.folder = options.out;
   if (!options.budget.empty()) what.budget = parse_positive("--budget", options.budget);

@@ -15,6 +15,7 @@
 #include "harness/sweep/cases.h"
 #include "harness/sweep/explorer.h"
 #include "harness/sweep/front.h"
+#include "harness/sweep/importance.h"
 #include "harness/sweep/journal.h"
 #include "harness/sweep/record.h"
 #include "harness/sweep/rows.h"
@@ -32,37 +33,6 @@ constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns =
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
 // What a repetition takes besides stepping: a process, its pages, its end.
 constexpr double kProcess = 4e6;  // ns
-
-// The middle of what is left first, so that the first few are spread over all.
-void spread(std::span<const Point> points, std::vector<Point>& out) {
-  std::vector<std::span<const Point>> left{points};
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const std::span<const Point> part = left[i];
-    if (part.empty()) continue;
-    const std::size_t middle = part.size() / 2;
-    out.push_back(part[middle]);
-    left.push_back(part.first(middle));
-    left.push_back(part.subspan(middle + 1));
-  }
-}
-
-// One engine's points: its front, ends first; then what is a front without that, and so on.
-std::vector<Point> by_importance(std::vector<Point> points) {
-  std::vector<Point> out;
-  while (!points.empty()) {
-    const std::vector<Point> front = front_of(points);
-    out.push_back(front.front());
-    if (front.size() > 1) {
-      out.push_back(front.back());
-      spread(std::span(front).subspan(1, front.size() - 2), out);
-    }
-    std::erase_if(points, [&](const Point& point) {
-      return std::any_of(front.begin(), front.end(),
-                         [&](const Point& other) { return other.row == point.row; });
-    });
-  }
-  return out;
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -345,6 +315,18 @@ void append_rows(Journal& results, std::span<const Result> rows) {
     if (!there.contains(key_of(row))) results.append(to_json_with_environment(row));
 }
 
+// What must be the same when a sweep goes on. A scene without an answer is a file's, and may have been
+// edited.
+std::string settings_of(const SweepOptions& options) {
+  std::string out =
+      fmt::format("{} repetitions, dt {} and finer", options.repetitions, options.ladder.coarsest);
+  for (const scenarios::Instance& instance : options.instances)
+    if (const scenarios::Problem problem = instance.build(); !problem.truth.exact)
+      out +=
+          fmt::format(", {} is {:016x} for {:g} s", instance.label(), hash(problem.scene), problem.duration);
+  return out;
+}
+
 std::vector<std::string> names_of(const std::vector<const reference::Backend*>& engines) {
   std::vector<std::string> names;
   for (const reference::Backend* backend : engines) names.emplace_back(backend->name());
@@ -355,8 +337,7 @@ std::vector<std::string> names_of(const std::vector<const reference::Backend*>& 
 
 Swept sweep(const SweepOptions& options, const SweepEvents& events) {
   const std::vector<std::string> engines = names_of(options.engines);
-  Record record(options.folder, engines,
-                fmt::format("{} repetitions, dt {} and finer", options.repetitions, options.ladder.coarsest));
+  Record record(options.folder, engines, settings_of(options));
   Journal results(options.folder + "/results.jsonl");
   Swept out;
   const auto count = [&](bool done) {

@@ -113,7 +113,7 @@ TEST(Sweep, SurvivesBeingKilled) {
       sweep(fixture.options);
       _exit(0);
     }
-    usleep(static_cast<useconds_t>(40'000 + 7'919 * attempt));
+    usleep(static_cast<useconds_t>(5'000 + 2'011 * attempt));
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
