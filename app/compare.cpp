@@ -18,6 +18,7 @@
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "harness/report/report.h"
 #include "harness/summary.h"
 #include "harness/table.h"
 
@@ -41,6 +42,20 @@ std::string as_text(std::span<const Result> results, const std::string& format, 
   for (const Result& result : results)
     text += (format == "json" ? harness::to_json_with_environment(result) : harness::csv_row(result)) + "\n";
   return text;
+}
+
+// All that the folder holds, not this run alone. What was measured is safe by now, so that a report that
+// cannot be written is said and does not change how the comparison ends.
+void report(const Options& options, std::span<const reference::Backend* const> engines) {
+  const std::string path = harness::report::default_report_path(options.out);
+  try {
+    harness::report::write_report(options.out, path, engines);
+  } catch (const Error& error) {
+    fmt::print(stderr, "plumb: there is no report: {}\n", error.what());
+    return;
+  }
+  if (options.format == "console") print(fmt::format("the report is in {}\n", path));
+  flush();
 }
 
 int start(const Options& options) {
@@ -77,6 +92,7 @@ int start(const Options& options) {
                log.path());
     return kInterrupted;
   }
+  report(options, what.engines);
   return comparison.as_expected() ? kOk : kCheckFailed;
 }
 

@@ -1,0 +1,46 @@
+#include "harness/report/report.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "reference/backend.h"
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+  std::string folder = "results", out;
+};
+
+int start(const Options& options) {
+  const std::string out =
+      options.out.empty() ? harness::report::default_report_path(options.folder) : options.out;
+  harness::report::write_report(options.folder, out, reference::backends());
+  print(fmt::format("the report is in {}\n", out));
+  flush();
+  return kOk;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "report", "results as one HTML file with charts, checks and settings, which any browser opens");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option(
+          "results", options->folder,
+          "a folder that `plumb compare` or `plumb sweep` wrote, or a results.jsonl (default results)")
+      ->type_name("DIR");
+  command->add_option("--out", options->out, "the file to write (default DIR/report.html)")
+      ->type_name("FILE");
+  command->footer("Examples:\n  plumb report\n  plumb report sweep --out trade.html");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/report/environments.h"
+#include "harness/result.h"
+
+namespace plumb::harness::report {
+
+/// Everything that the page shows, as one JSON object in which no "<" occurs, so that it can stand in HTML.
+/// `replays`: JSON by `sweep::key_of`.
+std::string report_data(const std::string& title, std::span<const Result> rows,
+                        const std::vector<EnvironmentUse>& environments,
+                        const std::map<std::string, std::string>& replays);
+
+/// The page around it: one HTML file that asks for nothing else.
+std::string report_page(const std::string& title, const std::string& data);
+
+}  // namespace plumb::harness::report
