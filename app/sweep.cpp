@@ -80,8 +80,10 @@ int start(const Options& options) {
   }
   if (options.format == "console") {
     print(sweep::dominance_table(sweep::dominance(swept.rows), style));
-    print(fmt::format("\nresults are in {0}/results.jsonl; `plumb front {0}` prints this again\n",
-                      options.out));
+    print(
+        fmt::format("\nresults are in {0}/results.jsonl; `plumb front {0}` prints this again, `plumb report "
+                    "{0}` draws it\n",
+                    options.out));
   } else {
     print(sweep::trade_data(swept.rows, nullptr, options.format));
   }

@@ -127,11 +127,13 @@ function bars(options, rows, look) {
   const element = make("figure", {class: "chart", "data-chart": options.name},
     make("figcaption", {text: options.title + " "}, make("span", {text: options.note})));
   const scale = axisOf(rows.flatMap((row) => [row.low, row.value, row.high]), true);
+  let svg = null;
   const draw = (hidden) => {
     const seen = rows.filter((row) => !hidden.has(row.engine));
     const height = 26 * seen.length + 24, left = kNarrow ? 124 : 130;
     const place = (value) => left + scale.place(value) * (kWidth - left - 70);
-    const svg = makeSvg("svg", {viewBox: `0 0 ${kWidth} ${height}`, role: "img", "aria-label": options.title});
+    svg?.remove();
+    svg = makeSvg("svg", {viewBox: `0 0 ${kWidth} ${height}`, role: "img", "aria-label": options.title});
     for (const {at, text} of scale?.ticks ?? []) {
       const x = left + at * (kWidth - left - 70);
       svg.append(makeSvg("line", {class: "grid-line", x1: x, x2: x, y1: 0, y2: height - 20}),
@@ -144,7 +146,7 @@ function bars(options, rows, look) {
         markOf(style, place(row.value), y),
         makeSvg("text", {x: Math.max(place(row.high), place(row.value)) + 10, y: y + 4, text: duration(row.value)}));
     });
-    element.querySelector("svg")?.remove();
+    hover(svg, () => seen.map((row, i) => ({x: place(row.value), y: 26 * i + 13, text: row.text, engine: row.engine})));
     element.append(svg);
   };
   return {element, draw, empty: rows.length === 0};

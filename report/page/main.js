@@ -1,7 +1,7 @@
 // The page: the summary, the scenes, the places.
 const data = JSON.parse(document.getElementById("data").textContent);
-// plumb's own first.
-data.engines.sort((a, b) => (b === "plumb") - (a === "plumb") || isPlumb(b) - isPlumb(a));
+// plumb's own first, so that engines look alike in most reports.
+data.engines.sort((a, b) => isPlumb(b) - isPlumb(a) || (a < b ? -1 : 1));
 const look = looks(data.engines);
 const sceneBoxes = new Map();
 
@@ -55,7 +55,7 @@ function exceptionTable() {
   const rows = data.standings.flatMap((row) => row.exceptions.map((point) => ({...point, label: row.label, rival: row.rival, unit: row.unit})));
   const box = document.getElementById("exceptions");
   box.querySelector("summary").textContent = rows.length === 0 ? "No rival's point is worse for plumb" :
-    `The ${rows.length} rivals' points that plumb does not dominate`;
+    `${rows.length === 1 ? "The point of a rival" : `The ${rows.length} points of rivals`} that plumb does not dominate`;
   if (rows.length === 0) return;
   box.querySelector("div").append(table([
     {name: "scene", text: (row) => row.label},

@@ -50,12 +50,32 @@ function costs(scene, look) {
   const [dt] = [...counts].sort((a, b) => b[1].size - a[1].size || Math.abs(Math.log(a[0] * 60)) - Math.abs(Math.log(b[0] * 60)))[0] ?? [];
   const rows = [];
   for (const engine of counts.get(dt) ?? []) {
-    const {cost} = scene.rows.find((row) => row.cost && row.dt === dt && row.engine === engine);
-    rows.push({engine, value: cost.step, low: cost.low, high: cost.high});
+    const {cost, asked} = scene.rows.find((row) => row.cost && row.dt === dt && row.engine === engine);
+    rows.push({engine, value: cost.step, low: cost.low, high: cost.high,
+      text: `${duration(cost.step)} a step (quartiles ${duration(cost.low)} to ${duration(cost.high)})\n${asked}`});
   }
   rows.sort((a, b) => a.value - b.value);
   const note = dt === undefined ? "" : `at dt = ${stepText(dt)} s, in ns on a logarithmic scale; lines: the middle half of the repetitions`;
   return bars({name: "costs", title: "Cost of a step", note}, rows, look);
+}
+
+// Of each engine the settings that were run with the most steps; those with a tolerance choose their own steps.
+function againstStep(scene, metric, unit, engines, look) {
+  const series = engines.map((engine) => {
+    const bySettings = new Map();
+    for (const row of scene.rows) {
+      if (row.engine !== engine || row.status !== "ok" || row.metrics[metric] === undefined || /\btolerance\b/.test(row.asked)) continue;
+      const others = row.asked.replace(/^dt [^,]+(, )?/, "");
+      const points = bySettings.get(others) ?? bySettings.set(others, new Map()).get(others);
+      points.set(row.dt, {x: row.dt, y: Math.max(row.metrics[metric], 1e-16), text: rowText(row, metric, unit)});
+    }
+    const longest = [...bySettings.values()].reduce((best, one) => (one.size > best.size ? one : best), new Map());
+    const points = longest.size > 2 ? [...longest.values()].sort((a, b) => a.x - b.x) : [];
+    return {engine, points, line: points};
+  }).filter((one) => one.points.length > 0);
+  return chart({name: "convergence", title: "Error against the step", logX: true, logY: true,
+    note: "the steeper, the higher the order; other settings alike", x: "dt, s",
+    y: unit ? `${words(metric)}, ${unit}` : words(metric)}, series, look);
 }
 
 function convergence(scene) {
@@ -135,10 +155,13 @@ function fillScene(box, scene, data, look) {
   if (scene.scene) {
     pictures.append(setUp(scene.scene, scene.motion ? scene.motion.poses : []));
     if (scene.motion || motions.size) parts.push([pictures, replay(scene.scene, scene.duration, scene.motion ?? null, motions, look)]);
+    const still = engines.filter((engine) => !motions.has(engine));
+    if (still.length) pictures.append(make("p", {class: "note", text: `Not replayed here: ${still.join(", ")}.`}));
   } else {
     pictures.append(make("p", {class: "note", text: "This scene is not one of plumb's own, so it is not drawn."}));
   }
-  parts.push([charts, workPrecision(scene, scene.metric, unit, engines, look)], [charts, costs(scene, look)]);
+  parts.push([charts, workPrecision(scene, scene.metric, unit, engines, look)], [charts, costs(scene, look)],
+    [charts, againstStep(scene, scene.metric, unit, engines, look)]);
   if (motions.size) {
     parts.push([charts, againstTime(scene, "error", "Error against time", "errors", "distance from the truth, m", engines, look)],
       [charts, againstTime(scene, "energy", "Energy against time", "energies", "relative energy drift", engines, look)]);

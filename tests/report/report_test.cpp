@@ -123,6 +123,25 @@ TEST(Report, TextOfEnginesCannotEndTheData) {
   EXPECT_EQ(data_of(page)["scenes"][0]["rows"][0]["reason"], row.reason);
 }
 
+TEST(Report, ASceneOfTheUsersOwnHasItsOrdersButNoPicture) {
+  std::vector<Result> rows;
+  for (const double dt : {0.1, 0.05, 0.025}) {
+    Result row;
+    row.label = "mine";
+    row.engine = "plumb";
+    row.dt = row.asked.dt = dt;
+    row.metrics.position_error = 3 * dt * dt;
+    row.cost = Cost{.ns_per_step = 10, .ns_per_simulated_second = 10 / dt, .repetitions = 9};
+    rows.push_back(row);
+  }
+  const Json scene = Json::parse(report_data("mine", rows, {}, {}))["scenes"][0];
+  EXPECT_FALSE(scene.contains("scene"));
+  EXPECT_FALSE(scene.contains("motion"));
+  ASSERT_EQ(scene["orders"].size(), 1u);
+  EXPECT_NEAR(scene["orders"][0]["order"], 2, 1e-12);
+  EXPECT_EQ(scene["rows"][1]["asked"], "dt 1/20");
+}
+
 TEST(Environments, EachOnceWithFirstAndLastDate) {
   const Folder folder;
   const auto line = [](const char* cpu, const char* date) {
