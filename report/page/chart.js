@@ -92,33 +92,42 @@ function chart(options, series, look) {
     axisOf(all.map((p) => p.y), options.logY) === null};
 }
 
-// What is nearest to the pointer, if near, is told beside it.
+// What is nearest to the pointer, if near, is told beside it. With the keyboard the arrows go from mark to mark.
 function hover(svg, points) {
   const tip = document.getElementById("tip");
-  const show = (event) => {
-    const box = svg.getBoundingClientRect();
-    const scale = box.width / kWidth;
-    let best = null, least = Math.max(12, 22 / scale);
-    for (const point of points()) {
-      const distance = Math.hypot(point.x - (event.clientX - box.x) / scale, point.y - (event.clientY - box.y) / scale);
-      if (distance < least) [best, least] = [point, distance];
-    }
+  let chosen = -1;
+  const tell = (best) => {
     svg.querySelector(".near")?.remove();
     tip.hidden = !best;
     if (!best) return;
     svg.append(makeSvg("circle", {class: "near", cx: best.x, cy: best.y, r: 9, fill: "none", stroke: "var(--ink)"}));
     tip.textContent = `${best.engine}\n${best.text}`;
-    const size = tip.getBoundingClientRect();
-    const left = Math.min(event.clientX + 14, innerWidth - size.width - 6);
-    const above = event.clientY - size.height - 12;
-    tip.style.left = `${Math.max(6, left)}px`;
-    tip.style.top = `${above > 4 ? above : event.clientY + 16}px`;
+    const box = svg.getBoundingClientRect(), size = tip.getBoundingClientRect(), scale = box.width / kWidth;
+    const [x, y] = [box.x + best.x * scale, box.y + best.y * scale];
+    tip.style.left = `${Math.max(6, Math.min(x + 12, innerWidth - size.width - 6))}px`;
+    tip.style.top = `${y - size.height - 12 > 4 ? y - size.height - 12 : y + 16}px`;
   };
-  svg.addEventListener("pointermove", show);
-  svg.addEventListener("pointerdown", show);
-  svg.addEventListener("pointerleave", () => {
-    tip.hidden = true;
-    svg.querySelector(".near")?.remove();
+  const point = (event) => {
+    const box = svg.getBoundingClientRect(), scale = box.width / kWidth;
+    let best = null, least = Math.max(12, 22 / scale);
+    for (const one of points()) {
+      const distance = Math.hypot(one.x - (event.clientX - box.x) / scale, one.y - (event.clientY - box.y) / scale);
+      if (distance < least) [best, least] = [one, distance];
+    }
+    tell(best);
+  };
+  svg.setAttribute("tabindex", "0");
+  svg.addEventListener("pointermove", point);
+  svg.addEventListener("pointerdown", point);
+  svg.addEventListener("pointerleave", () => tell(null));
+  svg.addEventListener("blur", () => tell(null));
+  svg.addEventListener("keydown", (event) => {
+    const way = {ArrowRight: 1, ArrowLeft: -1}[event.key], all = points();
+    if (event.key === "Escape") tell(null);
+    if (!way || all.length === 0) return;
+    event.preventDefault();
+    chosen = (chosen + way + all.length) % all.length;
+    tell(all[chosen]);
   });
 }
 

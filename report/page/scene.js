@@ -50,12 +50,14 @@ function costs(scene, look) {
   const [dt] = [...counts].sort((a, b) => b[1].size - a[1].size || Math.abs(Math.log(a[0] * 60)) - Math.abs(Math.log(b[0] * 60)))[0] ?? [];
   const rows = [];
   for (const engine of counts.get(dt) ?? []) {
-    const {cost, asked} = scene.rows.find((row) => row.cost && row.dt === dt && row.engine === engine);
+    const {cost, asked} = scene.rows.filter((row) => row.cost && row.dt === dt && row.engine === engine)
+      .reduce((best, row) => (row.cost.step < best.cost.step ? row : best));
     rows.push({engine, value: cost.step, low: cost.low, high: cost.high,
       text: `${duration(cost.step)} a step (quartiles ${duration(cost.low)} to ${duration(cost.high)})\n${asked}`});
   }
   rows.sort((a, b) => a.value - b.value);
-  const note = dt === undefined ? "" : `at dt = ${stepText(dt)} s, in ns on a logarithmic scale; lines: the middle half of the repetitions`;
+  const note = dt === undefined ? "" : `at dt = ${stepText(dt)} s with each engine's cheapest settings there; ns, logarithmic; ` +
+    "lines: the middle half of the repetitions";
   return bars({name: "costs", title: "Cost of a step", note}, rows, look);
 }
 

@@ -69,6 +69,15 @@ async function hoverTells(page, label) {
   assert.match(await page.ask("document.getElementById('tip').textContent"), /dt 1\/60/);
   await page.mouse("move", {x: 2, y: 2});
   await page.until("document.getElementById('tip').hidden");
+  const tips = [];
+  await page.ask(`(${scene(label)}.querySelector('[data-chart="work-precision"] svg').focus(), 0)`);
+  for (let i = 0; i < 3; ++i) {
+    await page.key("ArrowRight");
+    tips.push(await page.ask("document.getElementById('tip').textContent"));
+  }
+  assert.equal(new Set(tips).size, 3, "the arrows go from mark to mark");
+  await page.key("Escape");
+  assert.equal(await page.ask("document.getElementById('tip').hidden"), true);
 }
 
 async function hides(page, label) {
