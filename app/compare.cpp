@@ -49,7 +49,12 @@ std::string as_text(std::span<const Result> results, const std::string& format, 
 void report(const Options& options, std::span<const reference::Backend* const> engines) {
   const std::string path = harness::report::default_report_path(options.out);
   try {
-    harness::report::write_report(options.out, path, engines);
+    if (!harness::report::write_report(options.out, path, engines)) {
+      fmt::print(stderr,
+                 "plumb: interrupted; the results are complete, `plumb report {}` writes the report\n",
+                 options.out);
+      return;
+    }
   } catch (const Error& error) {
     fmt::print(stderr, "plumb: there is no report: {}\n", error.what());
     return;

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "harness/interrupt.h"
 #include "reference/backend.h"
 
 namespace plumb::app {
@@ -20,7 +21,11 @@ struct Options {
 int start(const Options& options) {
   const std::string out =
       options.out.empty() ? harness::report::default_report_path(options.folder) : options.out;
-  harness::report::write_report(options.folder, out, reference::backends());
+  harness::catch_interrupts();
+  if (!harness::report::write_report(options.folder, out, reference::backends())) {
+    fmt::print(stderr, "plumb: interrupted; no report was written\n");
+    return kInterrupted;
+  }
   print(fmt::format("the report is in {}\n", out));
   flush();
   return kOk;

@@ -48,7 +48,7 @@ class Recorder {
       }
     }
     if (const auto energy = drifts_.drift(states).energy) drift_ = std::max(drift_.value_or(0), *energy);
-    if (sample % stride_ == 0) keep(sample, states);
+    if (sample % stride_ == 0 || sample == case_.truth.steps()) keep(sample, states);
   }
 
   std::string json() const {

@@ -11,6 +11,12 @@ function rowText(row, metric, unit) {
   return lines.join("\n");
 }
 
+// Whether a replay is not of the run that was measured: both sample every step, so that their largest errors are the same.
+function isAnother(row) {
+  const measured = row.metrics.position_error, replayed = Math.max(...row.replay.errors.filter((error) => error !== null), 0);
+  return row.status === "ok" && measured !== undefined && row.dt > 1 / 240.5 && Math.abs(replayed - measured) > 1e-4 * measured + 1e-12;
+}
+
 /// From cheap to accurate, without what another point beats in both.
 function frontOf(points) {
   const out = [];
@@ -157,6 +163,9 @@ function fillScene(box, scene, data, look) {
   if (scene.scene) {
     pictures.append(setUp(scene.scene, scene.motion ? scene.motion.poses : []));
     if (scene.motion || motions.size) parts.push([pictures, replay(scene.scene, scene.duration, scene.motion ?? null, motions, look)]);
+    const others = scene.rows.filter((row) => row.replay && isAnother(row)).map((row) => row.engine);
+    if (others.length) pictures.append(make("p", {class: "bad", text: `Run again for the replay, these moved otherwise than when ` +
+      `they were measured, as another version of an engine does: ${others.join(", ")}.`}));
     const still = engines.filter((engine) => !motions.has(engine));
     if (still.length) pictures.append(make("p", {class: "note", text: `Not replayed here: ${still.join(", ")}.`}));
   } else {
