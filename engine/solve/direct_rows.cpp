@@ -185,13 +185,16 @@ bool DirectRows<Real>::contradicts(double asked) const {
 }
 
 template <class Real>
-void DirectRows<Real>::correct() {
+bool DirectRows<Real>::correct() {
   x_.resize(rows.size());
+  double asked = 0;
   for (int i = 0; i < matrix_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
     x_[i] = row.active ? -double(row.gap) : 0;
+    asked = std::max(asked, std::abs(x_[i]));
   }
   matrix_.solve(x_.data());
+  return !contradicts(asked);
 }
 
 template <class Real>

@@ -59,8 +59,9 @@ class DirectRows {
   bool contradicted() const { return contradicted_; }
   /// What `find` or `correct` found for a row.
   double found(int row) const { return x_[static_cast<std::size_t>(place_[row])]; }
-  /// Finds impulses that move bodies instead of giving them a velocity, such that all gaps close.
-  void correct();
+  /// Finds impulses that move bodies instead of giving them a velocity, such that all gaps close; false when
+  /// the rows contradict each other.
+  bool correct();
   /// Applies what `find` found.
   void apply(BodyMotion<Real>* motion);
   /// Moves and turns bodies by what `correct` found: one Newton step to where the rows hold.

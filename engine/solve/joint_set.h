@@ -93,9 +93,9 @@ class JointSet {
   /// put in. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
 
-  /// Turns back what has passed an angular limit by more than `slack`, rad, each joint by at most `most` about
-  /// its common point: poses change, velocities do not. One sweep; returns whether any joint was turned.
-  /// Between the motion and `relax`. Does not allocate.
+  /// Turns back what has passed an angular limit by more than `slack`, rad, each joint by at most `most`
+  /// about its common point: poses change, velocities do not. One sweep; returns whether any joint was
+  /// turned. Between the motion and `relax`. Does not allocate.
   bool turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack, Real most);
 
   // For solvers that do not relax. None of the three allocates.

@@ -19,8 +19,8 @@ inline constexpr double kContactYield = 0.35;
 /// with little overlap. With all of it nothing would keep loads from creeping among supports of which there
 /// are more than needed, and overlaps would grow again.
 inline constexpr double kExpectedShare = 0.9;
-/// Where a load has pressed shapes into each other by this share of the smaller extent, all of it is expected,
-/// and in proportion before: few points of a heap bear much more than the others.
+/// Where a load has pressed shapes into each other by this share of the smaller extent, all of it is
+/// expected, and in proportion before: few points of a heap bear much more than the others.
 inline constexpr double kExpectedOverlap = 0.002;
 /// What is expected follows in a step by this share of the difference. Heaps of 100 rows swing from 0.03 on,
 /// of 20 from 0.5.

@@ -136,6 +136,9 @@ void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
     if (count > 0) ++block;
   }
   island.joint_rows = static_cast<int>(rows.size());
+  // Contacts of what is jointed stay with the sweeps, as friction and the joints' limits do, which press
+  // against them: between two solvers impulses that cancel would grow without end.
+  if (island.joint_rows > 0) island.contacts.clear();
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
@@ -271,7 +274,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
       load_links(w, island, joints.h);
       damp_links(w, island);
       island.system.factorise(w.motion.data());
-      close_gaps(w, island);
+      close_gaps(w, island, joints.h);
     }
     bool found = island.system.find(w.motion.data());
     if (push && found && add_missing_loads(w, island, joints.h)) {

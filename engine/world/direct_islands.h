@@ -3,7 +3,7 @@
 #include "engine/solve/soft_contacts.h"
 #include "engine/world/world_data.h"
 
-/// Small islands are solved directly, besides the sweeps, and with Solver::Direct all that joints tie
+/// Small islands are solved directly, besides the sweeps: contacts, or joints; with Solver::Direct all that joints tie
 /// together: towers, heavy loads on light things, chains with a heavy tip hold as well as a single contact
 /// does. What is too large for that has the sweeps alone.
 namespace plumb {

@@ -5,6 +5,7 @@
 
 #include "engine/math/small_turn.h"
 #include "engine/world/constants.h"
+#include "engine/world/link_inertia.h"
 
 namespace plumb {
 namespace {
@@ -58,17 +59,24 @@ void pull_gaps(WorldData<Real>& w, DirectIsland<Real>& island, const JointStep<R
 }
 
 template <class Real>
-void close_gaps(WorldData<Real>& w, DirectIsland<Real>& island) {
+void close_gaps(WorldData<Real>& w, DirectIsland<Real>& island, Real h) {
   constexpr int kTries = 3;
   constexpr Real kShare = Real(tuning::kLinkShare);
   if (!island.jerks) return;
-  island.system.correct();
+  bool found = island.system.correct(), held = false;
   find_changes(w, island);
-  for (int i = 0; i < kTries && hold_back(w, island); ++i) {
+  for (int i = 0; found && i < kTries && hold_back(w, island); ++i) {
+    held = true;
     island.system.factorise(w.motion.data());
-    island.system.correct();
+    found = island.system.correct();
     find_changes(w, island);
   }
+  if (held) {
+    // Held back they were moved, not driven: to velocities, which they keep, that inertia would be a blow.
+    load_links(w, island, h);
+    island.system.factorise(w.motion.data());
+  }
+  if (!found) return;
   for (const LinkBody<Real>& link : island.links) {
     BodyMotion<Real>& motion = w.motion[link.body];
     const BodyRecord<Real>& record = w.bodies[link.body];
@@ -81,7 +89,7 @@ void close_gaps(WorldData<Real>& w, DirectIsland<Real>& island) {
 
 #define PLUMB_FOR(Real)                                                                   \
   template void pull_gaps(WorldData<Real>&, DirectIsland<Real>&, const JointStep<Real>&); \
-  template void close_gaps(WorldData<Real>&, DirectIsland<Real>&);
+  template void close_gaps(WorldData<Real>&, DirectIsland<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

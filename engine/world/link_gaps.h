@@ -13,7 +13,8 @@ template <class Real>
 void pull_gaps(WorldData<Real>& w, DirectIsland<Real>& island, const JointStep<Real>& step);
 
 /// After the motion, with the rows factorised where bodies are: moves bodies where `pull_gaps` did not pull.
+/// `h` is the substep, s.
 template <class Real>
-void close_gaps(WorldData<Real>& w, DirectIsland<Real>& island);
+void close_gaps(WorldData<Real>& w, DirectIsland<Real>& island, Real h);
 
 }  // namespace plumb
