@@ -3,9 +3,9 @@
 #include "engine/solve/soft_contacts.h"
 #include "engine/world/world_data.h"
 
-/// Small islands are solved directly, besides the sweeps: contacts, or joints; with Solver::Direct all that joints tie
-/// together: towers, heavy loads on light things, chains with a heavy tip hold as well as a single contact
-/// does. What is too large for that has the sweeps alone.
+/// Small islands are solved directly, besides the sweeps: contacts, or joints; with Solver::Direct all that
+/// joints tie together: towers, heavy loads on light things, chains with a heavy tip hold as well as a single
+/// contact does. What is too large for that has the sweeps alone.
 namespace plumb {
 
 /// Finds them and factorises their systems, at the start of a step.
