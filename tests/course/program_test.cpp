@@ -90,10 +90,9 @@ void expect_starter(const std::vector<std::string>& command) {
 
 TEST(Starters, Python) { expect_starter({"python3", PLUMB_STARTERS "/ball.py"}); }
 TEST(Starters, Cpp) { expect_starter({PLUMB_STARTER_CPP}); }
-TEST(Starters, JavaScript) {
-  if (std::string(PLUMB_NODE).empty()) GTEST_SKIP() << "node is not installed (apt-get install nodejs)";
-  expect_starter({PLUMB_NODE, PLUMB_STARTERS "/ball.js"});
-}
+#ifdef PLUMB_NODE
+TEST(Starters, JavaScript) { expect_starter({PLUMB_NODE, PLUMB_STARTERS "/ball.js"}); }
+#endif
 
 // What docs/protocol.md says is enough for chapters 1 to 3.
 TEST(Starters, AnEngineWrittenFromTheProtocolPassesThreeChapters) {

@@ -17,7 +17,7 @@ target_compile_definitions(test_course PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plum
   PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   PLUMB_STUDENT="$<TARGET_FILE:plumb_course_student>" PLUMB_STARTER_CPP="$<TARGET_FILE:plumb_course_starter>"
   PLUMB_STARTERS="${starters}" PLUMB_CIRCLES="${CMAKE_CURRENT_SOURCE_DIR}/course/circles.py"
-  PLUMB_NODE="$<IF:$<BOOL:${PLUMB_NODE}>,${PLUMB_NODE},>")
+  $<$<BOOL:${PLUMB_NODE}>:PLUMB_NODE="${PLUMB_NODE}">)
 
 set(check ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/check_pages.py)
 add_test(NAME course/pages COMMAND ${check} ${PROJECT_SOURCE_DIR})
