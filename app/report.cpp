@@ -15,7 +15,7 @@ namespace plumb::app {
 namespace {
 
 struct Options {
-  std::string folder = "results", out;
+  std::string folder = "results", out, picture;
 };
 
 int start(const Options& options) {
@@ -27,6 +27,10 @@ int start(const Options& options) {
     return kInterrupted;
   }
   print(fmt::format("the report is in {}\n", out));
+  if (!options.picture.empty()) {
+    harness::report::write_extremes_picture(options.folder, options.picture);
+    print(fmt::format("the picture is in {}\n", options.picture));
+  }
   flush();
   return kOk;
 }
@@ -40,11 +44,18 @@ void add_report(CLI::App& app, Action& chosen) {
   command
       ->add_option(
           "results", options->folder,
-          "a folder that `plumb compare` or `plumb sweep` wrote, or a results.jsonl (default results)")
+          "a folder that `plumb compare`, `sweep`, `stress` or `thresholds` wrote, or a results.jsonl "
+          "(default results)")
       ->type_name("DIR");
   command->add_option("--out", options->out, "the file to write (default DIR/report.html)")
       ->type_name("FILE");
-  command->footer("Examples:\n  plumb report\n  plumb report sweep --out trade.html");
+  command
+      ->add_option("--picture", options->picture,
+                   "also draw which engine survives which family of `plumb stress`, as SVG")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n  plumb report\n  plumb report sweep --out trade.html\n"
+      "  plumb report stress --picture stress.svg");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }
 

@@ -14,8 +14,9 @@ struct EnvironmentUse {
   int runs = 0;
 };
 
-/// The different environments of a results.jsonl, in the order in which they first appear; dates apart.
-/// Lines that cannot be read are passed over: reading the results themselves says what is wrong with them.
+/// The different environments of a folder's results.jsonl, stress.jsonl and thresholds.jsonl, or of one file,
+/// in the order in which they first appear; dates apart. Lines that cannot be read are passed over: reading
+/// the results themselves says what is wrong with them.
 std::vector<EnvironmentUse> read_environments(const std::string& folder_or_file);
 
 }  // namespace plumb::harness::report

@@ -7,6 +7,7 @@
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
 #include "harness/report/environments.h"
+#include "harness/report/extremes.h"
 #include "harness/report/replay.h"
 #include "harness/report/report_data.h"
 #include "harness/report/whole_file.h"
@@ -30,16 +31,30 @@ std::string default_report_path(const std::string& folder_or_file) {
 
 bool write_report(const std::string& folder_or_file, const std::string& out,
                   std::span<const reference::Backend* const> engines) {
-  const std::vector<Result> rows = sweep::read_rows(folder_or_file);
-  if (rows.empty())
-    throw Error(Error::Kind::Value, fmt::format("'{}'", folder_or_file), "", "",
-                "has no results: `plumb compare --out DIR` or `plumb sweep --out DIR` writes some");
+  std::error_code code;
+  const bool is_folder = std::filesystem::is_directory(folder_or_file, code);
+  const Extremes extremes = is_folder ? read_extremes(folder_or_file) : Extremes{};
+  std::vector<Result> rows;
+  if (extremes.empty() || sweep::holds_rows(folder_or_file)) rows = sweep::read_rows(folder_or_file);
+  if (rows.empty() && extremes.empty())
+    throw Error(
+        Error::Kind::Value, fmt::format("'{}'", folder_or_file), "", "",
+        "has no results: `plumb compare --out DIR`, `plumb sweep --out DIR` or `plumb stress --out DIR` "
+        "writes some");
   const std::string title = std::filesystem::weakly_canonical(folder_or_file).filename().string();
   const auto replays = replays_of(rows, engines, folder_of(folder_or_file).string());
   if (interrupted()) return false;
-  const std::string data = report_data(title, rows, read_environments(folder_or_file), replays);
+  const std::string data = report_data(title, rows, read_environments(folder_or_file), replays, extremes);
   write_whole(out, report_page(title, data));
   return true;
+}
+
+void write_extremes_picture(const std::string& folder, const std::string& out) {
+  const Extremes extremes = read_extremes(folder);
+  if (extremes.cells.empty())
+    throw Error(Error::Kind::Value, fmt::format("'{}'", folder), "", "",
+                "has no stress.jsonl: `plumb stress --out DIR` writes one");
+  write_whole(out, extremes_picture(extremes.cells));
 }
 
 }  // namespace plumb::harness::report

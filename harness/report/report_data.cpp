@@ -150,7 +150,7 @@ Json scene_json(std::span<const Result> rows, const std::map<std::string, std::s
 
 std::string report_data(const std::string& title, std::span<const Result> rows,
                         const std::vector<EnvironmentUse>& environments,
-                        const std::map<std::string, std::string>& replays) {
+                        const std::map<std::string, std::string>& replays, const Extremes& extremes) {
   Json json{{"title", title}, {"engines", sweep::engines_of(rows)}};
   json["metrics"] = Json::object();
   for (const MetricField& field : kMetricFields) json["metrics"][std::string(field.name)] = field.unit;
@@ -161,6 +161,7 @@ std::string report_data(const std::string& title, std::span<const Result> rows,
   json["scenes"] = Json::array();
   for (const std::vector<Result>& scene : sweep::by_label(rows))
     json["scenes"].push_back(scene_json(scene, replays));
+  json["extremes"] = Json::parse(extremes_data(extremes));
   // A "<" stands only within strings, where this means the same.
   std::string out;
   for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/report/environments.h"
+#include "harness/report/extremes.h"
 #include "harness/result.h"
 
 namespace plumb::harness::report {
@@ -14,7 +15,7 @@ namespace plumb::harness::report {
 /// `replays`: JSON by `sweep::key_of`.
 std::string report_data(const std::string& title, std::span<const Result> rows,
                         const std::vector<EnvironmentUse>& environments,
-                        const std::map<std::string, std::string>& replays);
+                        const std::map<std::string, std::string>& replays, const Extremes& extremes = {});
 
 /// The page around it: one HTML file that asks for nothing else.
 std::string report_page(const std::string& title, const std::string& data);

@@ -1,26 +1,9 @@
 #include "harness/report/report_data.h"
 
+#include "harness/report/markup.h"
 #include "harness/report/page_parts.h"
 
 namespace plumb::harness::report {
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string report_page(const std::string& title, const std::string& data) {
   std::string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
@@ -29,7 +12,9 @@ std::string report_page(const std::string& title, const std::string& data) {
          "</style>\n</head>\n<body>\n";
   out += kBody;
   out += "<script type=\"application/json\" id=\"data\">" + data + "</script>\n";
-  out += "<script>\n(() => {\n\"use strict\";\n";
+  out += "<script>\n";
+  for (const std::string_view piece : kLibrary) out += piece;
+  out += "</script>\n<script>\n(() => {\n\"use strict\";\n";
   for (const std::string_view script : kScripts) out += script;
   return out + "})();\n</script>\n</body>\n</html>\n";
 }

@@ -180,7 +180,14 @@ class ProcessBackend final : public Backend {
   Method method(const StepSettings& settings) const override {
     const protocol::Hello& hello = checked(settings);
     Method out = hello.method;
-    out.substep = settings.dt / settings.substeps.value_or(hello.substeps);
+    int substeps = hello.substeps;
+    for (const protocol::OptionMethod& each : hello.methods) {
+      const auto chosen = settings.options.find(each.option);
+      if (chosen == settings.options.end() || chosen->second != each.value) continue;
+      out = each.method;
+      substeps = each.substeps;
+    }
+    out.substep = settings.dt / settings.substeps.value_or(substeps);
     return out;
   }
 

@@ -79,16 +79,32 @@ Method method_from_json(const Json& message) {
   return out;
 }
 
+int substeps_from_json(const Json& method) {
+  const int out = member<int>(method, "substeps", 1);
+  if (out < 1) throw Malformed("its \"substeps\" is " + std::to_string(out));
+  return out;
+}
+
+Json method_json(const Method& method, int substeps) {
+  Json out;
+  for (const auto& [value, name] : kSchemes) {
+    if (value == method.scheme) out["scheme"] = name;
+  }
+  out["order"] = method.order;
+  out["epsilon"] = method.epsilon;
+  out["substeps"] = substeps;
+  return out;
+}
+
 }  // namespace
 
 Json to_json(const Hello& hello) {
-  Json method;
-  for (const auto& [value, name] : kSchemes) {
-    if (value == hello.method.scheme) method["scheme"] = name;
+  Json methods = Json::array();
+  for (const OptionMethod& each : hello.methods) {
+    methods.push_back({{"option", each.option},
+                       {"value", each.value},
+                       {"method", method_json(each.method, each.substeps)}});
   }
-  method["order"] = hello.method.order;
-  method["epsilon"] = hello.method.epsilon;
-  method["substeps"] = hello.substeps;
   Json options = Json::array();
   for (const Option& option : hello.options) {
     options.push_back({{"name", option.name}, {"fallback", option.fallback}, {"help", option.help}});
@@ -96,10 +112,19 @@ Json to_json(const Hello& hello) {
   Json knobs = Json::array();
   for (const Knob& knob : hello.knobs)
     knobs.push_back({{"name", knob.name}, {"values", knob.values}, {"ordered", knob.ordered}});
-  return {{"protocol", kVersion},         {"name", hello.name},       {"version", hello.version},
-          {"precision", hello.precision}, {"summary", hello.summary}, {"method", method},
-          {"shapes", hello.shapes},       {"joints", hello.joints},   {"forces", hello.forces},
-          {"features", hello.features},   {"options", options},       {"knobs", knobs}};
+  return {{"protocol", kVersion},
+          {"name", hello.name},
+          {"version", hello.version},
+          {"precision", hello.precision},
+          {"summary", hello.summary},
+          {"method", method_json(hello.method, hello.substeps)},
+          {"methods", methods},
+          {"shapes", hello.shapes},
+          {"joints", hello.joints},
+          {"forces", hello.forces},
+          {"features", hello.features},
+          {"options", options},
+          {"knobs", knobs}};
 }
 
 Hello hello_from_json(const Json& message) {
@@ -118,8 +143,12 @@ Hello hello_from_json(const Json& message) {
   out.summary = member<std::string>(message, "summary", "");
   const Json method = member<Json>(message, "method");
   out.method = method_from_json(method);
-  out.substeps = member<int>(method, "substeps", 1);
-  if (out.substeps < 1) throw Malformed("its \"substeps\" is " + std::to_string(out.substeps));
+  out.substeps = substeps_from_json(method);
+  for (const Json& each : member<Json>(message, "methods", Json::array())) {
+    const Json chosen = member<Json>(each, "method");
+    out.methods.push_back({member<std::string>(each, "option"), as_text(member<Json>(each, "value")),
+                           method_from_json(chosen), substeps_from_json(chosen)});
+  }
   using Names = std::vector<std::string>;
   out.shapes = member<Names>(message, "shapes");
   out.joints = member<Names>(message, "joints", Names{});

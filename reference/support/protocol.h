@@ -18,11 +18,19 @@ inline constexpr int kVersion = 1;
 /// The kind of an error that stands for a state that is not finite.
 inline constexpr const char* kDiverged = "diverged";
 
+/// How an engine steps while one of its options has this value.
+struct OptionMethod {
+  std::string option, value;
+  Method method;
+  int substeps = 1;
+};
+
 /// What an engine says about itself in answer to "hello".
 struct Hello {
   std::string name, version, precision, summary;
   Method method;
-  int substeps = 1;  ///< that it makes of a step when none are asked for
+  int substeps = 1;                     ///< that it makes of a step when none are asked for
+  std::vector<OptionMethod> methods{};  ///< where an option changes them
   std::vector<std::string> shapes, joints, forces, features;
   std::vector<Option> options;
   std::vector<Knob> knobs{};

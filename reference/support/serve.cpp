@@ -86,15 +86,15 @@ class Server {
 
  private:
   void hello() {
-    const StepSettings unit{.dt = 1};
     const Identity identity = backend_.identity();
     protocol::Hello out;
     out.name = backend_.name();
     out.version = identity.version;
     out.precision = identity.precision;
     out.summary = backend_.summary();
-    out.method = backend_.method(unit);
-    out.substeps = static_cast<int>(std::lround(unit.dt / out.method.substep));
+    out.method = backend_.method({.dt = 1});
+    out.substeps = substeps_of(out.method);
+    out.methods = methods_by_option(out.method);
     // What a scene can hold; the backend's own `unsupported` decides scene by scene.
     out.shapes.assign(kGeometryNames.begin(), kGeometryNames.end());
     out.joints.assign(kJointNames.begin(), kJointNames.end());
@@ -103,6 +103,25 @@ class Server {
     out.options = backend_.options();
     out.knobs = backend_.knobs();
     output_.answer(protocol::to_json(out));
+  }
+
+  /// Of a step of 1 s.
+  static int substeps_of(const Method& method) { return static_cast<int>(std::lround(1 / method.substep)); }
+
+  /// The options' values that a sweep tries and that change the method.
+  std::vector<protocol::OptionMethod> methods_by_option(const Method& plain) const {
+    std::vector<protocol::OptionMethod> out;
+    for (const Knob& knob : backend_.knobs()) {
+      if (knob.name == "substeps" || knob.name == "tolerance") continue;
+      for (const std::string& value : knob.values) {
+        const Method method = backend_.method({.dt = 1, .options = {{knob.name, value}}});
+        if (method.scheme != plain.scheme || method.order != plain.order || method.epsilon != plain.epsilon ||
+            method.substep != plain.substep) {
+          out.push_back({knob.name, value, method, substeps_of(method)});
+        }
+      }
+    }
+    return out;
   }
 
   void load(const Json& message) {

@@ -1,162 +1,207 @@
-// One kind of chart: marks and lines over two axes, either of them logarithmic; what is under the pointer is told.
-// On a phone fewer units are as wide as the screen, so that text stays readable.
-const kNarrow = Math.min(innerWidth, screen.width) < 600;
-const kWidth = kNarrow ? 340 : 480, kHeight = kNarrow ? 260 : 300, kLeft = 62, kRight = 12, kTop = 8, kBottom = 42;
+// Charts by Chart.js: marks and lines over two axes, either of them logarithmic; what is under the pointer is told.
 
-/// From the values to a position between 0 and 1, with the axis's ticks: [{at, text}].
-function axisOf(values, log) {
-  const finite = values.filter((value) => Number.isFinite(value) && (!log || value > 0));
-  if (finite.length === 0) return null;
-  const change = log ? Math.log10 : (value) => value;
-  let low = Infinity, high = -Infinity;
-  for (const value of finite) { low = Math.min(low, change(value)); high = Math.max(high, change(value)); }
-  if (high - low < (log ? 1 : 1e-12)) { const middle = (low + high) / 2; low = middle - 0.5; high = middle + 0.5; }
-  const edge = log ? 0.06 * (high - low) : 0;
-  low -= edge;
-  high += edge;
-  const ticks = [];
-  if (log && high - low < 2) {
+/// The colours of the page by name; `paper`: those of the light page.
+function coloursOf(paper) {
+  const probe = make("div", {class: paper ? "paper" : undefined});
+  document.body.append(probe);
+  const style = getComputedStyle(probe);
+  const out = Object.fromEntries(["panel", "ink", "soft", "line", "grid"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  probe.remove();
+  return out;
+}
+
+// What is drawn in the page's colours is drawn again when these change, and for the printer.
+const kPainted = [];
+function painted(paint) {
+  kPainted.push(paint);
+  paint(coloursOf(false));
+}
+const paintAll = (paper) => { const colours = coloursOf(paper); for (const paint of kPainted) paint(colours, paper); };
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => paintAll(false));
+addEventListener("beforeprint", () => paintAll(true));
+addEventListener("afterprint", () => paintAll(false));
+
+const powerText = (power) => (power === 0 ? "1" : `10${raised(Math.round(power))}`);
+
+/// Where a logarithmic axis has ticks, between two powers of ten: [{value, text}].
+function logTicks(low, high) {
+  const out = [];
+  if (high - low < 2) {
     for (let power = Math.floor(low); power <= high; ++power)
       for (const lead of high - low < 1.2 ? [1, 2, 5] : [1, 3]) {
         const at = power + Math.log10(lead);
         const text = Math.abs(power) < 5 ? String(Number((lead * 10 ** power).toPrecision(1))) :
           lead === 1 ? powerText(power) : `${lead}\u00b7${powerText(power)}`;
-        if (at >= low && at <= high) ticks.push({at: (at - low) / (high - low), text});
+        if (at >= low && at <= high) out.push({value: 10 ** at, text});
       }
-    return {place: (value) => (change(value) - low) / (high - low), ticks};
+    return out;
   }
-  const step = log ? Math.max(1, Math.ceil((high - low) / 7)) : niceStep((high - low) / 6);
-  for (let at = Math.ceil(low / step) * step; at <= high + 1e-9 * step; at += step)
-    ticks.push({at: (at - low) / (high - low), text: log ? powerText(at) : String(Number(at.toPrecision(6)))});
-  return {place: (value) => (change(value) - low) / (high - low), ticks};
-}
-const powerText = (power) => (power === 0 ? "1" : `10${raised(Math.round(power))}`);
-function niceStep(least) {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return power * [1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-9));
+  const step = Math.max(1, Math.ceil((high - low) / 7));
+  for (let power = Math.ceil(low / step) * step; power <= high; power += step) out.push({value: 10 ** power, text: powerText(power)});
+  return out;
 }
 
-function axes(svg, x, y, options) {
-  const right = kWidth - kRight, bottom = kHeight - kBottom;
-  for (const {at, text} of x.ticks) {
-    const place = kLeft + at * (right - kLeft);
-    svg.append(makeSvg("line", {class: "grid-line", x1: place, x2: place, y1: kTop, y2: bottom}),
-      makeSvg("text", {x: place, y: bottom + 16, "text-anchor": "middle", text}));
+/// An axis of Chart.js around the values. `say`: a logarithmic axis's ticks as text.
+function axisOf(values, log, title, colours, say = null) {
+  const text = {display: Boolean(title), text: title, color: colours.soft};
+  const grid = {color: colours.grid, borderColor: colours.line, tickLength: 5};
+  const ticks = {color: colours.soft, maxRotation: 0};
+  if (!log) {
+    const [min, max] = [Math.min(...values), Math.max(...values)];
+    return {type: "linear", min, max, title: text, grid, ticks: {...ticks, includeBounds: false, maxTicksLimit: 8,
+      callback: (value) => String(Number(value.toPrecision(6)))}};
   }
-  for (const {at, text} of y.ticks) {
-    const place = bottom - at * (bottom - kTop);
-    svg.append(makeSvg("line", {class: "grid-line", x1: kLeft, x2: right, y1: place, y2: place}),
-      makeSvg("text", {x: kLeft - 6, y: place + 4, "text-anchor": "end", text}));
-  }
-  svg.append(makeSvg("rect", {class: "frame", x: kLeft, y: kTop, width: right - kLeft, height: bottom - kTop}),
-    makeSvg("text", {x: (kLeft + right) / 2, y: kHeight - 6, "text-anchor": "middle", text: options.x}),
-    makeSvg("text", {transform: `translate(13 ${(kTop + bottom) / 2}) rotate(-90)`, "text-anchor": "middle",
-      text: options.y}));
+  let [low, high] = [Math.log10(Math.min(...values)), Math.log10(Math.max(...values))];
+  if (high - low < 1) [low, high] = [(low + high) / 2 - 0.5, (low + high) / 2 + 0.5];
+  const edge = 0.06 * (high - low), marks = logTicks(low - edge, high + edge);
+  return {type: "logarithmic", min: 10 ** (low - edge), max: 10 ** (high + edge), title: text, grid,
+    afterBuildTicks: (axis) => { axis.ticks = marks.map(({value}) => ({value})); },
+    ticks: {...ticks, autoSkip: false, callback: (value, i) => (say ? say(value) : marks[i].text)}};
 }
 
-/// `series`: [{engine, points: [{x, y, text}], line: points or null, marks}]. `options`: {title, note, x, y, logX, logY}.
-/// Gives {element, draw(hidden)}.
-function chart(options, series, look) {
-  const svg = makeSvg("svg", {viewBox: `0 0 ${kWidth} ${kHeight}`, role: "img", "aria-label": options.title});
-  const element = make("figure", {class: "chart", "data-chart": options.name},
-    make("figcaption", {text: options.title + " "}, make("span", {text: options.note ?? ""})), svg);
-  const all = series.flatMap((one) => one.points);
-  let shown = [];
-  const draw = (hidden) => {
-    svg.replaceChildren();
-    shown = [];
-    const seen = series.filter((one) => !hidden.has(one.engine));
-    const of = (points, key) => points.map((point) => point[key]);
-    const points = seen.length ? seen.flatMap((one) => one.points) : all;
-    const x = axisOf(of(points, "x"), options.logX), y = axisOf(of(points, "y"), options.logY);
-    if (!x || !y) return;
-    axes(svg, x, y, options);
-    const right = kWidth - kRight, bottom = kHeight - kBottom;
-    const place = (point) => ({x: kLeft + x.place(point.x) * (right - kLeft),
-      y: bottom - y.place(point.y) * (bottom - kTop)});
-    for (const one of seen) {
-      const style = look.get(one.engine);
-      const path = one.line.map((point) => { const at = place(point); return `${at.x.toFixed(1)} ${at.y.toFixed(1)}`; });
-      if (path.length > 1)
-        svg.append(makeSvg("path", {d: `M${path.join("L")}`, fill: "none", stroke: style.colour, "stroke-width": 1.8,
-          "stroke-dasharray": style.dash, "stroke-linejoin": "round"}));
-      one.points.forEach((point, i) => {
-        const at = place(point);
-        shown.push({...at, text: point.text, engine: one.engine});
-        if (one.every === undefined || i % one.every === one.offset) svg.append(markOf(style, at.x, at.y, one.every ? 4 : 5));
-      });
-    }
-  };
-  hover(svg, () => shown);
-  return {element, draw, empty: axisOf(all.map((p) => p.x), options.logX) === null ||
-    axisOf(all.map((p) => p.y), options.logY) === null};
+const tip = document.getElementById("tip");
+const untell = () => { tip.hidden = true; };
+addEventListener("scroll", untell, {passive: true});
+
+/// Tells `text` beside a point of the screen.
+function tell(text, x, y) {
+  tip.textContent = text;
+  tip.hidden = false;
+  const size = tip.getBoundingClientRect();
+  tip.style.left = `${Math.max(6, Math.min(x + 12, innerWidth - size.width - 6))}px`;
+  tip.style.top = `${y - size.height - 12 > 4 ? y - size.height - 12 : y + 16}px`;
 }
 
-// What is nearest to the pointer, if near, is told beside it. With the keyboard the arrows go from mark to mark.
-function hover(svg, points) {
-  const tip = document.getElementById("tip");
+// Called by Chart.js when what is under the pointer changes.
+function tellPoint({chart, tooltip}) {
+  const point = tooltip.opacity ? tooltip.dataPoints?.[0] : null;
+  if (!point) return untell();
+  const box = chart.canvas.getBoundingClientRect();
+  tell(`${point.raw.engine}\n${point.raw.text}`, box.x + point.element.x, box.y + point.element.y);
+}
+
+// With the keyboard the arrows go from mark to mark.
+function walk(chart) {
   let chosen = -1;
-  const tell = (best) => {
-    svg.querySelector(".near")?.remove();
-    tip.hidden = !best;
-    if (!best) return;
-    svg.append(makeSvg("circle", {class: "near", cx: best.x, cy: best.y, r: 9, fill: "none", stroke: "var(--ink)"}));
-    tip.textContent = `${best.engine}\n${best.text}`;
-    const box = svg.getBoundingClientRect(), size = tip.getBoundingClientRect(), scale = box.width / kWidth;
-    const [x, y] = [box.x + best.x * scale, box.y + best.y * scale];
-    tip.style.left = `${Math.max(6, Math.min(x + 12, innerWidth - size.width - 6))}px`;
-    tip.style.top = `${y - size.height - 12 > 4 ? y - size.height - 12 : y + 16}px`;
+  const choose = (elements) => {
+    if (!chart.canvas) return;  // taken away while it had the focus
+    const point = elements.length ? chart.getDatasetMeta(elements[0].datasetIndex).data[elements[0].index] : {x: 0, y: 0};
+    chart.setActiveElements(elements);
+    chart.tooltip.setActiveElements(elements, {x: point.x, y: point.y});
+    chart.update("none");
   };
-  const point = (event) => {
-    const box = svg.getBoundingClientRect(), scale = box.width / kWidth;
-    let best = null, least = Math.max(12, 22 / scale);
-    for (const one of points()) {
-      const distance = Math.hypot(one.x - (event.clientX - box.x) / scale, one.y - (event.clientY - box.y) / scale);
-      if (distance < least) [best, least] = [one, distance];
-    }
-    tell(best);
-  };
-  svg.setAttribute("tabindex", "0");
-  svg.addEventListener("pointermove", point);
-  svg.addEventListener("pointerdown", point);
-  svg.addEventListener("pointerleave", () => tell(null));
-  svg.addEventListener("blur", () => tell(null));
-  svg.addEventListener("keydown", (event) => {
-    const way = {ArrowRight: 1, ArrowLeft: -1}[event.key], all = points();
-    if (event.key === "Escape") tell(null);
-    if (!way || all.length === 0) return;
+  chart.canvas.addEventListener("keydown", (event) => {
+    const way = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+    if (event.key === "Escape") choose([]);
+    if (!way) return;
+    const all = chart.data.datasets.flatMap((set, datasetIndex) => (set.told ? set.data.map((_, index) => ({datasetIndex, index})) : []));
+    if (all.length === 0) return;
     event.preventDefault();
     chosen = (chosen + way + all.length) % all.length;
-    tell(all[chosen]);
+    choose([all[chosen]]);
   });
+  chart.canvas.addEventListener("blur", () => { chosen = -1; choose([]); });
 }
 
-/// Bars with the middle half of the repetitions as whiskers, on a logarithmic scale.
-function bars(options, rows, look) {
-  const element = make("figure", {class: "chart", "data-chart": options.name},
-    make("figcaption", {text: options.title + " "}, make("span", {text: options.note})));
-  const scale = axisOf(rows.flatMap((row) => [row.low, row.value, row.high]), true);
-  let svg = null;
-  const draw = (hidden) => {
-    const seen = rows.filter((row) => !hidden.has(row.engine));
-    const height = 26 * seen.length + 24, left = kNarrow ? 124 : 130;
-    const place = (value) => left + scale.place(value) * (kWidth - left - 70);
-    svg?.remove();
-    svg = makeSvg("svg", {viewBox: `0 0 ${kWidth} ${height}`, role: "img", "aria-label": options.title});
-    for (const {at, text} of scale?.ticks ?? []) {
-      const x = left + at * (kWidth - left - 70);
-      svg.append(makeSvg("line", {class: "grid-line", x1: x, x2: x, y1: 0, y2: height - 20}),
-        makeSvg("text", {x, y: height - 4, "text-anchor": "middle", text}));
-    }
-    seen.forEach((row, i) => {
-      const y = 26 * i + 13, style = look.get(row.engine);
-      svg.append(makeSvg("text", {x: left - 8, y: y + 4, "text-anchor": "end", text: row.engine}),
-        makeSvg("line", {x1: place(row.low), x2: place(row.high), y1: y, y2: y, stroke: style.colour, "stroke-width": 3}),
-        markOf(style, place(row.value), y),
-        makeSvg("text", {x: Math.max(place(row.high), place(row.value)) + 10, y: y + 4, text: duration(row.value)}));
-    });
-    hover(svg, () => seen.map((row, i) => ({x: place(row.value), y: 26 * i + 13, text: row.text, engine: row.engine})));
-    element.append(svg);
+// A canvas is there only while it is near the screen: phones have no memory for hundreds.
+const kNear = new IntersectionObserver((entries) => {
+  for (const {target, isIntersecting} of entries) target.comeNear(isIntersecting);
+}, {rootMargin: "600px"});
+
+/// A figure with a chart. `configure(hidden, colours)` gives what Chart.js draws, `inWords(hidden)` what it says.
+/// Gives {element, draw(hidden)}.
+function plot({name, title, note}, height, configure, inWords) {
+  const box = make("div", {class: "plot"});
+  const element = make("figure", {class: "chart", "data-chart": name}, make("figcaption", {text: `${title} `}, make("span", {text: note ?? ""})), box);
+  let drawn = null, near = false, shown = new Set(), colours = null, ratio = 1;
+  const drop = () => {
+    drawn?.destroy();
+    drawn = null;
+    box.replaceChildren();
   };
-  return {element, draw, empty: rows.length === 0};
+  const show = () => {
+    drop();
+    const canvas = make("canvas", {role: "img", tabindex: 0, "aria-label": `${title}. ${inWords(shown)}`});
+    box.style.height = `${height(shown)}px`;
+    box.append(canvas);
+    const {type, data, options} = configure(shown, colours);
+    drawn = new Chart(canvas, {type, data, options: {...options, animation: false, maintainAspectRatio: false,
+      devicePixelRatio: ratio, interaction: {mode: "nearest", intersect: true},
+      font: {family: "system-ui, sans-serif"},
+      plugins: {legend: {display: false}, tooltip: {enabled: false, external: tellPoint}}}});
+    walk(drawn);
+  };
+  box.comeNear = (now) => {
+    near = now;
+    near ? show() : drop();
+  };
+  painted((now, paper) => {
+    colours = now;
+    ratio = paper ? 3 : Math.min(devicePixelRatio, 2);
+    (paper ? box.offsetParent : near) ? show() : drop();
+  });
+  const draw = (hidden) => {
+    shown = new Set(hidden);
+    box.style.height = `${height(shown)}px`;
+    if (drawn) show();
+  };
+  kNear.observe(box);
+  return {element, draw};
+}
+
+/// How Chart.js draws an engine's marks.
+const markStyle = (style, colours) => ({pointStyle: style.mark, rotation: style.turn, borderColor: style.colour,
+  backgroundColor: style.filled ? style.colour : colours.panel, pointBorderWidth: 1.6, hoverRadius: 8, hoverBorderWidth: 2.5});
+
+/// `series`: [{engine, points: [{x, y, text}], line: points, every, offset: which points have marks}].
+/// `options`: {name, title, note, x, y, logX, logY}. Gives {element, draw(hidden), empty}.
+function chart(options, series, look) {
+  const drawable = (point) => Number.isFinite(point.x) && Number.isFinite(point.y) && (!options.logX || point.x > 0) && (!options.logY || point.y > 0);
+  const all = series.map((one) => ({...one, line: one.line.filter(drawable),
+    points: one.points.filter(drawable).map((point) => ({...point, engine: one.engine}))})).filter((one) => one.points.length > 0);
+  const seen = (hidden) => all.filter((one) => !hidden.has(one.engine));
+  const configure = (hidden, colours) => {
+    const sets = seen(hidden).flatMap((one) => {
+      const style = look.get(one.engine);
+      const radius = one.points.map((_, i) => (one.every === undefined ? 5 : i % one.every === one.offset ? 4 : 0));
+      return [{type: "scatter", told: true, engine: one.engine, data: one.points, radius, hitRadius: 10, ...markStyle(style, colours)},
+        {type: "line", engine: one.engine, data: one.line, borderColor: style.colour, borderWidth: 1.8, borderDash: style.dash, radius: 0, hitRadius: 0}];
+    });
+    const points = (seen(hidden).length ? seen(hidden) : all).flatMap((one) => one.points);
+    return {type: "scatter", data: {datasets: sets}, options: {scales: {
+      x: axisOf(points.map((point) => point.x), options.logX, options.x, colours),
+      y: axisOf(points.map((point) => point.y), options.logY, options.y, colours)}}};
+  };
+  const ends = ({engine, line, points}) => {
+    const [from, to] = [(line.length ? line : points)[0], (line.length ? line : points).at(-1)];
+    return `${engine}: ${figure(from.y)} at ${figure(from.x)}${from === to ? "" : ` to ${figure(to.y)} at ${figure(to.x)}`}`;
+  };
+  return {...plot(options, () => (kNarrow ? 280 : 300), configure,
+    (hidden) => `${options.y} over ${options.x}. ${seen(hidden).map(ends).join("; ")}.`), empty: all.length === 0};
+}
+
+/// Marks with the middle half of the repetitions as bars, on a logarithmic scale. `rows`: [{engine, value, low, high, text}].
+function bars(options, rows, look) {
+  const seen = (hidden) => rows.filter((row) => !hidden.has(row.engine));
+  const configure = (hidden, colours) => {
+    const some = seen(hidden);
+    const of = (style) => some.map((row) => style(look.get(row.engine)));
+    const marks = {type: "line", told: true, showLine: false, indexAxis: "y", radius: 6, hitRadius: 12,
+      data: some.map((row) => ({x: row.value, y: row.engine, text: row.text, engine: row.engine})), pointStyle: of((style) => style.mark),
+      rotation: of((style) => style.turn), pointBorderColor: of((style) => style.colour), pointBorderWidth: 1.6, hoverRadius: 9,
+      pointBackgroundColor: of((style) => (style.filled ? style.colour : colours.panel))};
+    const spread = {type: "bar", indexAxis: "y", barThickness: 3, backgroundColor: of((style) => style.colour),
+      data: some.map((row) => ({x: [row.low, row.high], y: row.engine, text: row.text, engine: row.engine}))};
+    const labels = some.map((row) => row.engine);
+    const names = {type: "category", labels, offset: true, grid: {display: false, borderColor: colours.line}};
+    return {type: "bar", data: {labels, datasets: [marks, spread]}, options: {indexAxis: "y", scales: {
+      x: axisOf((some.length ? some : rows).flatMap((row) => [row.low, row.value, row.high]), true, "", colours, duration),
+      // Left to itself, the library gives no axis more than a quarter of the width.
+      y: {...names, afterFit: (axis) => { axis.width = Math.max(...labels.map((name) => axis.ctx.measureText(name).width), 0) + 14; },
+        ticks: {color: colours.soft, autoSkip: false}},
+      told: {...names, axis: "y", position: "right", ticks: {color: colours.ink, autoSkip: false,
+        callback: (_, i) => duration(some[i].value)}}}}};
+  };
+  return {...plot(options, (hidden) => 26 * seen(hidden).length + 40, configure,
+    (hidden) => seen(hidden).map((row) => `${row.engine} ${duration(row.value)}`).join(", ")), empty: rows.length === 0};
 }

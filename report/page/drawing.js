@@ -161,6 +161,11 @@ function picture(scene, view, title) {
   return {svg, world, scale, add};
 }
 
+function niceStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * [1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-9));
+}
+
 function scaleBar(view, scale) {
   const length = niceStep(view.width / 6);
   const y = kPicture.height - 10;

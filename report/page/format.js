@@ -1,4 +1,5 @@
 // Numbers and elements as text.
+const kNarrow = Math.min(innerWidth, screen.width) < 600;
 const kSvg = "http://www.w3.org/2000/svg";
 
 /// An element; `attributes` may have "text", and functions are listeners.
@@ -32,6 +33,17 @@ function figure(value) {
   if (power >= -3 && power < 5) return String(Number(value.toPrecision(3)));
   const digits = value.toExponential(1).split("e")[0];
   return `${digits}\u00b710${raised(power)}`;
+}
+/// Four digits: one more than is asked of a threshold.
+function figure4(value) {
+  const power = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+  return power >= -3 && power < 6 ? String(Number(value.toPrecision(4))) : `${Number((value / 10 ** power).toPrecision(4))}\u00b710${raised(power)}`;
+}
+/// A share with its sign.
+function percent(share) {
+  if (share === null || share === undefined) return "\u2013";
+  const size = Math.abs(100 * share);
+  return `${share < 0 ? "\u2212" : "+"}${size < 1e-3 && size > 0 ? figure(size) : String(Number(size.toPrecision(2)))} %`;
 }
 const withUnit = (value, unit) => (unit ? `${figure(value)} ${unit}` : figure(value));
 

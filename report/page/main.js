@@ -14,9 +14,14 @@ function counted() {
       missed += isMissed(row);
       unexpected += row.unexpected.length > 0;
     }
+  const {endurances, thresholds} = data.extremes;
+  const total = (key) => endurances.reduce((sum, row) => sum + row[key], 0);
+  const found = [endurances.length ? `${total("total")} cells of extremes, ${total("survived")} survived.` : "",
+    thresholds.length ? `${thresholds.length} thresholds.` : ""].filter(Boolean);
+  if (data.scenes.length === 0) return found.join(" ");
   const parts = [...counts].map(([status, count]) => `${count} ${status}`);
   return `${data.scenes.length} scenes, ${data.engines.length} engines; runs: ${parts.join(", ")}. ` +
-    `${missed} missed a check; ${unexpected} not as expected.`;
+    [`${missed} missed a check; ${unexpected} not as expected.`, ...found].join(" ");
 }
 
 function goTo(label) {
@@ -102,9 +107,21 @@ function environmentTable() {
   ], data.environments));
 }
 
+function sectionLinks() {
+  for (const section of document.querySelectorAll("main > section:not([hidden])"))
+    document.querySelector("nav").append(make("a", {href: `#${section.id}`, text: section.querySelector("h2").textContent}), " ");
+}
+
 document.getElementById("title").textContent = data.title;
 document.getElementById("counts").textContent = counted();
-document.getElementById("standing-table").append(standingTable());
-exceptionTable();
-sceneList();
+if (data.scenes.length > 0) {
+  document.getElementById("standing-table").append(standingTable());
+  exceptionTable();
+  sceneList();
+} else {
+  document.getElementById("standing").hidden = document.getElementById("scenes").hidden = true;
+}
+showExtremes(data.extremes);
+showThresholds(data.extremes.thresholds);
 environmentTable();
+sectionLinks();

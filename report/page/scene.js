@@ -62,7 +62,7 @@ function costs(scene, look) {
       text: `${duration(cost.step)} a step (quartiles ${duration(cost.low)} to ${duration(cost.high)})\n${asked}`});
   }
   rows.sort((a, b) => a.value - b.value);
-  const note = dt === undefined ? "" : `at dt = ${stepText(dt)} s with each engine's cheapest settings there; ns, logarithmic; ` +
+  const note = dt === undefined ? "" : `at dt = ${stepText(dt)} s with each engine's cheapest settings there; logarithmic; ` +
     "lines: the middle half of the repetitions";
   return bars({name: "costs", title: "Cost of a step", note}, rows, look);
 }

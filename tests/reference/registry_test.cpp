@@ -194,6 +194,14 @@ TEST(Methods, SchemesAndOrders) {
     EXPECT_EQ(find_backend(name).method({}).scheme, Scheme::SemiImplicitEuler) << name;
     EXPECT_EQ(find_backend(name).method({}).order, 1) << name;
   }
+  // Across the process protocol options choose the method too.
+  if (const Backend& multibody = find_backend("bullet-multibody"); multibody.identity().available) {
+    EXPECT_EQ(method("bullet-multibody", "euler").scheme, Scheme::SemiImplicitEuler);
+    EXPECT_EQ(method("bullet-multibody", "rk4").scheme, Scheme::RungeKutta4);
+    EXPECT_EQ(method("bullet-multibody", "rk4").order, 4);
+    EXPECT_EQ(multibody.method({.dt = 0.5, .substeps = 4, .options = {{"integrator", "rk4"}}}).substep,
+              0.125);
+  }
   EXPECT_EQ(testing::epsilon_of(find_backend("bullet-double")), std::numeric_limits<double>::epsilon());
   EXPECT_EQ(testing::epsilon_of(find_backend("plumb-float")), std::numeric_limits<float>::epsilon());
 }

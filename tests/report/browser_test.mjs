@@ -2,7 +2,7 @@
 // With a folder for PICTURES, what was seen is kept there.
 import {strict as assert} from "node:assert";
 import {spawnSync} from "node:child_process";
-import {mkdtempSync, rmSync, writeFileSync} from "node:fs";
+import {copyFileSync, mkdtempSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {Chromium, Page} from "../web/chromium.mjs";
@@ -14,8 +14,14 @@ const made = spawnSync(plumb, ["compare", "elastic_collision/oblique", "pendulum
 assert.equal(made.status, 0, made.stderr);
 assert.match(made.stdout, /the report is in .*report\.html/);
 
+// The maps of extremes are drawn from data that is made up.
+for (const name of ["stress.jsonl", "thresholds.jsonl"]) copyFileSync(new URL(`data/${name}`, import.meta.url), join(folder, name));
+const again = spawnSync(plumb, ["report", folder], {encoding: "utf8"});
+assert.equal(again.status, 0, again.stderr);
+
 const browser = new Chromium(chromium);
 const labels = ["elastic_collision/oblique", "pendulum_chain[2]", "harmonic_oscillator"];
+const kCharts = ["work-precision", "costs", "error", "energy"];
 const scene = (label) => `document.querySelector('details.scene[data-label="${label}"]')`;
 
 async function open(options, name) {
@@ -25,19 +31,23 @@ async function open(options, name) {
   await page.until(`${scene(labels[2])}.querySelector('svg')`);
   if (pictures) {
     writeFileSync(join(pictures, `${name}-top.png`), await page.screenshot());
-    for (const label of labels) {
-      await page.ask(`(${scene(label)}.scrollIntoView(), 0)`);
-      await page.frames(2);
-      writeFileSync(join(pictures, `${name}-${label.replaceAll("/", "-")}.png`), await page.screenshot());
+    const places = [...labels.map((label) => [label.replaceAll("/", "-"), scene(label)]),
+      ...["extremes", "thresholds"].map((id) => [id, `document.getElementById("${id}")`])];
+    for (const [place, element] of places) {
+      await page.ask(`(${element}.scrollIntoView(), 0)`);
+      await page.frames(10);
+      writeFileSync(join(pictures, `${name}-${place}.png`), await page.screenshot());
     }
+    await page.ask("(scrollTo(0, 0), 0)");
   }
   return page;
 }
 
 async function hasAllParts(page) {
   for (const label of labels) {
-    for (const chart of ["set-up", "replay", "work-precision", "costs", "error", "energy"])
-      assert.ok(await page.ask(`Boolean(${scene(label)}.querySelector('[data-chart="${chart}"] svg'))`), `${label} ${chart}`);
+    for (const picture of ["set-up", "replay"])
+      assert.ok(await page.ask(`Boolean(${scene(label)}.querySelector('[data-chart="${picture}"] svg'))`), `${label} ${picture}`);
+    for (const chart of kCharts) assert.ok(await drawn(page, label, chart), `${label} ${chart}`);
     assert.ok(await page.ask(`${scene(label)}.querySelector('[data-part="checks"]').textContent.includes("held")`));
     const rows = await page.ask(`(() => { const runs = ${scene(label)}.querySelector('[data-part="runs"]');
       runs.open = true; return new Promise((done) => setTimeout(() => done(runs.querySelectorAll("tbody tr").length), 100)); })()`);
@@ -58,37 +68,104 @@ async function sorts(page) {
   assert.notDeepEqual(up, down);
 }
 
+const canvas = (label, chart) => `${scene(label)}.querySelector('[data-chart="${chart}"] canvas')`;
+
+/// Scrolls to a chart, which is drawn then, and gives whether it says what it shows and has marks within it.
+async function drawn(page, label, chart) {
+  await page.ask(`(${scene(label)}.querySelector('[data-chart="${chart}"]').scrollIntoView({block: "center"}), 0)`);
+  await page.until(canvas(label, chart));
+  assert.match(await page.ask(`${canvas(label, chart)}.getAttribute("aria-label")`), /plumb/);
+  return page.ask(`(() => { const chart = Chart.getChart(${canvas(label, chart)}), {left, right, top, bottom} = chart.chartArea;
+    return chart.data.datasets.every((set, i) => chart.getDatasetMeta(i).data.every(({x, y}) =>
+      x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1)) && chart.data.datasets.some((set) => set.told && set.data.length > 0); })()`);
+}
+
+const tip = "document.getElementById('tip')";
+
 async function hoverTells(page, label) {
-  const at = await page.ask(`(() => { const svg = ${scene(label)}.querySelector('[data-chart="work-precision"] svg');
-    svg.scrollIntoView({block: "center"});
-    const mark = [...svg.querySelectorAll("path")].find((path) => path.getAttribute("transform")).getBoundingClientRect();
-    return {x: mark.x + mark.width / 2, y: mark.y + mark.height / 2}; })()`);
-  assert.equal(await page.ask("document.getElementById('tip').hidden"), true);
+  await drawn(page, label, "work-precision");
+  const at = await page.ask(`(() => { const canvas = ${canvas(label, "work-precision")}, box = canvas.getBoundingClientRect();
+    const mark = Chart.getChart(canvas).getDatasetMeta(0).data[0]; return {x: box.x + mark.x, y: box.y + mark.y}; })()`);
+  assert.equal(await page.ask(`${tip}.hidden`), true);
   await page.mouse("move", at);
-  await page.until("!document.getElementById('tip').hidden");
-  assert.match(await page.ask("document.getElementById('tip').textContent"), /dt 1\/60/);
+  await page.until(`!${tip}.hidden`);
+  assert.match(await page.ask(`${tip}.textContent`), /dt 1\/60/);
   await page.mouse("move", {x: 2, y: 2});
-  await page.until("document.getElementById('tip').hidden");
+  await page.until(`${tip}.hidden`);
   const tips = [];
-  await page.ask(`(${scene(label)}.querySelector('[data-chart="work-precision"] svg').focus(), 0)`);
+  await page.ask(`(${canvas(label, "work-precision")}.focus(), 0)`);
   for (let i = 0; i < 3; ++i) {
     await page.key("ArrowRight");
-    tips.push(await page.ask("document.getElementById('tip').textContent"));
+    tips.push(await page.ask(`${tip}.textContent`));
   }
   assert.equal(new Set(tips).size, 3, "the arrows go from mark to mark");
   await page.key("Escape");
-  assert.equal(await page.ask("document.getElementById('tip').hidden"), true);
+  assert.equal(await page.ask(`${tip}.hidden`), true);
 }
 
 async function hides(page, label) {
-  const marks = () => page.ask(`${scene(label)}.querySelectorAll('[data-chart="work-precision"] svg path[transform]').length`);
-  const press = () => page.ask(`(${scene(label)}.querySelector('.legend button[data-engine="box2d"], .legend button[data-engine^="bullet"], ` +
-    `.legend button:last-child').click(), 0)`);
-  const before = await marks();
+  await drawn(page, label, "work-precision");
+  const engines = () => page.ask(`Chart.getChart(${canvas(label, "work-precision")}).data.datasets.filter((set) => set.told).map((set) => set.engine)`);
+  const before = await engines(), rival = before.find((engine) => !engine.startsWith("plumb"));
+  const press = () => page.ask(`(${scene(label)}.querySelector('.legend button[data-engine="${rival}"]').click(), 0)`);
   await press();
-  assert.equal(await marks(), before - 1);
+  assert.deepEqual(await engines(), before.filter((engine) => engine !== rival));
   await press();
-  assert.equal(await marks(), before);
+  assert.deepEqual(await engines(), before);
+}
+
+/// A scene that is closed, or far away, has no canvas; on paper all that are open are drawn, dark on white.
+async function prints(page, label) {
+  await page.ask("(scrollTo(0, 0), 0)");
+  await page.until(`!${canvas(labels[1], "costs")} || !${canvas(labels[2], "costs")}`);
+  await page.ask("dispatchEvent(new Event('beforeprint'))");
+  for (const chart of kCharts) {
+    const colour = await page.ask(`Chart.getChart(${canvas(label, chart)}).options.scales.x.ticks.color`);
+    assert.equal(colour, "#5c5c57", "the light page's ink");
+  }
+  await page.ask("dispatchEvent(new Event('afterprint'))");
+}
+
+async function mapsTell(page) {
+  const map = (family) => `document.querySelector('#extremes [data-family="${family}"]')`;
+  const said = await page.ask(`[...${map("mass_ratio_stack")}.querySelectorAll("tbody tr")].map((row) => [row.cells[0].textContent,
+    ...[...row.cells].slice(1).map((cell) => cell.textContent)])`);
+  assert.deepEqual(said.find(([name]) => name === "box2d default"), ["box2d default", "ok", "sinks", "explodes", "NaN"]);
+  assert.deepEqual(said[0], ["plumb-world default", "ok", "ok", "sinks", "sinks"], "plumb's worst comes first");
+  assert.deepEqual(await page.ask(`[...${map("mass_ratio_stack")}.querySelectorAll("thead th")].slice(1).map((cell) => cell.textContent)`),
+    ["1", "1000", "10\u2076", "10\u2079"]);
+  // No two kinds of outcome look alike, and none as the page behind them.
+  const colours = await page.ask(`[...document.querySelectorAll("#extremes .keys b")].map((key) => {
+    const {backgroundColor, boxShadow} = getComputedStyle(key); return backgroundColor + boxShadow; })`);
+  assert.equal(new Set(colours).size, 6);
+  const cell = `${map("stiff_spring")}.querySelector('td[data-outcome="refused"]')`;
+  const at = await page.ask(`(() => { ${cell}.scrollIntoView({block: "center", inline: "center"}); const box = ${cell}.getBoundingClientRect();
+    return {x: box.x + box.width / 2, y: box.y + box.height / 2}; })()`);
+  await page.frames(3);
+  await page.mouse("move", at);
+  await page.until(`!${tip}.hidden`);
+  const text = await page.ask(`${tip}.textContent`);
+  for (const part of ["plumb-world, default: omega dt 10000", "refused: the spring turns faster", "600 steps, 120 ms, 12.3 MB", "substeps 4"])
+    assert.ok(text.includes(part), text);
+  await page.mouse("move", {x: 2, y: 2});
+  await page.until(`${tip}.hidden`);
+  await page.ask(`(${map("bullet")}.querySelector('td[tabindex="0"]').focus(), 0)`);
+  await page.key("ArrowRight");
+  await page.key("ArrowDown");
+  assert.match(await page.ask(`${tip}.textContent`), /^plumb-precise, default: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
+  await page.key("Escape");
+  assert.equal(await page.ask(`${tip}.hidden`), true);
+  assert.match(await page.ask(`${map("all")}.querySelector("tbody tr").textContent`), /^plumb-world default8\/12/);
+  assert.equal(await page.ask(`document.querySelector("#extremes .table tbody tr").cells[2].textContent`), "8 of 12, 66.7 %");
+}
+
+async function thresholdsSort(page) {
+  const rows = () => page.ask(`[...document.querySelectorAll("#thresholds tbody tr")].map((row) => [...row.cells].slice(0, 6).map((cell) => cell.textContent))`);
+  assert.deepEqual((await rows())[0], ["friction on a ramp", "plumb-world", "default", "0.364", "0.364", "+0.0027 %"]);
+  assert.deepEqual((await rows())[1].slice(3), ["0.3711", "0.364", "+2 %"]);
+  assert.equal((await rows()).find(([name, engine]) => name.startsWith("fastest") && engine === "plumb-world")[3], "none that was tried");
+  await page.ask(`([...document.querySelectorAll("#thresholds th button")].find((button) => button.textContent === "off by").click(), 0)`);
+  assert.equal((await rows())[0][1], "box2d");
 }
 
 async function plays(page, label) {
@@ -118,6 +195,9 @@ try {
   await sorts(wide);
   await hoverTells(wide, "harmonic_oscillator");
   await hides(wide, "harmonic_oscillator");
+  await prints(wide, "pendulum_chain[2]");
+  await mapsTell(wide);
+  await thresholdsSort(wide);
   await plays(wide, "elastic_collision/oblique");
   assert.deepEqual(wide.complaints, []);
   await wide.close();
@@ -125,10 +205,12 @@ try {
     [{width: 390, height: 1500, touch: true}, "narrow-light"], [{width: 390, height: 1500, touch: true, dark: true}, "narrow-dark"]]) {
     const page = await open(options, name);
     await hasAllParts(page);
+    await mapsTell(page);
+    if (options.dark) await prints(page, "pendulum_chain[2]");
     assert.deepEqual(page.complaints, []);
     await page.close();
   }
-  console.log("report: all parts, sorting, hover, hiding and replay work, light and dark, wide and narrow");
+  console.log("report: all parts, sorting, hover, hiding, printing, maps and replay work, light and dark, wide and narrow");
 } finally {
   await browser.close();
   rmSync(folder, {recursive: true, force: true});

@@ -1,0 +1,146 @@
+#include "harness/report/extremes.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/error.h"
+#include "harness/sweep/front.h"
+
+namespace plumb::harness::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Every line of a file whose "kind" is `kind`.
+void for_each_line(const std::filesystem::path& path, std::string_view kind,
+                   const std::function<void(const Json&)>& take) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) return;
+  const std::string subject = fmt::format("file '{}'", path.string());
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(Error::Kind::Io, subject, "", "", fmt::format("cannot be read: {}", std::strerror(errno)));
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.empty()) continue;
+    try {
+      const Json json = Json::parse(line);
+      if (json.at("kind") == kind) take(json);
+    } catch (const Json::exception& error) {
+      if (file.eof()) break;  // no line end: the writer was stopped in the middle of it
+      throw Error(Error::Kind::Syntax, subject, fmt::format("line {}", number), "",
+                  fmt::format("is not a line of results: {}", error.what()));
+    }
+  }
+}
+
+std::string text_of(const Json& json, const char* name) { return json.at(name).get<std::string>(); }
+
+Cell cell_of(const Json& json) {
+  return {.family = text_of(json, "family"),
+          .title = json.value("title", text_of(json, "family")),
+          .value = json.at("value").get<double>(),
+          .engine = text_of(json, "engine"),
+          .setting = text_of(json, "setting"),
+          .outcome = text_of(json, "outcome"),
+          .json = json.dump()};
+}
+
+/// Keeps of what has the same key the last, in the first one's place.
+template <class Item>
+class Latest {
+ public:
+  void add(const std::string& key, Item item) {
+    const auto [place, fresh] = places_.try_emplace(key, items_.size());
+    if (fresh) {
+      items_.push_back(std::move(item));
+    } else {
+      items_[place->second] = std::move(item);
+    }
+  }
+  std::vector<Item> take() { return std::move(items_); }
+
+ private:
+  std::map<std::string, std::size_t> places_;
+  std::vector<Item> items_;
+};
+
+}  // namespace
+
+Extremes read_extremes(const std::string& folder) {
+  Latest<Cell> cells;
+  for_each_line(std::filesystem::path(folder) / "stress.jsonl", "cell", [&](const Json& json) {
+    Cell cell = cell_of(json);
+    const std::string key = fmt::format("{}|{}|{}|{}", cell.family, cell.value, cell.engine, cell.setting);
+    cells.add(key, std::move(cell));
+  });
+  Latest<std::string> thresholds;
+  for_each_line(std::filesystem::path(folder) / "thresholds.jsonl", "threshold", [&](const Json& json) {
+    thresholds.add(
+        fmt::format("{}|{}|{}", text_of(json, "name"), text_of(json, "engine"), text_of(json, "setting")),
+        json.dump());
+  });
+  return {cells.take(), thresholds.take()};
+}
+
+std::vector<Endurance> endurances(const std::vector<Cell>& cells) {
+  std::vector<Endurance> out;
+  for (const Cell& cell : cells) {
+    auto row = std::find_if(out.begin(), out.end(), [&](const Endurance& one) {
+      return one.engine == cell.engine && one.setting == cell.setting;
+    });
+    if (row == out.end()) row = out.insert(out.end(), {.engine = cell.engine, .setting = cell.setting});
+    ++row->outcomes[cell.outcome];
+    if (!cell.counted()) continue;
+    for (Count* count : {&row->all, &row->families[cell.family]}) {
+      count->survived += cell.survived();
+      ++count->total;
+    }
+  }
+  const auto rank = [](const Endurance& row) {
+    const double share = row.all.total ? static_cast<double>(row.all.survived) / row.all.total : 2;
+    return std::pair(!sweep::is_plumb(row.engine), share);
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](const Endurance& a, const Endurance& b) { return rank(a) < rank(b); });
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> families_of(const std::vector<Cell>& cells) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Cell& cell : cells)
+    if (std::none_of(out.begin(), out.end(), [&](const auto& family) { return family.first == cell.family; }))
+      out.emplace_back(cell.family, cell.title);
+  return out;
+}
+
+std::string extremes_data(const Extremes& extremes) {
+  Json json{{"cells", Json::array()}, {"endurances", Json::array()}, {"thresholds", Json::array()}};
+  for (const Cell& cell : extremes.cells) json["cells"].push_back(Json::parse(cell.json));
+  for (const Endurance& row : endurances(extremes.cells)) {
+    Json families = Json::object();
+    for (const auto& [name, count] : row.families)
+      families[name] = {{"survived", count.survived}, {"total", count.total}};
+    json["endurances"].push_back({{"engine", row.engine},
+                                  {"setting", row.setting},
+                                  {"survived", row.all.survived},
+                                  {"total", row.all.total},
+                                  {"families", families},
+                                  {"outcomes", row.outcomes}});
+  }
+  for (const std::string& line : extremes.thresholds) json["thresholds"].push_back(Json::parse(line));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace plumb::harness::report

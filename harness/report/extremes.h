@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// What `plumb stress` and `plumb thresholds` found, for the report.
+namespace plumb::harness::report {
+
+/// A cell of a map: one scene of a family on one engine with one of its settings.
+struct Cell {
+  std::string family, title;  ///< the family's name and what it is, for people
+  double value = 0;           ///< on the family's axis
+  std::string engine, setting;
+  std::string outcome;  ///< "ok", "sinks", "refused", ...
+  std::string json;     ///< the line of stress.jsonl
+
+  bool survived() const { return outcome == "ok"; }
+  bool counted() const { return outcome != "skipped"; }  ///< a missing feature is no failure
+};
+
+struct Count {
+  int survived = 0, total = 0;
+};
+
+/// How an engine with one setting fares.
+struct Endurance {
+  std::string engine, setting;
+  Count all{};
+  std::map<std::string, Count> families{};  ///< by name
+  std::map<std::string, int> outcomes{};    ///< cells by outcome, "skipped" included
+};
+
+struct Extremes {
+  std::vector<Cell> cells;              ///< by engine, setting, family and value the last
+  std::vector<std::string> thresholds;  ///< lines of thresholds.jsonl, by engine, setting and name the last
+  bool empty() const { return cells.empty() && thresholds.empty(); }
+};
+
+/// The folder's stress.jsonl and thresholds.jsonl where they are; a last line that was cut short is passed
+/// over. Throws `Error` (Io, Syntax) that names file and line.
+Extremes read_extremes(const std::string& folder);
+
+/// A row an engine and setting: plumb's first, of these the one that survives least; then the others,
+/// likewise.
+std::vector<Endurance> endurances(const std::vector<Cell>& cells);
+
+/// Families in the order in which they first appear: name and title.
+std::vector<std::pair<std::string, std::string>> families_of(const std::vector<Cell>& cells);
+
+/// The page's part of the data, as JSON.
+std::string extremes_data(const Extremes& extremes);
+
+/// A picture of all families, a row an engine and setting: SVG, readable without colour, in light and dark.
+std::string extremes_picture(const std::vector<Cell>& cells);
+
+}  // namespace plumb::harness::report

@@ -1,0 +1,112 @@
+// The data is made up: which outcome stands where is what the tests read off it.
+#include "harness/report/extremes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/error.h"
+#include "harness/report/environments.h"
+#include "harness/report/report_data.h"
+#include "tests/app/program.h"
+
+namespace plumb::harness::report {
+namespace {
+
+using app::Folder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+const std::string kData = PLUMB_REPORT_DATA;
+
+TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
+  const std::vector<Endurance> rows = endurances(read_extremes(kData).cells);
+  ASSERT_EQ(rows.size(), 5u);
+  // plumb's first, the worst of them before the others: 8, 11 and 12 of 12; then 4 of 12 and 2 of 8.
+  std::vector<std::string> names;
+  for (const Endurance& row : rows) names.push_back(row.engine + " " + row.setting);
+  EXPECT_THAT(names, ElementsAre("plumb-world default", "plumb-precise default", "plumb-world careful",
+                                 "bullet-double default", "box2d default"));
+  EXPECT_EQ(rows[0].all.survived, 8);
+  EXPECT_EQ(rows[0].all.total, 12);
+  EXPECT_EQ(rows[0].families.at("mass_ratio_stack").survived, 2);
+  EXPECT_THAT(rows[0].outcomes,
+              ElementsAre(Pair("inaccurate", 1), Pair("ok", 8), Pair("refused", 1), Pair("sinks", 2)));
+  // What is skipped is not counted.
+  EXPECT_EQ(rows[3].all.survived, 2);
+  EXPECT_EQ(rows[3].all.total, 8);
+  EXPECT_FALSE(rows[3].families.contains("stiff_spring"));
+  EXPECT_EQ(rows[3].outcomes.at("skipped"), 4);
+}
+
+TEST(Extremes, ALaterLineReplacesAnEarlierOneAndACutLineIsPassedOver) {
+  const Folder folder;
+  const auto line = [](double value, const char* outcome) {
+    return nlohmann::json{{"kind", "cell"},   {"family", "f"},      {"value", value},
+                          {"engine", "mine"}, {"setting", "plain"}, {"outcome", outcome}}
+               .dump() +
+           "\n";
+  };
+  folder.write("stress.jsonl", "{\"kind\":\"environment\"}\n" + line(1, "crashed") + line(2, "NaN") +
+                                   line(1, "ok") + "{\"kind\":\"cell\",\"fam");
+  const std::vector<Cell> cells = read_extremes(folder.path("")).cells;
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_EQ(cells[0].outcome, "ok");
+  EXPECT_EQ(cells[0].title, "f") << "a family without a title has its name";
+  EXPECT_EQ(cells[1].outcome, "NaN");
+  folder.write("stress.jsonl", line(1, "ok") + "{\"kind\":\"cell\"}\n" + line(2, "ok"));
+  try {
+    read_extremes(folder.path(""));
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::Syntax);
+    EXPECT_EQ(error.field(), "line 2");
+  }
+}
+
+TEST(Extremes, EachLogNamesItsEnvironmentOnceForAllItsRuns) {
+  const auto uses = read_environments(kData);
+  ASSERT_EQ(uses.size(), 1u);
+  EXPECT_EQ(uses[0].runs, 60 + 5);
+  EXPECT_EQ(uses[0].where.cpu, "a processor");
+}
+
+TEST(Extremes, AFolderWithoutResultsHasAReportOfThem) {
+  const Folder folder;
+  for (const char* name : {"stress.jsonl", "thresholds.jsonl"})
+    std::filesystem::copy_file(kData + "/" + name, folder.path(name));
+  const app::Ran ran = app::plumb({"report", folder.path(""), "--picture", folder.path("map.svg")});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("map.svg"));
+  const std::string page = folder.read("report.html");
+  EXPECT_THAT(page, HasSubstr("a heavy box on a light one"));
+  // "<" stands in a reason.
+  EXPECT_THAT(page, HasSubstr("the step can follow: \\u003c= 1e3"));
+  EXPECT_THAT(page, HasSubstr("\"thresholds\":[{\"kind\":\"threshold\",\"name\":\"ramp_friction\""));
+}
+
+TEST(Extremes, ThePictureHasANumberInEveryCell) {
+  std::vector<Cell> cells = read_extremes(kData).cells;
+  cells[0].title = "a <family> & more";
+  for (Cell& cell : cells)
+    if (cell.family == cells[0].family) cell.title = cells[0].title;
+  const std::string svg = extremes_picture(cells);
+  EXPECT_EQ(svg.substr(0, 5), "<svg ");
+  EXPECT_THAT(svg, HasSubstr("a &lt;family> &amp; more"));
+  const auto count = [&](const std::string& text) {
+    int out = 0;
+    for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  // Five rows of three families and the sum of these.
+  EXPECT_EQ(count("text-anchor=\"middle\""), 20);
+  EXPECT_EQ(count(">8/12<"), 1);
+  EXPECT_EQ(count(">2/4<"), 3) << "plumb-world's stacks and springs, box2d's bullets";
+  EXPECT_EQ(count(">\u2013<"), 1);
+}
+
+}  // namespace
+}  // namespace plumb::harness::report
