@@ -149,6 +149,10 @@ function plot({name, title, note}, height, configure, inWords) {
   return {element, draw};
 }
 
+// Points are in order and as the library would make them; those that are told are found near the pointer.
+const kPlain = {parsing: false, normalized: true, hitRadius: 0};
+const kTold = {told: true, hitRadius: 10};
+
 /// How Chart.js draws an engine's marks.
 const markStyle = (style, colours) => ({pointStyle: style.mark, rotation: style.turn, borderColor: style.colour,
   backgroundColor: style.filled ? style.colour : colours.panel, pointBorderWidth: 1.6, hoverRadius: 8, hoverBorderWidth: 2.5});
@@ -157,15 +161,20 @@ const markStyle = (style, colours) => ({pointStyle: style.mark, rotation: style.
 /// `options`: {name, title, note, x, y, logX, logY}. Gives {element, draw(hidden), empty}.
 function chart(options, series, look) {
   const drawable = (point) => Number.isFinite(point.x) && Number.isFinite(point.y) && (!options.logX || point.x > 0) && (!options.logY || point.y > 0);
-  const all = series.map((one) => ({...one, line: one.line.filter(drawable),
-    points: one.points.filter(drawable).map((point) => ({...point, engine: one.engine}))})).filter((one) => one.points.length > 0);
+  const all = series.map((one) => {
+    const clean = (points) => points.filter(drawable).map((point) => ({...point, engine: one.engine})).sort((a, b) => a.x - b.x);
+    const points = clean(one.points);
+    return {...one, points, line: clean(one.line), marked: points.filter((_, i) => !one.every || i % one.every === one.offset)};
+  }).filter((one) => one.points.length > 0);
   const seen = (hidden) => all.filter((one) => !hidden.has(one.engine));
   const configure = (hidden, colours) => {
     const sets = seen(hidden).flatMap((one) => {
       const style = look.get(one.engine);
-      const radius = one.points.map((_, i) => (one.every === undefined ? 5 : i % one.every === one.offset ? 4 : 0));
-      return [{type: "scatter", told: true, engine: one.engine, data: one.points, radius, hitRadius: 10, ...markStyle(style, colours)},
-        {type: "line", engine: one.engine, data: one.line, borderColor: style.colour, borderWidth: 1.8, borderDash: style.dash, radius: 0, hitRadius: 0}];
+      const marks = {...kPlain, type: "scatter", engine: one.engine, data: one.marked, radius: one.every ? 4 : 5, ...markStyle(style, colours)};
+      const line = {...kPlain, type: "line", engine: one.engine, data: one.line, ...markStyle(style, colours), radius: 0,
+        borderWidth: 1.8, borderDash: style.dash};
+      // Where not every point has a mark, the line has them all.
+      return one.every ? [marks, {...line, ...kTold}] : [{...marks, ...kTold}, line];
     });
     const points = (seen(hidden).length ? seen(hidden) : all).flatMap((one) => one.points);
     return {type: "scatter", data: {datasets: sets}, options: {scales: {
