@@ -54,6 +54,7 @@ class WorldSimulator final : public Simulator {
     WorldDefinition definition = world_definition(scene);
     definition.sleeping = settings.sleeping;
     definition.continuous = settings.continuous;
+    definition.quarantine = false;  // an answer without one of the bodies is none
     return definition;
   }
 

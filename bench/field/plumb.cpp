@@ -56,7 +56,8 @@ class PlumbWorld final : public FieldWorld {
                 .sleeping = settings.sleeping,
                 .continuous = settings.continuous,
                 .solver = solver_of(settings.solver).value_or(Solver::SoftSteps),
-                .iterations = settings.iterations}) {}
+                .iterations = settings.iterations,
+                .quarantine = false}) {}
 
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                          const MassProperties& mass) override {

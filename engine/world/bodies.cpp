@@ -7,6 +7,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -76,7 +77,7 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   recentre(w, body, mass.centre.as<Real>());
   w.ties_changed = true;
   record.mass = static_cast<Real>(mass.mass), record.inertia = static_cast<Real>(mass.inertia);
-  const bool dynamic = record.type == BodyType::Dynamic;
+  const bool dynamic = own_type(w, body) == BodyType::Dynamic;
   motion.inverse_mass = dynamic ? static_cast<Real>(1 / mass.mass) : Real(0);
   motion.inverse_inertia =
       dynamic && !record.lock_rotation && mass.inertia > 0 ? static_cast<Real>(1 / mass.inertia) : Real(0);
@@ -135,6 +136,8 @@ template <class Real>
 void remove_body(WorldData<Real>& w, int body) {
   wake_neighbours(w, body);
   destroy_contacts_of(w, body);
+  if (w.bodies[body].quarantined)
+    std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });
   while (w.bodies[body].first_joint != kNone) remove_joint(w, w.bodies[body].first_joint / 2);
   while (w.bodies[body].first_shape != kNone) {
     const int shape = w.bodies[body].first_shape;
@@ -191,6 +194,10 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type) {
   BodyRecord<Real>& record = w.bodies[body];
+  if (record.quarantined) {
+    quarantine_of(w, body).type = type;
+    return;
+  }
   if (record.type == type) return;
   wake_neighbours(w, body);
   destroy_contacts_of(w, body);

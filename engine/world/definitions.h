@@ -93,6 +93,7 @@ struct WorldDefinition {
   Solver solver = Solver::SoftSteps;
   int iterations = 10;         ///< sweeps a substep, 1..1000: SequentialImpulses and Jakobsen
   bool direct_islands = true;  ///< SoftSteps solves small islands directly where sweeps would not do
+  bool quarantine = true;  ///< what goes bad is taken out of the motion, and told; false: Error ends the step
 };
 
 }  // namespace plumb

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/math/vec2.h"
@@ -28,6 +30,19 @@ struct JointEvent {
   JointId joint{};  ///< gone: it broke
 };
 
+/// What of a body went bad.
+enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity };
+inline constexpr const char* kBadFieldNames[] = {"force", "torque", "velocity", "angular_velocity"};
+
+/// A body was taken out of the motion, because a number of it was none, or beyond 1e12.
+struct QuarantineEvent {
+  BodyId body{};
+  std::string name{};     ///< the body's, as it was made
+  BadField field{};       ///< what a law returned, or what a step led to
+  double value = 0;       ///< the first bad part of it: SI units
+  std::int64_t step = 0;  ///< that it would have spoiled, from 1
+};
+
 /// What happened in the last step (and, for the endings, since the one before); the next step empties it.
 struct Events {
   std::vector<TouchEvent> begin, end;
@@ -35,10 +50,11 @@ struct Events {
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<JointEvent> broken;
   std::vector<BodyId> fell_asleep, woke;
+  std::vector<QuarantineEvent> quarantined;
 
   void clear() {
     begin.clear(), end.clear(), hits.clear(), sensor_begin.clear(), sensor_end.clear(), broken.clear();
-    fell_asleep.clear(), woke.clear();
+    fell_asleep.clear(), woke.clear(), quarantined.clear();
   }
 };
 

@@ -46,7 +46,7 @@ void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions
   });
   for (const BodyWrench& item : list) {
     wake_pushed(w, item.body);
-    w.motion[item.body].apply(item.wrench.force.template as<Real>(), static_cast<Real>(item.wrench.torque));
+    push_body(w, item.body, item.wrench.force, item.wrench.torque);
   }
 }
 

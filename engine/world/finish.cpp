@@ -1,11 +1,10 @@
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
-#include "engine/scene/error.h"
 #include "engine/world/constants.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -14,15 +13,6 @@ namespace {
 // Steps between two times that a body's rotation is computed anew from its angle; in between rounding adds
 // up.
 constexpr int kRefresh = 256;
-
-template <class Real>
-[[noreturn]] void report_loss(const WorldData<Real>& w, int body) {
-  const std::string& name = w.uncommon_of(body).name;
-  throw Error(Error::Kind::Run, "body " + (name.empty() ? std::to_string(body) : "'" + name + "'"), "state",
-              "NaN",
-              "is not finite after step " + std::to_string(w.steps + 1) +
-                  "; a force, a torque or a velocity is too large for this step");
-}
 
 template <class Real>
 void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent, Real dt) {
@@ -35,9 +25,6 @@ void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Re
 // Moves a body by what the solver found.
 template <class Real>
 void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion) {
-  const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
-                   motion.angular_velocity;
-  if (!(sum - sum == 0)) report_loss(w, body);
   w.position[body] += motion.moved.template as<double>();
   record.angle += static_cast<double>(motion.turned);
   if (motion.turned == 0) return;
@@ -114,15 +101,22 @@ bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
 
 template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt) {
-  w.scratch.fast_bodies.clear();
+  w.scratch.fast_bodies.clear(), w.scratch.bad_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   const bool sleeping = w.settings.sleeping;
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
+    const Real extent = w.extents[body];
+    const Real turned = std::abs(motion.turned) * extent;
+    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
+    const bool fast = way > Real(tuning::kFastShare) * record.half_width;
+    if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
+      w.scratch.bad_bodies.push_back(body);
+      continue;
+    }
     move_body(w, body, record, motion);
     if (loads != nullptr) loads[body] = {};
-    const Real extent = w.extents[body];
     if (sleeping) {
       time_stillness(record, motion, extent, dt);
     } else {
@@ -130,9 +124,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     }
     w.enlarged[body] = 0;
     if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
-    const Real turned = std::abs(motion.turned) * extent;
-    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
-    if (way > Real(tuning::kFastShare) * record.half_width) {
+    if (fast) {
       bool covered = true;
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
         covered = refresh_box(w, shape, dt, turned) && covered;
@@ -148,6 +140,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       }
     }
   }
+  if (!w.scratch.bad_bodies.empty()) quarantine_lost(w, static_cast<double>(dt));
   w.moving_tree.rebuild();
 }
 

@@ -114,7 +114,7 @@ void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attr
     const double mass = static_cast<double>(w.bodies[body].mass);
     const Vec2d force = attraction_force(law, mass, middle_of(w, body, dt) - place);
     list.add(body, {force, 0});
-    reaction -= force;
+    if (is_sound(Wrench<double>{force, 0})) reaction -= force;
   });
   if (w.gives_way(source)) list.add(source, {reaction, 0});
   add_wrenches(w, list);

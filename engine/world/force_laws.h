@@ -36,7 +36,7 @@ struct LawBody {
 using BodyLaw = FunctionRef<Wrench<double>(const LawBody&)>;
 
 /// A law of one's own: force and torque (about the centre of mass) on each body. It must not change the
-/// world. A result that is not finite throws Error (Value) that names the body.
+/// world. A body for which it returns what is not finite, or beyond 1e12, is quarantined (world.h).
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options = {});
 

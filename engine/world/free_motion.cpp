@@ -85,7 +85,7 @@ void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
 
 template <class Real>
 void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight) {
-  w.scratch.kicks.clear();
+  w.scratch.kicks.clear(), w.scratch.starts.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
   const bool loaded = w.loads.used();
@@ -99,7 +99,9 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
       }
       continue;
     }
-    w.motion[body].moved = {}, w.motion[body].turned = 0;
+    BodyMotion<Real>& motion = w.motion[body];
+    motion.moved = {}, motion.turned = 0;
+    w.scratch.starts.push_back({motion.velocity, motion.angular_velocity});
     w.scratch.kicks.push_back(kick_of(w, body, h));
   }
 }

@@ -4,6 +4,7 @@
 
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/union_find.h"
 
 namespace plumb {
@@ -34,7 +35,7 @@ void unpark_ties(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact,
                 [&](int edge, ContactRecord&) { unpark_contact(w, edge / 2); });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
-    if (!joint.active) w.joint_set.set_active(joint.slot, joint.active = true);
+    if (!joint.active && !lets_go(w, joint)) w.joint_set.set_active(joint.slot, joint.active = true);
   });
 }
 

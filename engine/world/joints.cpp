@@ -1,6 +1,7 @@
 #include "engine/world/bodies.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -20,7 +21,11 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.user_data = definition.user_data;
   const int joint = w.joints.add(record);
   link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+  if (lets_go(w, record)) {
+    w.joint_set.set_active(slot, w.joints[joint].active = false);
+  } else {
+    ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+  }
   if (record.break_force > 0 || record.break_torque > 0) w.breakable.push_back(joint);
   wake_body(w, body_a), wake_body(w, body_b);
   if (definition.collide) return joint;
@@ -36,7 +41,7 @@ void remove_joint(WorldData<Real>& w, int joint) {
   w.ties_changed = true;
   wake_body(w, record.body_a), wake_body(w, record.body_b);
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
+  if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
   w.joint_set.remove(record.slot);
   std::erase(w.breakable, joint);
   w.joints.remove(joint);

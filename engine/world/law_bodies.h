@@ -7,6 +7,7 @@
 #include "engine/forces/wrench.h"
 #include "engine/world/islands.h"
 #include "engine/world/placed_shape.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
 
@@ -43,13 +44,25 @@ class WrenchList {
 /// Throws Error (Value) with the body's name or handle; `field` says what is not finite.
 [[noreturn]] void report_not_finite(const std::string& name, int body, const char* field);
 
+/// Whether forces and torques are numbers that a world takes.
+inline bool is_sound(const Wrench<double>& wrench) {
+  const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
+  return fits(wrench.force.x) && fits(wrench.force.y) && fits(wrench.torque);
+}
+
 template <class Real>
 void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<double>& wrench,
                            const char* field) {
-  const Vec2d force = wrench.force;
+  if (!is_sound(wrench)) report_not_finite(w.uncommon_of(body).name, body, field);
+}
+
+/// Takes a body out of the motion because of a wrench that is not sound.
+template <class Real>
+void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrench) {
   const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
-  if (!fits(force.x) || !fits(force.y) || !fits(wrench.torque))
-    report_not_finite(w.uncommon_of(body).name, body, field);
+  if (!fits(wrench.force.x)) return quarantine_body(w, body, BadField::Force, wrench.force.x);
+  if (!fits(wrench.force.y)) return quarantine_body(w, body, BadField::Force, wrench.force.y);
+  quarantine_body(w, body, BadField::Torque, wrench.torque);
 }
 
 /// Whoever is pushed does not fall asleep at once.
@@ -75,12 +88,15 @@ void for_each_law_body(WorldData<Real>& w, bool wakes, Visit&& visit) {
   });
 }
 
-/// Adds the wrenches to what the next step applies, once all of them are known to be good.
+/// Adds the wrenches to what the next step applies. Bodies that would get a bad one are taken out first.
 template <class Real>
 void add_wrenches(WorldData<Real>& w, const WrenchList& list) {
-  for (const BodyWrench& item : list) require_finite_wrench(w, item.body, item.wrench, "force law");
+  for (const BodyWrench& item : list) {
+    if (!is_sound(item.wrench)) quarantine_pushed(w, item.body, item.wrench);
+  }
   for (const BodyWrench& item : list) {
     if (item.wrench.force == Vec2d{} && item.wrench.torque == 0) continue;
+    if (w.bodies[item.body].quarantined) continue;
     wake_pushed(w, item.body);
     Load<Real>& load = w.loads.at(item.body, w.bodies.size());
     load.force += item.wrench.force.template as<Real>();

@@ -46,7 +46,9 @@ namespace plumb {
   X(Change, change, void, JointId, const JointKind&)                                          \
   X(SetSolver, set_solver, void, Solver)                                                      \
   X(SetIterations, set_iterations, void, int)                                                 \
-  X(SetDirectIslands, set_direct_islands, void, bool)
+  X(SetDirectIslands, set_direct_islands, void, bool)                                         \
+  X(SetQuarantine, set_quarantine, void, bool)                                                \
+  X(Release, release, void, BodyId)
 
 enum class WorldCall : std::uint8_t {
 #define PLUMB_NAME(id, name, result, ...) id,

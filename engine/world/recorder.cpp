@@ -125,6 +125,14 @@ template <class Real>
 void RecordedWorld<Real>::set_direct_islands(bool on) {
   call<WorldCall::SetDirectIslands>(on);
 }
+template <class Real>
+void RecordedWorld<Real>::set_quarantine(bool on) {
+  call<WorldCall::SetQuarantine>(on);
+}
+template <class Real>
+void RecordedWorld<Real>::release(BodyId body) {
+  call<WorldCall::Release>(body);
+}
 
 template <class Real>
 BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition,

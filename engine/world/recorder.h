@@ -43,6 +43,8 @@ class RecordedWorld {
   void set_solver(Solver solver);
   void set_iterations(int iterations);
   void set_direct_islands(bool on);
+  void set_quarantine(bool on);
+  void release(BodyId body);
 
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
   BodyId create_body(const BodyDefinition& definition, const ShapeDefinition& shape);

@@ -1,6 +1,7 @@
 #include "engine/world/scene_forces.h"
 
 #include "engine/math/trigonometry.h"
+#include "engine/world/law_bodies.h"
 
 namespace plumb {
 
@@ -54,6 +55,10 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
   for (const std::size_t body : acted_on_) {
     if (world.type(ids_[body]) != BodyType::Dynamic) continue;
+    if (!is_sound(wrenches_[body])) {
+      quarantine_pushed(world.data(), static_cast<int>(ids_[body].index), wrenches_[body]);
+      continue;
+    }
     world.apply_force(ids_[body], wrenches_[body].force);
     world.apply_torque(ids_[body], wrenches_[body].torque);
   }

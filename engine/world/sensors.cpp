@@ -39,8 +39,9 @@ void update_sensors(WorldData<Real>& w) {
       if (seen) now.push_back(id_of(w, other));
       return true;
     };
-    w.moving_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
-    if (w.bodies[body].type != BodyType::Static) {
+    const bool senses = !w.bodies[body].quarantined;
+    if (senses) w.moving_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
+    if (senses && w.bodies[body].type != BodyType::Static) {
       w.still_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);

@@ -72,6 +72,7 @@ template <class Real>
 void enter_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   w.boxes[shape] = box_of(w, shape);
+  if (w.bodies[record.body].quarantined) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
   if (!record.moved) append(w.moved_shapes, shape);
@@ -81,6 +82,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
 template <class Real>
 void leave_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.proxy == kNone) return;  // of a body in quarantine
   w.tree_of(w.bodies[record.body].type).remove(record.proxy);
   record.proxy = kNone;
 }
@@ -109,7 +111,7 @@ template <class Real>
 void take_out_shape(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   destroy_contacts_of(w, record.body, shape);
-  if (record.proxy != kNone) leave_tree(w, shape);
+  leave_tree(w, shape);
   const ShapeForm<Real>& form = w.forms[shape];
   w.corners.remove(form.corner, form.stored());
   if (is_sensor(w, shape)) {

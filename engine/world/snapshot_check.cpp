@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/bytes.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world_members.h"
 
@@ -64,6 +65,7 @@ class Check {
     trees();
     lists();
     awake();
+    quarantine();
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) check_contact(contact);
     }
@@ -189,18 +191,40 @@ class Check {
     const ShapeRecord<Real>& record = w_.shapes[shape];
     const ShapeForm<Real>& form = w_.forms[shape];
     require(form.radius >= 0 && form.extent >= 0, "shapes", "are of negative size");
-    const DynamicTree<Real>& tree =
-        w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
-    require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
     require(form.chain == (record.chain != kNone), "chains", "have segments that are none");
     require(!form.chain || (record.chain >= 0 && record.chain < w_.chains.size() &&
                             w_.chains.used(record.chain) && w_.chains[record.chain].body == record.body),
             "chains", "are not there");
+    if (w_.bodies[record.body].quarantined)
+      return require(record.proxy == kNone, "boxes", "are not out with their bodies");
+    const DynamicTree<Real>& tree =
+        w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
+    require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
   }
 
   void trees() const {
-    require(w_.still_tree.size() + w_.moving_tree.size() == w_.shapes.count(), "boxes",
+    int out = 0;
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape) && w_.bodies[w_.shapes[shape].body].quarantined) ++out;
+    }
+    require(w_.still_tree.size() + w_.moving_tree.size() + out == w_.shapes.count(), "boxes",
             "are not as many as shapes");
+  }
+
+  // What is out of the motion is listed, and nothing holds it.
+  void quarantine() const {
+    Marks listed(w_.bodies.size());
+    for (const QuarantinedBody& each : w_.quarantine) {
+      require(has_body(each.body) && listed.mark(each.body), "quarantine", "lists bodies that are not there");
+      const BodyRecord<Real>& record = w_.bodies[each.body];
+      require(record.quarantined && record.type == BodyType::Static && record.first_contact == kNone,
+              "quarantine", "lists bodies that are not in it");
+    }
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (w_.bodies.used(body) && w_.bodies[body].quarantined) ++count;
+    }
+    require(count == listed.count(), "quarantine", "does not list all that is in it");
   }
 
   bool has_shape(int shape) const { return shape >= 0 && shape < w_.shapes.size() && w_.shapes.used(shape); }
@@ -304,6 +328,7 @@ class Check {
       require(w_.joint_set.contains(record.slot) && w_.joint_set.active(record.slot) == record.active &&
                   w_.joint_set.bodies(record.slot) == std::pair{record.body_a, record.body_b},
               "joints", "are not those that are solved");
+      require(!record.active || !lets_go(w_, record), "joints", "hold what is in quarantine");
     }
     require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");
   }
@@ -337,7 +362,7 @@ class Check {
       if (record.home == ContactHome::Graph || record.home == ContactHome::Parked) add(record);
     }
     for (int joint = 0; joint < w_.joints.size(); ++joint) {
-      if (w_.joints.used(joint)) add(w_.joints[joint]);
+      if (w_.joints.used(joint) && !lets_go(w_, w_.joints[joint])) add(w_.joints[joint]);
     }
     for (int body = 0; body < w_.bodies.size(); ++body) {
       require(!w_.bodies.used(body) || w_.bodies[body].constraints == count[body], "bodies",

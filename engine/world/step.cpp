@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/world/islands.h"
+#include "engine/world/quarantine.h"
 
 namespace plumb {
 namespace {
@@ -26,6 +27,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   const double h = dt / substeps;
   // Let go of even when a stage throws.
   const Stepping<Real> stepping(w);
+  if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
   find_pairs(w);
   update_contacts(w, static_cast<Real>(dt));
   solve_motion(w, h, substeps);

@@ -21,8 +21,8 @@ void update_contacts(WorldData<Real>& w, Real dt);
 template <class Real>
 void solve_motion(WorldData<Real>& w, double h, int substeps);
 
-/// Moves the bodies by what the solver found, and their boxes with them. Throws Error (Run) when a motion is
-/// not finite.
+/// Moves the bodies by what the solver found, and their boxes with them. What is not to be moved so is
+/// quarantined.
 template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt);
 

@@ -8,6 +8,7 @@
 #include "engine/world/bodies.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/islands.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/step.h"
 #include "engine/world/validate.h"
 #include "engine/world/world_bodies.h"
@@ -107,6 +108,26 @@ int BasicWorld<Real>::iterations() const {
 template <class Real>
 void BasicWorld<Real>::set_direct_islands(bool on) {
   data_->settings.direct_islands = on;
+}
+
+template <class Real>
+void BasicWorld<Real>::set_quarantine(bool on) {
+  data_->settings.quarantine = on;
+}
+template <class Real>
+std::vector<QuarantineEvent> BasicWorld<Real>::quarantined() const {
+  std::vector<QuarantineEvent> all;
+  for (const QuarantinedBody& each : data_->quarantine) all.push_back(each.why);
+  return all;
+}
+template <class Real>
+bool BasicWorld<Real>::quarantined(BodyId body) const {
+  return data_->bodies[place(body)].quarantined;
+}
+template <class Real>
+void BasicWorld<Real>::release(BodyId body) {
+  const int index = place(body);
+  if (data_->bodies[index].quarantined) release_body(*data_, index);
 }
 
 template <class Real>

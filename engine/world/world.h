@@ -60,8 +60,8 @@ class BasicWorld {
   BasicWorld(BasicWorld&&) noexcept;
   BasicWorld& operator=(BasicWorld&&) noexcept;
 
-  /// Advances by `dt` s in `substeps` substeps: more of them hold stacks and joints better. Throws Error
-  /// (Run) when a body's state is not finite.
+  /// Advances by `dt` s in `substeps` substeps: more of them hold stacks and joints better. A body whose
+  /// state would not be finite afterwards, or beyond 1e12, is quarantined.
   void step(double dt = 1.0 / 60, int substeps = 4);
   double time() const;  ///< s
   std::int64_t step_count() const;
@@ -82,7 +82,18 @@ class BasicWorld {
   void set_iterations(int iterations);  ///< sweeps a substep: SequentialImpulses and Jakobsen
   int iterations() const;
   void set_direct_islands(bool on);  ///< whether SoftSteps solves small islands directly
+  /// Whether bodies that go bad are quarantined; otherwise Error (Run, or Value for what a force law
+  /// returned) ends the call, and a step that it ends is done by half.
+  void set_quarantine(bool on);
   WorldCounts counts() const;
+
+  /// Bodies that went bad and what was wrong with them, the first one first. They are where they were before
+  /// that step and stay there; nothing touches or finds them, and their joints let go. They can be changed
+  /// like any other body.
+  std::vector<QuarantineEvent> quarantined() const;
+  bool quarantined(BodyId body) const;
+  /// Goes on with the state from before it went bad, or the one that was set since, and forgets about it.
+  void release(BodyId body);
 
   // Bodies.
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});

@@ -4,6 +4,7 @@
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
+#include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
 
@@ -89,7 +90,7 @@ template <class Real>
 void BasicWorld<Real>::set_velocity(BodyId body, Vec2d velocity) {
   const int index = place(body);
   require_finite("body", "velocity", velocity);
-  if (data_->bodies[index].type == BodyType::Static) return;
+  if (own_type(*data_, index) == BodyType::Static) return;
   wake(index);
   data_->motion[index].velocity = velocity.as<Real>();
 }
@@ -97,7 +98,7 @@ template <class Real>
 void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity) {
   const int index = place(body);
   require_finite("body", "angular_velocity", angular_velocity);
-  if (data_->bodies[index].type == BodyType::Static) return;
+  if (own_type(*data_, index) == BodyType::Static) return;
   wake(index);
   data_->motion[index].angular_velocity = static_cast<Real>(angular_velocity);
 }
@@ -147,8 +148,7 @@ void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
   require_finite("body", "point", point);
   if (!data_->gives_way(index)) return;
   wake(index);
-  data_->motion[index].apply(impulse.as<Real>(),
-                             static_cast<Real>(cross(point - data_->position[index], impulse)));
+  push_body(*data_, index, impulse, cross(point - data_->position[index], impulse));
 }
 template <class Real>
 void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
@@ -156,12 +156,12 @@ void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
   require_finite("body", "angular_impulse", impulse);
   if (!data_->gives_way(index)) return;
   wake(index);
-  data_->motion[index].apply({}, static_cast<Real>(impulse));
+  push_body(*data_, index, {}, impulse);
 }
 
 template <class Real>
 BodyType BasicWorld<Real>::type(BodyId body) const {
-  return data_->bodies[place(body)].type;
+  return own_type(*data_, place(body));
 }
 template <class Real>
 void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
@@ -170,12 +170,12 @@ void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
 template <class Real>
 double BasicWorld<Real>::mass(BodyId body) const {
   const int index = place(body);
-  return data_->gives_way(index) ? static_cast<double>(data_->bodies[index].mass) : 0;
+  return own_type(*data_, index) == BodyType::Dynamic ? static_cast<double>(data_->bodies[index].mass) : 0;
 }
 template <class Real>
 double BasicWorld<Real>::inertia(BodyId body) const {
   const int index = place(body);
-  return data_->gives_way(index) ? static_cast<double>(data_->bodies[index].inertia) : 0;
+  return own_type(*data_, index) == BodyType::Dynamic ? static_cast<double>(data_->bodies[index].inertia) : 0;
 }
 template <class Real>
 void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
@@ -210,9 +210,10 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   const int index = place(body);
   BodyRecord<Real>& record = data_->bodies[index];
   record.lock_x = x, record.lock_y = y, record.lock_rotation = rotation;
-  const bool turns = record.type == BodyType::Dynamic && !rotation && record.inertia > 0;
+  const bool dynamic = own_type(*data_, index) == BodyType::Dynamic;
+  const bool turns = dynamic && !rotation && record.inertia > 0;
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
-  if (rotation && record.type == BodyType::Dynamic) data_->motion[index].angular_velocity = 0;
+  if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
   forget_manifolds(*data_, index);
   wake(index);
 }

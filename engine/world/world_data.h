@@ -35,6 +35,7 @@ struct BodyRecord {
   bool may_sleep = true;
   bool lock_x = false, lock_y = false, lock_rotation = false;
   bool mass_given = false;
+  bool quarantined = false;  ///< out of the motion; its type is Static meanwhile
   int awake_index = kNone;
   int first_shape = kNone, first_contact = kNone,
       first_joint = kNone;     ///< contact and joint: edge = 2 index + side
@@ -124,6 +125,20 @@ struct ChainRecord {
   std::vector<int> shapes{};
 };
 
+/// A body that went bad, and what it was.
+struct QuarantinedBody {
+  int body = 0;
+  BodyType type = BodyType::Dynamic;  ///< that it has when it is released
+  QuarantineEvent why{};
+};
+
+/// A velocity.
+template <class Real>
+struct BodyVelocity {
+  Vec2<Real> velocity{};      ///< m/s
+  Real angular_velocity = 0;  ///< rad/s
+};
+
 /// How a body's velocity changes in a substep of its own accord.
 template <class Real>
 struct Kick {
@@ -176,7 +191,9 @@ struct Scratch {
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   std::vector<ContactConstraint<Real>> begun_contacts;
-  std::vector<Kick<Real>> kicks;  ///< of the awake bodies that move by substeps
+  std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps
+  std::vector<BodyVelocity<Real>> starts;  ///< theirs at the step's start
+  std::vector<int> bad_bodies;             ///< whose motion in the step is not to be used
   std::vector<int> island_of, island_size, island_place;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
@@ -234,8 +251,9 @@ struct WorldData {
 
   std::vector<SensorRecord> sensors;
   std::vector<int> breakable;  ///< joints
-  Events events;               ///< of the last step
-  Events pending;              ///< since then: the next step's
+  std::vector<QuarantinedBody> quarantine;
+  Events events;   ///< of the last step
+  Events pending;  ///< since then: the next step's
   bool stepping = false;
   bool reports_hits = false;  ///< some shape wants it
   bool ties_changed =

@@ -16,16 +16,18 @@ template <>
 inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
+template <>
+inline constexpr int kEnumerators<BadField> = 4;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 
 PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous, solver,
-              iterations, direct_islands)
+              iterations, direct_islands, quarantine)
 PLUMB_MEMBERS(Filter, category, mask, group)
 
-PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, awake_index,
-                   first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia, centre,
-                   half_width, still_for, angle)
+PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
+                   awake_index, first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia,
+                   centre, half_width, still_for, angle)
 PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping)
 PLUMB_REAL_MEMBERS(Load, force, torque)
 PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
@@ -50,7 +52,9 @@ PLUMB_MEMBERS(TouchEvent, shape_a, shape_b)
 PLUMB_MEMBERS(HitEvent, shape_a, shape_b, point, normal, speed)
 PLUMB_MEMBERS(SensorEvent, sensor, visitor)
 PLUMB_MEMBERS(JointEvent, joint)
-PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke)
+PLUMB_MEMBERS(QuarantineEvent, body, name, field, value, step)
+PLUMB_MEMBERS(QuarantinedBody, body, type, why)
+PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
 
 /// All of a world that its future depends on, and the events of its last step, as a tuple of references. Left
 /// out are the pre-solve hook and the user's combine rules, which are code, and what every step makes anew. A
@@ -60,12 +64,12 @@ constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains, moved_shapes,
          still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable,
-         events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve, friction_rule,
+         quarantine, events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve, friction_rule,
          restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
                   moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
-                  joint_set, sensors, breakable, events, pending, reports_hits);
+                  joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
 }
 
 }  // namespace plumb

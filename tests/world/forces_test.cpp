@@ -336,6 +336,7 @@ TYPED_TEST(ForceLaws, ALawOfOnesOwnActsOnAwakeBodiesAlone) {
 
 TYPED_TEST(ForceLaws, ALawThatFailsNamesTheBodyAndChangesNothing) {
   typename TestFixture::World world(weightless());
+  world.set_quarantine(false);
   const BodyId good = add_body(world, {0, 0}, kDisc);
   const BodyId bad = world.create_body({.name = "ball", .position = {5, 0}}, kDisc);
   try {

@@ -179,7 +179,7 @@ TEST(Handles, MisuseIsATypedErrorAndChangesNothing) {
 }
 
 TEST(Handles, AStateThatIsNotFiniteIsReported) {
-  World world;
+  World world({.quarantine = false});
   BodyDefinition definition;
   definition.name = "rocket";
   const BodyId body = world.create_body(definition, ShapeDefinition{});
