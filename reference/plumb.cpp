@@ -184,13 +184,13 @@ class PreciseBackend final : public PlumbBackend {
   }
 
   std::vector<Knob> knobs() const override {
-    return {
-        {"tolerance",
-         {"1e-1", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12"}},
-        {"method",
-         {std::string(name_of(MotionMethod::Automatic)), std::string(name_of(MotionMethod::Explicit)),
-          std::string(name_of(MotionMethod::Symplectic))},
-         false}};
+    return {{"tolerance",
+             {"1e2", "1e1", "1", "1e-1", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9",
+              "1e-10", "1e-11", "1e-12"}},
+            {"method",
+             {std::string(name_of(MotionMethod::Automatic)), std::string(name_of(MotionMethod::Explicit)),
+              std::string(name_of(MotionMethod::Symplectic))},
+             false}};
   }
 
   Method method(const StepSettings& settings) const override {

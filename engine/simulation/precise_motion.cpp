@@ -1,14 +1,13 @@
 #include "engine/simulation/precise_motion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <variant>
 
 #include "engine/math/trigonometry.h"
-#include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "engine/simulation/precise_clock.h"
 
 namespace plumb::precise {
@@ -56,6 +55,29 @@ InverseMasses inverse_masses(const Scene& scene) {
   return inverse;
 }
 
+/// Whether joined bodies' masses are more than a hundred times apart.
+bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const double> inverse_mass) {
+  double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
+  for (const Row<double>& row : rows) {
+    for (const int body : {row.a, row.b}) {
+      if (body == kFixedFrame || inverse_mass[body] == 0) continue;
+      lightest = std::max(lightest, inverse_mass[body]);
+      heaviest = std::min(heaviest, inverse_mass[body]);
+    }
+  }
+  return lightest > 100 * heaviest;
+}
+
+/// The hinges of mechanisms that have nothing else. Where masses are far apart, rounding wants the refinement
+/// that rows have.
+HingeLines hinge_lines(const JointSystem<double>& system, const Joints<double>& joints,
+                       const KindJoints& others, const std::vector<double>& inverse_mass,
+                       const std::vector<double>& inverse_inertia, bool wide_mass_ratio) {
+  const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio;
+  return {plain ? system.hinges() : std::vector<HingePlace>{}, joints.revolute, inverse_mass,
+          inverse_inertia};
+}
+
 std::vector<double> only(const std::vector<double>& values, const std::vector<std::size_t>& bodies) {
   std::vector<double> some(values.size(), 0.0);
   for (const std::size_t i : bodies) some[i] = values[i];
@@ -67,6 +89,7 @@ std::vector<double> only(const std::vector<double>& values, const std::vector<st
 EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight,
                                      bool every_stage)
     : bodies_(parts.integrated),
+      slot_(scene.bodies.size(), -1),
       flight_(flight),
       gravity_(scene.gravity),
       forces_(with_laws_on(scene, parts.integrated)),
@@ -84,23 +107,17 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       accelerations_(scene.bodies.size()),
       wrenches_(scene.bodies.size()),
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
+      hinges_(hinge_lines(system_, joints_, kind_joints_, joint_inverse_mass_, joint_inverse_inertia_,
+                          has_wide_mass_ratio(rows_, joint_inverse_mass_))),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
       has_forces_(!forces_.empty() || kind_joints_.has_springs() || !kind_joints_.stops().empty() ||
                   every_stage),
       has_joints_(!rows_.empty() || every_stage),
+      wide_mass_ratio_(has_wide_mass_ratio(rows_, joint_inverse_mass_)),
       length_(scales_of(scene, parts).length) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
-  double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
-  for (const Row<double>& row : rows_) {
-    for (const int body : {row.a, row.b}) {
-      if (body == kFixedFrame) continue;
-      const auto i = static_cast<std::size_t>(body);
-      if (flight_.holds(i)) continue;
-      lightest = std::max(lightest, inverse_mass_[i]);
-      heaviest = std::min(heaviest, inverse_mass_[i]);
-    }
-  }
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) slot_[bodies_[slot]] = static_cast<int>(slot);
   for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {
     for (const std::string_view name : ends_of(law)) {
       if (const auto body = find_body(scene, name); body && flight_.holds(*body)) guides_.push_back(*body);
@@ -118,7 +135,6 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
   }
   std::sort(guides_.begin(), guides_.end());
   guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
-  wide_mass_ratio_ = lightest > 100 * heaviest;
 }
 
 BodyState EquationsOfMotion::state(std::span<const double> y, std::size_t slot) {
@@ -135,9 +151,13 @@ void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodySt
 void EquationsOfMotion::place(double time, std::span<const double> y) {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = state(y, slot);
-    poses_[bodies_[slot]] = {now.position, rotation_of(now.angle)};
-    angles_[bodies_[slot]] = now.angle;
-    twists_[bodies_[slot]] = {now.velocity, now.angular_velocity};
+    const std::size_t body = bodies_[slot];
+    if (std::bit_cast<std::uint64_t>(angles_[body]) != std::bit_cast<std::uint64_t>(now.angle)) {
+      poses_[body].rotation = rotation_of(now.angle);
+      angles_[body] = now.angle;
+    }
+    poses_[body].position = now.position;
+    twists_[body] = {now.velocity, now.angular_velocity};
   }
   for (const std::size_t body : guides_) {
     const BodyState now = flight_.at(body, time).state;
@@ -205,8 +225,12 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
                                           std::span<Twist<double>> out) {
   ++evaluations_;
   place(time, y);
+  if (!has_forces_) {
+    for (const std::size_t body : bodies_) out[body] = {gravity_, 0};
+    return;
+  }
   for (const std::size_t body : bodies_) wrenches_[body] = {};
-  if (has_forces_) {
+  {
     const Clock clock(cost.on, cost.forces);
     forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
     if (kind_joints_.has_springs()) kind_joints_.add_springs(bodies_now(), wrenches_);
@@ -220,16 +244,38 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
 
 void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
   accelerate_freely(time, y, accelerations_);
-  if (has_joints_) {
+  if (only_hinges()) {
     const Clock clock(cost.on, cost.joints);
-    linearise();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      right_side_[i] = -(row_speed(rows_[i], accelerations_) + rows_[i].bias_acceleration);
-    }
-    solve_joints();
-    pull(accelerations_);
+    hinges_.place(poses_);
+    hinges_.accelerate(twists_, accelerations_);
+    dependent_rows_ = std::max(dependent_rows_, hinges_.dependent());
+    weakest_ = std::min(weakest_, hinges_.weakest());
+  } else if (has_joints_) {
+    accelerate_joints();
   }
   if (holds_anything()) press(accelerations_);
+  write_rate(y, out);
+}
+
+void EquationsOfMotion::rate_with_rows(double time, std::span<const double> y, std::span<double> out) {
+  accelerate_freely(time, y, accelerations_);
+  if (has_joints_) accelerate_joints();
+  if (holds_anything()) press(accelerations_);
+  write_rate(y, out);
+}
+
+/// Adds the accelerations by joints to those without.
+void EquationsOfMotion::accelerate_joints() {
+  const Clock clock(cost.on, cost.joints);
+  linearise();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    right_side_[i] = -(row_speed(rows_[i], accelerations_) + rows_[i].bias_acceleration);
+  }
+  solve_joints();
+  pull(accelerations_);
+}
+
+void EquationsOfMotion::write_rate(std::span<const double> y, std::span<double> out) const {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& acceleration = accelerations_[bodies_[slot]];
     const double* motion = y.data() + kPerBody * slot;
@@ -239,25 +285,6 @@ void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<d
     change[4] = acceleration.velocity.y;
     change[5] = acceleration.angular_velocity;
   }
-}
-
-void EquationsOfMotion::project(double time, Compensated& y) {
-  if (!has_joints_ && !holds_anything()) return;
-  close_gaps(time, y);
-  // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
-  std::vector<Twist<double>>& shift = accelerations_;
-  std::fill(shift.begin(), shift.end(), Twist<double>{});
-  if (has_joints_) {
-    system_.factor(rows_);
-    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
-    solve_joints();
-    pull(shift);
-  }
-  if (holds_anything()) {
-    linearise_contacts(false);
-    close_contacts(twists_, false, shift);
-  }
-  kick(shift, 1, y);
 }
 
 void EquationsOfMotion::hold(double time, std::span<const double> y) {
@@ -292,80 +319,6 @@ void EquationsOfMotion::speed_response(std::span<const double> y, std::span<Twis
   for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
   solve_joints();
   pull(out);
-}
-
-/// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
-void EquationsOfMotion::close_gaps(double time, Compensated& y) {
-  constexpr int kMost = 20;
-  constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
-  std::vector<Twist<double>>& shift = accelerations_;
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0;; ++i) {
-    place(time, y.value());
-    if (has_joints_) find_rows(rows_);
-    if (held_stops_ > 0) stop_rows();
-    const WorstGap worst = worst_gap();
-    const bool stuck = worst.gap > 0.5 * before || i == kMost;
-    if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;
-    if (i == kMost || !std::isfinite(worst.gap)) {
-      throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",
-                  "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
-    }
-    before = worst.gap;
-    std::fill(shift.begin(), shift.end(), Twist<double>{});
-    if (has_joints_) {
-      system_.factor(rows_);
-      for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
-      solve_joints();
-      pull(shift);
-    }
-    if (holds_anything()) {
-      linearise_contacts(false);
-      close_contacts(twists_, true, shift);
-    }
-    for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
-      const Twist<double>& s = shift[bodies_[slot]];
-      y.add(kPerBody * slot, s.velocity.x);
-      y.add(kPerBody * slot + 1, s.velocity.y);
-      y.add(kPerBody * slot + 2, s.angular_velocity);
-    }
-  }
-}
-
-/// The widest gap of a joint, or of a contact that lasts, where bodies are placed.
-EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
-  WorstGap worst;
-  const auto offer = [&](double gap, const auto& subject) {
-    if (std::abs(gap) <= worst.gap) return;
-    worst.gap = std::abs(gap);
-    worst.subject = subject();
-  };
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    offer(rows_[r].residual, [&] { return "joint '" + joint_of_row_[r] + "'"; });
-  }
-  for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {
-    const KindJoints::Stop& stop = kind_joints_.stops()[k];
-    if (stop_modes_[k] != StopMode::Held || stop.role != RowRole::Limit) continue;
-    offer(stop_rows_[k].residual, [&] { return "joint '" + stop.joint + "'"; });
-  }
-  for (const ActivePatch& patch : patches_) {
-    for (int i = 0; i < patch.count; ++i) {
-      const Gap gap =
-          gap_of(patch.features[i], *patch.a, poses_[patch.a->body], *patch.b, poses_[patch.b->body]);
-      offer(gap.value,
-            [&] { return "contact of '" + names_[patch.a->body] + "' and '" + names_[patch.b->body] + "'"; });
-    }
-  }
-  return worst;
-}
-
-/// What gaps cannot be less than: the rounding of the positions that they are differences of.
-double EquationsOfMotion::rounding_of_gaps() const {
-  double extent = length_;
-  for (const std::size_t body : bodies_) {
-    extent = std::max({extent, std::abs(poses_[body].position.x), std::abs(poses_[body].position.y)});
-  }
-  return 4 * std::numeric_limits<double>::epsilon() * extent;
 }
 
 void EquationsOfMotion::kick(std::span<const Twist<double>> response, double scale, Compensated& y) const {

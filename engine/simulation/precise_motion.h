@@ -12,6 +12,7 @@
 #include "engine/scene/scene.h"
 #include "engine/simulation/precise_active.h"
 #include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_hinges.h"
 #include "engine/simulation/precise_joints.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/solve/dense_system.h"
@@ -38,6 +39,8 @@ class EquationsOfMotion final : public Flow {
 
   /// dy/dt. Counts as one evaluation.
   void rate(double time, std::span<const double> y, std::span<double> out) override;
+  /// The same, and `rows` and `multipliers` are those of this state then.
+  void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
   void set_evaluations(std::int64_t count) { evaluations_ = count; }
 
@@ -103,8 +106,8 @@ class EquationsOfMotion final : public Flow {
 
   std::span<const std::size_t> bodies() const { return bodies_; }
 
-  /// As the last evaluation of `rate` found them: poses and twists by body, the joints' rows and their
-  /// multipliers.
+  /// As the last evaluation of `rate` found them: poses and twists by body; of `rate_with_rows`, the joints'
+  /// rows and their multipliers.
   std::span<const Pose<double>> poses() const { return poses_; }
   std::span<const Twist<double>> twists() const { return twists_; }
   std::span<const Row<double>> rows() const { return rows_; }
@@ -127,7 +130,12 @@ class EquationsOfMotion final : public Flow {
   void place(double time, std::span<const double> y);
   void find_rows(std::span<Row<double>> out) const;
   void linearise();
+  bool only_hinges() const { return !hinges_.empty() && !holds_anything(); }
+  void accelerate_joints();
+  void write_rate(std::span<const double> y, std::span<double> out) const;
+  void hang(double time, Compensated& y);
   void close_gaps(double time, Compensated& y);
+  void shift_places(std::span<const Twist<double>> shift, Compensated& y) const;
   struct WorstGap {
     double gap = 0;
     std::string subject;
@@ -149,6 +157,7 @@ class EquationsOfMotion final : public Flow {
   void close_contacts(std::span<const Twist<double>> motion, bool gaps, std::span<Twist<double>> shift);
 
   std::vector<std::size_t> bodies_;  // integrated, by slot
+  std::vector<int> slot_;            // by body: its place among those, or -1
   std::vector<std::size_t> guides_;  // not integrated, but with joints or at the end of a law
   const Flight& flight_;
   Vec2d gravity_;
@@ -165,8 +174,9 @@ class EquationsOfMotion final : public Flow {
   std::vector<Twist<double>> twists_, accelerations_;
   std::vector<Wrench<double>> wrenches_;
   JointSystem<double> system_;
+  HingeLines hinges_;  // empty where there is anything else
   std::vector<double> right_side_, multipliers_;
-  bool has_forces_, has_joints_, wide_mass_ratio_ = false;
+  bool has_forces_, has_joints_, wide_mass_ratio_;
   double weakest_ = 1;
   int dependent_rows_ = 0;
   double window_start_ = 0, window_end_ = 0;

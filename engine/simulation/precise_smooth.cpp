@@ -374,7 +374,8 @@ double SmoothMotion::first_step() const {
   for (std::size_t i = 0; i < y_.size(); ++i) {
     fastest = std::max(fastest, std::abs(explicit_.first_rate()[i]) * (tolerance_ / error_scale_[i]));
   }
-  return fastest > 0 ? std::min(0.1 / fastest, longest_step_) : longest_step_;
+  const double eighth = std::sqrt(std::sqrt(std::sqrt(tolerance_)));  // the method's error goes with h^8
+  return fastest > 0 ? std::min(std::max(0.1, eighth) / fastest, longest_step_) : longest_step_;
 }
 
 void SmoothMotion::blame_fastest() const {

@@ -28,7 +28,7 @@ StiffMotion::StiffMotion(const Scene& scene, const Parts& parts, EquationsOfMoti
 }
 
 void StiffMotion::linearise(double time, std::span<const double> y) {
-  equations_.rate(time, y, rate_);
+  equations_.rate_with_rows(time, y, rate_);
   force_jacobian_.evaluate(time, equations_.poses(), equations_.twists(), blocks_);
   rows_.assign(equations_.rows().begin(), equations_.rows().end());
   add_tension();

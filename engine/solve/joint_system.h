@@ -8,6 +8,13 @@
 
 namespace plumb {
 
+/// Where a hinge, two rows, stands in an elimination: the one hinge that comes after it in L.
+struct HingePlace {
+  int hinge = 0;                ///< the first of its rows, halved
+  int next = -1;                ///< its place in the order; none: -1
+  int side = 0, next_side = 0;  ///< of the body that they share: 0 for a, 1 for b
+};
+
 /// The linear system of all joints at once, A = J M^-1 J^T, factorised as sparse L D L^T. The elimination
 /// order is found once, from which rows share a moving body; no fill for chains and trees, so both
 /// factorisation and solution are linear in their length. No allocation after construction. One thread at a
@@ -37,6 +44,10 @@ class JointSystem {
   Real weakest() const { return weakest_; }
   /// Of the last factorisation: whether a row depends on others.
   std::vector<char> dependent() const;
+
+  /// Hinges in the order of elimination, where there is nothing else and each has one neighbour after it at
+  /// most; empty else.
+  std::vector<HingePlace> hinges() const;
 
   std::size_t row_count() const { return order_.size(); }
   /// Entries of L below its diagonal: what factorisation and solution cost.

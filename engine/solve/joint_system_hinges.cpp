@@ -61,6 +61,14 @@ void JointSystem<Real>::find_hinges(std::span<const Row<Real>> rows, const std::
 }
 
 template <class Real>
+std::vector<HingePlace> JointSystem<Real>::hinges() const {
+  std::vector<HingePlace> places;
+  for (const Hinge& hinge : hinges_)
+    places.push_back({hinge.row / 2, hinge.next, hinge.side, hinge.next_side});
+  return places;
+}
+
+template <class Real>
 typename JointSystem<Real>::HingeBlock JointSystem<Real>::hinge_block(const Row<Real>& first,
                                                                       const Row<Real>& second) const {
   HingeBlock block;

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/joints/joints.h"
+#include "engine/math/pose.h"
+#include "engine/solve/joint_system.h"
+
+namespace plumb::precise {
+
+/// Chains and trees of hinges, the commonest mechanism, in one pass over the bodies: what `Joints::rows` and
+/// `JointSystem` do, without rows. A hinge's Jacobian is known from its arms r = R s,
+///   C = x_b + r_b - x_a - r_a,   J v = v_b + w_b x r_b - v_a - w_a x r_a,   (dJ/dt) v = w_a^2 r_a - w_b^2
+///   r_b,
+/// so that A = J M^-1 J^T has blocks of 2 x 2: with p = (-r_y, r_x),
+///   own:            (1/m_a + 1/m_b) I + p_a p_a^T / I_a + p_b p_b^T / I_b,
+///   of a neighbour: +-(I / m + p p'^T / I) of the body that both share.
+class HingeLines {
+ public:
+  /// `order`: `JointSystem::hinges`, of a system whose rows are those of `hinges` alone. Empty: there are
+  /// none.
+  HingeLines(std::span<const HingePlace> order, const std::vector<Revolute<double>>& hinges,
+             std::span<const double> inverse_mass, std::span<const double> inverse_inertia);
+
+  bool empty() const { return lines_.empty(); }
+
+  /// Whether every body hangs, hinge by hinge, on something that joints do not move: then angles say where
+  /// all is.
+  bool rooted() const { return !steps_.empty(); }
+  /// Bodies that hang on others are put where these and the angles want them, and move with them: no gap is
+  /// left but rounding. The arms are those of `place`. `moved(body)` is called for each.
+  template <class Moved>
+  void hang(std::span<Pose<double>> poses, std::span<Twist<double>> twists, const Moved& moved) const {
+    for (const Step& step : steps_) {
+      const Block& block = blocks_[step.line];
+      const Line& line = lines_[step.line];
+      const int parent = step.b_hangs ? line.a : line.b, child = step.b_hangs ? line.b : line.a;
+      const Vec2d up = step.b_hangs ? block.arm_a : block.arm_b,
+                  own = step.b_hangs ? block.arm_b : block.arm_a;
+      const Vec2d place = parent == kFixedFrame ? Vec2d{} : poses[parent].position;
+      const Twist<double> motion = parent == kFixedFrame ? Twist<double>{} : twists[parent];
+      Twist<double>& twist = twists[child];
+      poses[child].position = place + (up - own);
+      twist.velocity =
+          motion.velocity + (cross(motion.angular_velocity, up) - cross(twist.angular_velocity, own));
+      moved(static_cast<std::size_t>(child));
+    }
+  }
+
+  /// Takes the arms and the blocks of A where bodies are placed; by body.
+  void place(std::span<const Pose<double>> poses);
+
+  /// The widest gap, m, at those places, and its hinge.
+  struct Widest {
+    double gap = 0;
+    int hinge = 0;
+  };
+  Widest widest(std::span<const Pose<double>> poses) const;
+
+  /// At the places of `place`, once for each: accelerations += M^-1 J^T lambda such that
+  /// J a + (dJ/dt) v = 0.
+  void accelerate(std::span<const Twist<double>> twists, std::span<Twist<double>> accelerations);
+  /// shift += M^-1 J^T lambda such that it takes J v away.
+  void stop(std::span<const Twist<double>> twists, std::span<Twist<double>> shift);
+  /// shift += M^-1 J^T lambda such that it closes the gaps, to first order.
+  void close(std::span<const Pose<double>> poses, std::span<Twist<double>> shift);
+
+  /// Of the last of those: directions that depend on others, and get no force; the least share of a direction
+  /// that the others leave to it, as `JointSystem::weakest`.
+  int dependent() const { return dependent_; }
+  double weakest() const { return weakest_; }
+
+ private:
+  struct Line {
+    int a = kFixedFrame, b = kFixedFrame, hinge = 0;
+    int next = -1;                                                // the one hinge after it that shares a body
+    bool side = false, next_side = false;                         // of that body: whether it is b of either
+    double mass_a = 0, mass_b = 0, inertia_a = 0, inertia_b = 0;  // inverse
+    Vec2d anchor_a{}, anchor_b{};
+  };
+  /// L D L^T by blocks: `within` is L's entry in the block, `below` its block in the row of the next hinge.
+  struct Block {
+    Vec2d arm_a{}, arm_b{};
+    double xx = 0, xy = 0, yy = 0;  // of A; less what was taken by hinges before it, then
+    double own_x = 0, own_y = 0;
+    double x = 0, y = 0;  // the right side, then the multipliers
+    double within = 0, inverse_x = 0, inverse_y = 0;
+    double below[2][2]{};
+  };
+
+  /// One body that hangs on one that comes before it.
+  struct Step {
+    std::size_t line = 0;
+    bool b_hangs = false;
+  };
+  void find_root();
+
+  Vec2d gap(std::size_t k, std::span<const Pose<double>> poses) const;
+  /// 1 / left, or zero where it is the rounding left over by what the direction depends on.
+  double pivot(double left, double own) {
+    constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
+    if (!(left > kDependent * own)) {
+      ++dependent_;
+      return 0;
+    }
+    if (left < weakest_ * own) weakest_ = left / own;
+    return 1 / left;
+  }
+  void eliminate();
+  void solve(std::span<Twist<double>> motion);
+
+  std::vector<Line> lines_;  // in the order of elimination
+  std::vector<Step> steps_;  // from the root on; empty where there is none
+  std::vector<Block> blocks_;
+  double weakest_ = 1;
+  int dependent_ = 0;
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+#include "engine/simulation/precise_motion.h"
+
+// Back onto what joints and contacts ask for, after steps.
+namespace plumb::precise {
+
+void EquationsOfMotion::project(double time, Compensated& y) {
+  if (!has_joints_ && !holds_anything()) return;
+  if (only_hinges() && hinges_.rooted()) return hang(time, y);
+  close_gaps(time, y);
+  // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
+  std::vector<Twist<double>>& shift = accelerations_;
+  std::fill(shift.begin(), shift.end(), Twist<double>{});
+  if (only_hinges()) {
+    hinges_.stop(twists_, shift);
+  } else if (has_joints_) {
+    system_.factor(rows_);
+    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
+    solve_joints();
+    pull(shift);
+  }
+  if (holds_anything()) {
+    linearise_contacts(false);
+    close_contacts(twists_, false, shift);
+  }
+  kick(shift, 1, y);
+}
+
+/// Of what hangs by hinges on what stands, angles alone are free: places and velocities follow from them.
+void EquationsOfMotion::hang(double time, Compensated& y) {
+  place(time, y.value());
+  hinges_.place(poses_);
+  hinges_.hang(poses_, twists_, [&](std::size_t body) {
+    const std::size_t first = kPerBody * static_cast<std::size_t>(slot_[body]);
+    y.set(first, poses_[body].position.x);
+    y.set(first + 1, poses_[body].position.y);
+    y.set(first + 3, twists_[body].velocity.x);
+    y.set(first + 4, twists_[body].velocity.y);
+  });
+}
+
+/// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
+void EquationsOfMotion::close_gaps(double time, Compensated& y) {
+  constexpr int kMost = 20;
+  constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
+  std::vector<Twist<double>>& shift = accelerations_;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
+    place(time, y.value());
+    if (only_hinges()) {
+      hinges_.place(poses_);
+    } else if (has_joints_) {
+      find_rows(rows_);
+    }
+    if (held_stops_ > 0) stop_rows();
+    const WorstGap worst = worst_gap();
+    const bool stuck = worst.gap > 0.5 * before || i == kMost;
+    if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;
+    if (i == kMost || !std::isfinite(worst.gap)) {
+      throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",
+                  "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
+    }
+    before = worst.gap;
+    std::fill(shift.begin(), shift.end(), Twist<double>{});
+    if (only_hinges()) {
+      hinges_.close(poses_, shift);
+    } else if (has_joints_) {
+      system_.factor(rows_);
+      for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
+      solve_joints();
+      pull(shift);
+    }
+    if (holds_anything()) {
+      linearise_contacts(false);
+      close_contacts(twists_, true, shift);
+    }
+    shift_places(shift, y);
+  }
+}
+
+void EquationsOfMotion::shift_places(std::span<const Twist<double>> shift, Compensated& y) const {
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const Twist<double>& s = shift[bodies_[slot]];
+    y.add(kPerBody * slot, s.velocity.x);
+    y.add(kPerBody * slot + 1, s.velocity.y);
+    y.add(kPerBody * slot + 2, s.angular_velocity);
+  }
+}
+
+/// The widest gap of a joint, or of a contact that lasts, where bodies are placed.
+EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
+  WorstGap worst;
+  const auto offer = [&](double gap, const auto& subject) {
+    if (std::abs(gap) <= worst.gap) return;
+    worst.gap = std::abs(gap);
+    worst.subject = subject();
+  };
+  if (only_hinges()) {
+    const HingeLines::Widest widest = hinges_.widest(poses_);
+    offer(widest.gap, [&] { return "joint '" + joint_of_row_[2 * widest.hinge] + "'"; });
+  } else {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      offer(rows_[r].residual, [&] { return "joint '" + joint_of_row_[r] + "'"; });
+    }
+  }
+  for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {
+    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    if (stop_modes_[k] != StopMode::Held || stop.role != RowRole::Limit) continue;
+    offer(stop_rows_[k].residual, [&] { return "joint '" + stop.joint + "'"; });
+  }
+  for (const ActivePatch& patch : patches_) {
+    for (int i = 0; i < patch.count; ++i) {
+      const Gap gap =
+          gap_of(patch.features[i], *patch.a, poses_[patch.a->body], *patch.b, poses_[patch.b->body]);
+      offer(gap.value,
+            [&] { return "contact of '" + names_[patch.a->body] + "' and '" + names_[patch.b->body] + "'"; });
+    }
+  }
+  return worst;
+}
+
+/// What gaps cannot be less than: the rounding of the positions that they are differences of.
+double EquationsOfMotion::rounding_of_gaps() const {
+  double extent = length_;
+  for (const std::size_t body : bodies_) {
+    extent = std::max({extent, std::abs(poses_[body].position.x), std::abs(poses_[body].position.y)});
+  }
+  return 4 * std::numeric_limits<double>::epsilon() * extent;
+}
+
+}  // namespace plumb::precise
