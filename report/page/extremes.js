@@ -146,34 +146,39 @@ function showExtremes({cells, endurances}) {
   section.querySelector(".maps").append(overview(families, endurances), ...families.map((family) => familyMap(family, endurances)));
 }
 
-const kFound = {always: "all that were tried", never: "none that was tried"};
+// What was found, for people: where every value that was tried is alike, these are told.
+function foundText(row) {
+  const tried = `${axisText(row.low)} \u2026 ${axisText(row.high)}`;
+  if (row.outcome === "always") return `all of ${tried}`;
+  if (row.outcome === "never") return `none of ${tried}`;
+  if (!Number.isFinite(row.found)) return row.outcome;
+  return row.outcome === "found" ? figure4(row.found) : `${row.outcome}, about ${figure4(row.found)}`;
+}
 
 /// The section of the thresholds, if `plumb thresholds` left any.
 function showThresholds(rows) {
   const section = document.getElementById("thresholds");
   section.hidden = rows.length === 0;
   if (section.hidden) return;
-  const off = (row) => (row.outcome === "found" && row.exact ? row.found / row.exact - 1 : null);
-  const number = (value) => (Number.isFinite(value) ? figure4(value) : "\u2013");
+  const found = (row) => (["found", "unclear"].includes(row.outcome) && Number.isFinite(row.found) ? row.found : null);
+  const off = (row) => (found(row) !== null && row.exact ? row.found / row.exact - 1 : null);
   const names = [...new Set(rows.map((row) => row.name))];
   const sorted = [...rows].sort((a, b) => names.indexOf(a.name) - names.indexOf(b.name) || isPlumb(b.engine) - isPlumb(a.engine));
+  const title = (row) => row.title ?? words(row.name);
   section.querySelector("ul").append(...names.map((name) => {
-    const {title, quantity, source} = rows.find((row) => row.name === name);
-    return make("li", {}, make("b", {text: title ?? words(name)}), `: ${quantity ?? ""}${source ? ` (exact: ${source})` : ""}`);
+    const row = rows.find((one) => one.name === name);
+    const rest = [row.quantity, row.source ? `exact: ${row.source}` : "", row.judged ? `it is past where ${row.judged}` : ""];
+    return make("li", {}, make("b", {text: title(row)}), `: ${rest.filter(Boolean).join("; ")}`);
   }));
   section.querySelector(".table").append(table([
-    {name: "threshold", text: (row) => row.title ?? words(row.name)},
-    {name: "engine", text: (row) => row.engine},
-    {name: "setting", text: (row) => row.setting},
-    {name: "found", number: true, text: (row) => (row.outcome === "found" ? number(row.found) : kFound[row.outcome] ?? row.outcome),
-      value: (row) => (row.outcome === "found" ? row.found : null), mark: (row) => (["refused", "unclear"].includes(row.outcome) ? "bad" : "")},
-    {name: "exact", number: true, text: (row) => number(row.exact), value: (row) => row.exact},
+    {name: "threshold", wide: true, text: title},
+    {name: "engine", text: (row) => (row.setting === "default" ? row.engine : rowName(row))},
+    {name: "found", number: true, text: foundText, value: found, mark: (row) => (row.outcome === "refused" ? "note" : row.outcome === "unclear" ? "bad" : "")},
+    {name: "exact", number: true, text: (row) => (Number.isFinite(row.exact) ? figure4(row.exact) : "\u2013"), value: (row) => row.exact},
     {name: "off by", number: true, text: (row) => percent(off(row)), value: (row) => (off(row) === null ? null : Math.abs(off(row)))},
-    {name: "between", number: true, text: (row) => (Number.isFinite(row.low) && Number.isFinite(row.high) ? `${number(row.low)} \u2026 ${number(row.high)}` : "\u2013"),
-      value: (row) => row.low},
     {name: "unit", text: (row) => row.unit || ""},
     {name: "remarks", wide: true, text: (row) => row.reason ?? ""},
     {name: "runs", number: true, text: (row) => String(row.runs ?? "\u2013"), value: (row) => row.runs},
-    {name: "settings", wide: true, text: (row) => settingsText(row)},
+    {name: "settings", text: settingsText},
   ], sorted));
 }
