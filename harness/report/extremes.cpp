@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <limits>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,6 +76,32 @@ class Latest {
   std::vector<Item> items_;
 };
 
+const std::string kAnyPlumb = "any of plumb's", kAnySetting = "any setting";
+
+/// Of the cells of one scene whose `group` is the same, the best, called by the group and "any setting";
+/// where the group has several engines or settings. An empty name is no group.
+std::vector<Cell> best_of(const std::vector<Cell>& cells,
+                          const std::function<std::string(const Cell&)>& group) {
+  std::map<std::string, std::set<std::string>> members;
+  std::map<std::string, Cell> best;
+  const auto rank = [](const Cell& cell) { return cell.survived() ? 2 : cell.counted() ? 1 : 0; };
+  for (const Cell& cell : cells) {
+    const std::string name = group(cell);
+    if (name.empty()) continue;
+    members[name].insert(cell.engine + "|" + cell.setting);
+    Cell named = cell;
+    named.engine = name;
+    named.setting = kAnySetting;
+    const auto [place, fresh] =
+        best.try_emplace(fmt::format("{}|{}|{}", name, cell.family, cell.value), named);
+    if (!fresh && rank(cell) > rank(place->second)) place->second = named;
+  }
+  std::vector<Cell> out;
+  for (auto& [key, cell] : best)
+    if (members[cell.engine].size() > 1) out.push_back(std::move(cell));
+  return out;
+}
+
 }  // namespace
 
 Extremes read_extremes(const std::string& folder) {
@@ -95,8 +121,14 @@ Extremes read_extremes(const std::string& folder) {
 }
 
 std::vector<Endurance> endurances(const std::vector<Cell>& cells) {
+  std::vector<Cell> all = cells;
+  for (const auto& more :
+       {best_of(cells, [](const Cell& cell) { return cell.engine; }), best_of(cells, [](const Cell& cell) {
+          return sweep::is_plumb(cell.engine) ? kAnyPlumb : std::string();
+        })})
+    all.insert(all.end(), more.begin(), more.end());
   std::vector<Endurance> out;
-  for (const Cell& cell : cells) {
+  for (const Cell& cell : all) {
     auto row = std::find_if(out.begin(), out.end(), [&](const Endurance& one) {
       return one.engine == cell.engine && one.setting == cell.setting;
     });
@@ -110,7 +142,7 @@ std::vector<Endurance> endurances(const std::vector<Cell>& cells) {
   }
   const auto rank = [](const Endurance& row) {
     const double share = row.all.total ? static_cast<double>(row.all.survived) / row.all.total : 2;
-    return std::pair(!sweep::is_plumb(row.engine), share);
+    return std::tuple(row.engine != kAnyPlumb, !sweep::is_plumb(row.engine), share);
   };
   std::stable_sort(out.begin(), out.end(),
                    [&](const Endurance& a, const Endurance& b) { return rank(a) < rank(b); });

@@ -42,7 +42,8 @@ struct Extremes {
 Extremes read_extremes(const std::string& folder);
 
 /// A row an engine and setting: plumb's first, of these the one that survives least; then the others,
-/// likewise.
+/// likewise. Before them all what any of plumb's engines survives with any setting; engines with several
+/// settings have a row of what any of these survives.
 std::vector<Endurance> endurances(const std::vector<Cell>& cells);
 
 /// Families in the order in which they first appear: name and title.

@@ -15,7 +15,7 @@ function counted() {
       unexpected += row.unexpected.length > 0;
     }
   const {endurances, thresholds} = data.extremes;
-  const total = (key) => endurances.reduce((sum, row) => sum + row[key], 0);
+  const total = (key) => endurances.filter((row) => row.setting !== "any setting").reduce((sum, row) => sum + row[key], 0);
   const found = [endurances.length ? `${total("total")} cells of extremes, ${total("survived")} survived.` : "",
     thresholds.length ? `${thresholds.length} thresholds.` : ""].filter(Boolean);
   if (data.scenes.length === 0) return found.join(" ");

@@ -24,22 +24,42 @@ const std::string kData = PLUMB_REPORT_DATA;
 
 TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
   const std::vector<Endurance> rows = endurances(read_extremes(kData).cells);
-  ASSERT_EQ(rows.size(), 5u);
+  ASSERT_EQ(rows.size(), 7u);
   // plumb's first, the worst of them before the others: 8, 11 and 12 of 12; then 4 of 12 and 2 of 8.
   std::vector<std::string> names;
   for (const Endurance& row : rows) names.push_back(row.engine + " " + row.setting);
-  EXPECT_THAT(names, ElementsAre("plumb-world default", "plumb-precise default", "plumb-world careful",
-                                 "bullet-double default", "box2d default"));
-  EXPECT_EQ(rows[0].all.survived, 8);
-  EXPECT_EQ(rows[0].all.total, 12);
-  EXPECT_EQ(rows[0].families.at("mass_ratio_stack").survived, 2);
-  EXPECT_THAT(rows[0].outcomes,
+  EXPECT_THAT(names, ElementsAre("any of plumb's any setting", "plumb-world default", "plumb-precise default",
+                                 "plumb-world careful", "plumb-world any setting", "bullet-double default",
+                                 "box2d default"));
+  EXPECT_EQ(rows[1].all.survived, 8);
+  EXPECT_EQ(rows[1].all.total, 12);
+  EXPECT_EQ(rows[1].families.at("mass_ratio_stack").survived, 2);
+  EXPECT_THAT(rows[1].outcomes,
               ElementsAre(Pair("inaccurate", 1), Pair("ok", 8), Pair("refused", 1), Pair("sinks", 2)));
   // What is skipped is not counted.
-  EXPECT_EQ(rows[3].all.survived, 2);
-  EXPECT_EQ(rows[3].all.total, 8);
-  EXPECT_FALSE(rows[3].families.contains("stiff_spring"));
-  EXPECT_EQ(rows[3].outcomes.at("skipped"), 4);
+  EXPECT_EQ(rows[5].all.survived, 2);
+  EXPECT_EQ(rows[5].all.total, 8);
+  EXPECT_FALSE(rows[5].families.contains("stiff_spring"));
+  EXPECT_EQ(rows[5].outcomes.at("skipped"), 4);
+}
+
+TEST(Extremes, ACellSurvivesWhereAnySettingDoes) {
+  const auto cell = [](double value, const char* engine, const char* setting, const char* outcome) {
+    return Cell{"f", "f", value, engine, setting, outcome, ""};
+  };
+  // 1: the first alone; 2: the second alone; 3: none; 4: only another engine of plumb; 5: only a rival.
+  const std::vector<Cell> cells{
+      cell(1, "plumb-world", "a", "ok"),      cell(2, "plumb-world", "a", "sinks"),
+      cell(3, "plumb-world", "a", "NaN"),     cell(4, "plumb-world", "a", "skipped"),
+      cell(5, "plumb-world", "a", "skipped"), cell(1, "plumb-world", "b", "sinks"),
+      cell(2, "plumb-world", "b", "ok"),      cell(3, "plumb-world", "b", "refused"),
+      cell(4, "plumb-world", "b", "skipped"), cell(5, "plumb-world", "b", "skipped"),
+      cell(4, "plumb-precise", "a", "ok"),    cell(5, "box2d", "a", "ok")};
+  std::map<std::string, std::string> counts;
+  for (const Endurance& row : endurances(cells))
+    if (row.setting == "any setting")
+      counts[row.engine] = std::to_string(row.all.survived) + " of " + std::to_string(row.all.total);
+  EXPECT_THAT(counts, ElementsAre(Pair("any of plumb's", "3 of 4"), Pair("plumb-world", "2 of 3")));
 }
 
 TEST(Extremes, ALaterLineReplacesAnEarlierOneAndACutLineIsPassedOver) {
@@ -101,8 +121,8 @@ TEST(Extremes, ThePictureHasANumberInEveryCell) {
     for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++out;
     return out;
   };
-  // Five rows of three families and the sum of these.
-  EXPECT_EQ(count("text-anchor=\"middle\""), 20);
+  // Seven rows of three families and the sum of these.
+  EXPECT_EQ(count("text-anchor=\"middle\""), 28);
   EXPECT_EQ(count(">8/12<"), 1);
   EXPECT_EQ(count(">2/4<"), 3) << "plumb-world's stacks and springs, box2d's bullets";
   EXPECT_EQ(count(">\u2013<"), 1);
