@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace plumb::precise {
+namespace {
+
+/// A pivot that has lost all but a few of its digits is the rounding left over by what it depends on.
+constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revolute<double>>& hinges,
                        std::span<const double> inverse_mass, std::span<const double> inverse_inertia) {
@@ -14,10 +22,41 @@ HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revo
     const Revolute<double>& hinge = hinges[static_cast<std::size_t>(place.hinge)];
     lines_.push_back({hinge.a, hinge.b, place.hinge, place.next, place.side == 1, place.next_side == 1,
                       of(inverse_mass, hinge.a), of(inverse_mass, hinge.b), of(inverse_inertia, hinge.a),
-                      of(inverse_inertia, hinge.b), hinge.anchor_a, hinge.anchor_b});
+                      of(inverse_inertia, hinge.b), hinge.anchor_a, hinge.anchor_b, 0, 0});
   }
   blocks_.resize(lines_.size());
   find_root();
+  from_both_ends();
+  for (Line& line : lines_) {
+    const double sign = line.side == line.next_side ? 1 : -1;
+    line.shared_mass = sign * (line.side ? line.mass_b : line.mass_a);
+    line.shared_inertia = sign * (line.side ? line.inertia_b : line.inertia_a);
+  }
+}
+
+/// A single line is eliminated from both ends in turns: two short recursions side by side instead of a long
+/// one, each step of which waits for the one before.
+void HingeLines::from_both_ends() {
+  const int n = static_cast<int>(lines_.size());
+  for (int k = 0; k < n; ++k) {
+    if (lines_[k].next != (k + 1 < n ? k + 1 : -1)) return;
+  }
+  const auto place = [n](int k) { return k < (n + 1) / 2 ? 2 * k : 2 * (n - 1 - k) + 1; };
+  std::vector<Line> turned(lines_.size());
+  for (int k = 0; k < n; ++k) {
+    Line line = lines_[k];
+    if (2 * k + 1 < n) {
+      line.next = place(k + 1);
+    } else if (2 * k == n - 1 || (n % 2 == 0 && 2 * k == n)) {
+      line.next = -1;
+    } else {
+      line.next = place(k - 1);
+      line.side = lines_[k - 1].next_side, line.next_side = lines_[k - 1].side;
+    }
+    turned[static_cast<std::size_t>(place(k))] = line;
+  }
+  for (Step& step : steps_) step.line = static_cast<std::size_t>(place(static_cast<int>(step.line)));
+  lines_ = std::move(turned);
 }
 
 /// Hinges in an order in which each has one body that is known where it stands, and one that is not yet.
@@ -87,36 +126,57 @@ HingeLines::Widest HingeLines::widest(std::span<const Pose<double>> poses) const
   return found;
 }
 
-/// A = L D L^T, and L^-1 of the right side.
+/// The inverse of a block, by its determinant: its pivots are xx and determinant / xx.
+HingeLines::Inverse HingeLines::inverse(const Block& block) {
+  const double determinant = block.xx * block.yy - block.xy * block.xy, own = block.own_y * block.xx;
+  if (!(block.xx > kDependent * block.own_x && determinant > kDependent * own)) return deficient(block);
+  if (block.xx < weakest_ * block.own_x) weakest_ = block.xx / block.own_x;
+  if (determinant < weakest_ * own) weakest_ = determinant / own;
+  const double share = 1 / determinant;
+  return {block.yy * share, -(block.xy * share), block.xx * share};
+}
+
+/// A direction that depends on others gets no force.
+HingeLines::Inverse HingeLines::deficient(const Block& block) {
+  Inverse found;
+  if (block.xx > kDependent * block.own_x) {
+    found.xx = 1 / block.xx;
+    ++dependent_;
+  } else if (block.yy > kDependent * block.own_y) {
+    found.yy = 1 / block.yy;
+    ++dependent_;
+  } else {
+    dependent_ += 2;
+  }
+  return found;
+}
+
+/// Each hinge in turn by what it shares with its neighbour: with S the inverse of its block and B the
+/// neighbour's block beside it, the neighbour's block loses B S B^T and its right side B S r.
 void HingeLines::eliminate() {
   weakest_ = 1;
   dependent_ = 0;
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const Line& line = lines_[k];
     Block& block = blocks_[k];
-    const double inverse_x = pivot(block.xx, block.own_x), within = block.xy * inverse_x;
-    const double inverse_y = pivot(block.yy - within * block.xy, block.own_y);
-    const double x = block.x, y = block.y - within * x;
-    block.inverse_x = inverse_x, block.within = within, block.inverse_y = inverse_y;
-    block.y = y;
+    const Inverse s = inverse(block);
+    const double x = block.x, y = block.y;
+    block.x = s.xx * x + s.xy * y;
+    block.y = s.xy * x + s.yy * y;
     if (line.next < 0) continue;
     Block& next = blocks_[line.next];
-    const double sign = line.side == line.next_side ? 1 : -1;
-    const double mass = sign * (line.side ? line.mass_b : line.mass_a);
-    const double inertia = sign * (line.side ? line.inertia_b : line.inertia_a);
     const Vec2d arm = line.side ? block.arm_b : block.arm_a;
-    const Vec2d turn = inertia * (line.next_side ? next.arm_b : next.arm_a);
-    const double y00 = mass + turn.y * arm.y, y10 = -(turn.x * arm.y);
-    const double y01 = -(turn.y * arm.x) - within * y00, y11 = mass + turn.x * arm.x - within * y10;
-    const double l00 = y00 * inverse_x, l10 = y10 * inverse_x;
-    const double l01 = y01 * inverse_y, l11 = y11 * inverse_y;
-    next.xx -= l00 * y00 + l01 * y01;
-    next.xy -= l00 * y10 + l01 * y11;
-    next.yy -= l10 * y10 + l11 * y11;
-    next.x -= l00 * x + l01 * y;
-    next.y -= l10 * x + l11 * y;
-    block.below[0][0] = l00, block.below[0][1] = l01;
-    block.below[1][0] = l10, block.below[1][1] = l11;
+    const Vec2d turn = line.shared_inertia * (line.next_side ? next.arm_b : next.arm_a);
+    const double b00 = line.shared_mass + turn.y * arm.y, b01 = -(turn.y * arm.x);
+    const double b10 = -(turn.x * arm.y), b11 = line.shared_mass + turn.x * arm.x;
+    const double w00 = b00 * s.xx + b01 * s.xy, w01 = b00 * s.xy + b01 * s.yy;
+    const double w10 = b10 * s.xx + b11 * s.xy, w11 = b10 * s.xy + b11 * s.yy;
+    next.xx -= w00 * b00 + w01 * b01;
+    next.xy -= w00 * b10 + w01 * b11;
+    next.yy -= w10 * b10 + w11 * b11;
+    next.x -= w00 * x + w01 * y;
+    next.y -= w10 * x + w11 * y;
+    block.w00 = w00, block.w01 = w01, block.w10 = w10, block.w11 = w11;
   }
 }
 
@@ -126,15 +186,12 @@ void HingeLines::solve(std::span<Twist<double>> motion) {
   for (std::size_t k = lines_.size(); k-- > 0;) {
     const Line& line = lines_[k];
     Block& block = blocks_[k];
-    double x = block.x * block.inverse_x, y = block.y * block.inverse_y;
     if (line.next >= 0) {
       const Block& next = blocks_[line.next];
-      x -= block.below[0][0] * next.x + block.below[1][0] * next.y;
-      y -= block.below[0][1] * next.x + block.below[1][1] * next.y;
+      block.x -= block.w00 * next.x + block.w10 * next.y;
+      block.y -= block.w01 * next.x + block.w11 * next.y;
     }
-    x -= block.within * y;
-    block.x = x, block.y = y;
-    const Vec2d push{x, y};
+    const Vec2d push{block.x, block.y};
     if (line.a != kFixedFrame) {
       motion[line.a].velocity -= line.mass_a * push;
       motion[line.a].angular_velocity -= line.inertia_a * cross(block.arm_a, push);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -80,15 +79,19 @@ class HingeLines {
     bool side = false, next_side = false;                         // of that body: whether it is b of either
     double mass_a = 0, mass_b = 0, inertia_a = 0, inertia_b = 0;  // inverse
     Vec2d anchor_a{}, anchor_b{};
+    double shared_mass = 0, shared_inertia = 0;  // of that body, with the sign of the neighbour's block
   };
-  /// L D L^T by blocks: `within` is L's entry in the block, `below` its block in the row of the next hinge.
+  /// What elimination leaves of a hinge: the inverse of its own block, and what its neighbour takes from it.
   struct Block {
     Vec2d arm_a{}, arm_b{};
     double xx = 0, xy = 0, yy = 0;  // of A; less what was taken by hinges before it, then
     double own_x = 0, own_y = 0;
-    double x = 0, y = 0;  // the right side, then the multipliers
-    double within = 0, inverse_x = 0, inverse_y = 0;
-    double below[2][2]{};
+    double x = 0, y = 0;  // the right side; what it comes to; the multipliers
+    double w00 = 0, w01 = 0, w10 = 0,
+           w11 = 0;  // the neighbour's block beside it, times the inverse of its own
+  };
+  struct Inverse {
+    double xx = 0, xy = 0, yy = 0;
   };
 
   /// One body that hangs on one that comes before it.
@@ -99,16 +102,9 @@ class HingeLines {
   void find_root();
 
   Vec2d gap(std::size_t k, std::span<const Pose<double>> poses) const;
-  /// 1 / left, or zero where it is the rounding left over by what the direction depends on.
-  double pivot(double left, double own) {
-    constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
-    if (!(left > kDependent * own)) {
-      ++dependent_;
-      return 0;
-    }
-    if (left < weakest_ * own) weakest_ = left / own;
-    return 1 / left;
-  }
+  Inverse inverse(const Block& block);
+  Inverse deficient(const Block& block);
+  void from_both_ends();
   void eliminate();
   void solve(std::span<Twist<double>> motion);
 
