@@ -140,7 +140,27 @@ void SceneDemo::read_states(std::span<BodyState> out) const {
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
 }
 
-void SceneDemo::press(Vec2d point) { grab(point, view_.half_perimeter() / kReach); }
+// Queries do not see what touches nothing, as the rods of a chain: of those the nearest by the box around
+// each in its own frame.
+void SceneDemo::press(Vec2d point) {
+  const double reach = view_.half_perimeter() / kReach;
+  if (grab(point, reach)) return;
+  BodyId nearest_body{};
+  double nearest_distance = reach;
+  for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
+    if (scene_.bodies[i].type != BodyType::Dynamic) continue;
+    Bounds own;
+    draw_body(scene_.bodies[i], {}, own, DrawRole::Awake);
+    const Vec2d local = world_.local_point(parts_.bodies[i], point);
+    const Vec2d inside{std::clamp(local.x, own.box.lower.x, own.box.upper.x),
+                       std::clamp(local.y, own.box.lower.y, own.box.upper.y)};
+    const double distance = std::sqrt(length_squared(local - inside));
+    if (distance > nearest_distance) continue;
+    nearest_distance = distance;
+    nearest_body = parts_.bodies[i];
+  }
+  if (world_.valid(nearest_body)) hold(nearest_body, point);
+}
 void SceneDemo::release(Vec2d) { let_go(); }
 
 std::vector<Figure> SceneDemo::figures() const {

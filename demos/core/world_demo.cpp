@@ -66,14 +66,18 @@ bool WorldDemo::grab(Vec2d point, double reach, double strength) {
   const auto moves = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
   const std::optional<NearestResult> found = nearest(world_, point, reach, {.condition = moves});
   if (!found) return false;
-  const BodyId body = found->body;
+  hold(found->body, point, strength);
+  return true;
+}
+
+void WorldDemo::hold(BodyId body, Vec2d point, double strength) {
+  let_go();
   const double weight = world_.mass(body) * std::fmax(9.81, std::sqrt(length_squared(world_.gravity())));
   world_.set_awake(body, true);
   band_ = world_.create_joint(
       frame_, body,
       {.kind = MouseDefinition{
            .anchor_b = world_.local_point(body, point), .target = point, .max_force = strength * weight}});
-  return true;
 }
 
 void WorldDemo::pull(Vec2d point) {

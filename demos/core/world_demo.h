@@ -38,6 +38,8 @@ class WorldDemo : public Demo {
   /// Takes hold of the dynamic body at `point`, or of the nearest one not farther than `reach` m; false where
   /// there is none. `strength`: the most that the band pulls with, in weights of the body.
   bool grab(Vec2d point, double reach, double strength = 100);
+  /// Takes hold of this dynamic body.
+  void hold(BodyId body, Vec2d point, double strength = 100);
   void pull(Vec2d point);  ///< the pointer is here now
   void let_go();
   BodyId held() const;  ///< names nothing where nothing is held

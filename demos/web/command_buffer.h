@@ -16,12 +16,18 @@ namespace plumb::web {
 ///   3 segment: x and y of both ends
 ///   4 point: x, y
 ///   5 text: x, y, and where in `words` it begins and how long it is, in bytes
+/// Outlines that lie over the bodies, as of other engines, have kGhost and their own number instead of a
+/// role.
 class CommandBuffer : public DebugDraw {
  public:
   void clear() {
     numbers_.clear();
     words_.clear();
   }
+  void begin_ghost(std::size_t ghost) { ghost_ = kGhost + static_cast<int>(ghost); }
+  void end_ghost() { ghost_ = 0; }
+  static constexpr int kGhost = 100;
+
   const std::vector<double>& numbers() const { return numbers_; }
   const std::string& words() const { return words_; }
 
@@ -48,10 +54,11 @@ class CommandBuffer : public DebugDraw {
  private:
   void put(int command, DrawRole role, std::initializer_list<double> rest) {
     numbers_.push_back(command);
-    numbers_.push_back(static_cast<double>(role));
+    numbers_.push_back(ghost_ != 0 ? ghost_ : static_cast<double>(role));
     numbers_.insert(numbers_.end(), rest);
   }
 
+  int ghost_ = 0;
   std::vector<double> numbers_;
   std::string words_;
 };

@@ -9,6 +9,7 @@
 #include "demos/core/registry.h"
 #include "demos/web/command_buffer.h"
 #include "demos/web/json_text.h"
+#include "demos/web/viewer.h"
 
 namespace plumb::web {
 namespace {
@@ -18,7 +19,9 @@ using demos::Demo;
 
 std::vector<char> given, answered;
 CommandBuffer commands;
-std::unique_ptr<Demo> demo;
+std::unique_ptr<Demo> played;
+std::unique_ptr<Viewer> viewer;  // where a scenario is open
+Demo* demo = nullptr;            // whichever is open
 
 std::string_view text_of(std::size_t size) { return {given.data(), size}; }
 
@@ -64,22 +67,67 @@ PLUMB_EXPORT("argument") char* plumb_argument(std::size_t size) {
 PLUMB_EXPORT("answer") const char* plumb_answer() { return answered.data(); }
 PLUMB_EXPORT("answer_size") std::size_t plumb_answer_size() { return answered.size(); }
 
-/// All demos, as JSON.
+/// All demos and then all scenarios, as JSON.
 PLUMB_EXPORT("list") void plumb_list() {
   JsonList list;
   for (const plumb::demos::Entry& entry : plumb::demos::all()) {
     list.add(JsonObject()
+                 .add("kind", std::string("demo"))
                  .add("name", entry.about.name)
                  .add("summary", entry.about.summary)
                  .add("play", entry.about.play)
                  .add_json("keys", keys_of(entry.about))
                  .text());
   }
+  for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
+    for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
+      list.add(JsonObject()
+                   .add("kind", std::string("scene"))
+                   .add("name", instance.label())
+                   .add("summary", scenario.summary)
+                   .add("play", scenario.summary + ". Drag bodies with the pointer.")
+                   .add_json("keys", JsonList().text())
+                   .text());
+    }
+  }
   answer_with(list.text());
 }
 
-/// The demo of the name that was given takes the place of the one before; all below is about that.
-PLUMB_EXPORT("open") void plumb_open(std::size_t size) { demo = plumb::demos::make(text_of(size)); }
+/// The demo or scenario of the name that was given takes the place of the one before; all below is about
+/// that.
+PLUMB_EXPORT("open") void plumb_open(std::size_t size) {
+  const std::string_view name = text_of(size);
+  for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
+    for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
+      if (instance.label() != name) continue;
+      viewer = std::make_unique<Viewer>(instance);
+      demo = &viewer->demo();
+      played.reset();
+      return;
+    }
+  }
+  played = plumb::demos::make(name);
+  demo = played.get();
+  viewer.reset();
+}
+
+/// What can lie over a scenario: nothing for a demo.
+PLUMB_EXPORT("ghosts") void plumb_ghosts() {
+  JsonList list;
+  if (viewer) {
+    for (const Viewer::Ghost& ghost : viewer->ghosts()) {
+      list.add(JsonObject()
+                   .add("name", ghost.name)
+                   .add("shown", ghost.shown ? 1.0 : 0.0)
+                   .add("remark", ghost.remark)
+                   .text());
+    }
+  }
+  answer_with(list.text());
+}
+PLUMB_EXPORT("show_ghost") void plumb_show_ghost(std::size_t ghost, int shown) {
+  if (viewer) viewer->show(ghost, shown != 0);
+}
 
 PLUMB_EXPORT("controls") void plumb_controls() {
   JsonList list;
@@ -103,7 +151,7 @@ PLUMB_EXPORT("hash") std::uint64_t plumb_hash() { return demo->hash(); }
 
 PLUMB_EXPORT("figures") void plumb_figures() {
   JsonList list;
-  for (const plumb::demos::Figure& figure : demo->figures()) {
+  for (const plumb::demos::Figure& figure : viewer ? viewer->figures() : demo->figures()) {
     list.add(JsonObject()
                  .add("name", std::string(figure.name))
                  .add("value", figure.value)
@@ -135,6 +183,7 @@ PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_len
                         .centres = bit(4),
                         .names = bit(6),
                         .impulse_length = impulse_length});
+  if (viewer) viewer->draw(commands);
   answer_with(commands.words());
   return commands.numbers().data();
 }

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
+#include "demos/compared/sampled_motion.h"
 #include "engine/scene/scene.h"
 #include "reference/backend.h"
 
@@ -19,19 +17,11 @@ class GhostRun {
 
   /// Why there is no motion, or with which settings it came about.
   const std::string& remark() const { return remark_; }
-  bool known() const { return !poses_.empty(); }
-  double end() const;  ///< s
-
-  /// Positions and angles at `time`, on straight lines between the samples; false beyond the end.
-  bool at(double time, std::span<BodyState> out) const;
+  bool known() const { return !motion_.empty(); }
+  const demos::SampledMotion& motion() const { return motion_; }
 
  private:
-  struct Pose {
-    double x, y, angle;
-  };
-  double dt_;
-  std::size_t bodies_;
-  std::vector<Pose> poses_;
+  demos::SampledMotion motion_;
   std::string remark_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "engine/scene/names.h"
@@ -13,12 +14,22 @@ namespace {
 
 std::string subject_of(std::string_view engine) { return "engine '" + std::string(engine) + "'"; }
 
-/// All of `text` as a number; NaN or false where it is none.
-template <class Number>
-bool parse(const std::string& text, Number& out) {
+/// Whether all of `text` is a number, which goes to `out` then.
+bool parse(const std::string& text, int& out) {
   const char* end = text.data() + text.size();
   const auto [rest, problem] = std::from_chars(text.data(), end, out);
   return problem == std::errc{} && rest == end;
+}
+bool parse(const std::string& text, double& out) {
+  const char* end = text.data() + text.size();
+#ifdef __cpp_lib_to_chars
+  const auto [rest, problem] = std::from_chars(text.data(), end, out);
+  return problem == std::errc{} && rest == end;
+#else  // the library of the page for browsers has it for integers alone
+  char* rest = nullptr;
+  out = std::strtod(text.c_str(), &rest);
+  return rest != text.c_str() && rest == end;
+#endif
 }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -12,7 +12,12 @@
 /// end.
 namespace plumb::scenarios::truth {
 
+#ifdef __wasm__
+// There it is a quad in software, a hundred times slower; a page has use for a few digits.
+using Real = double;
+#else
 using Real = long double;
+#endif
 
 /// How a body moves, in SI units.
 struct Motion {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "scenarios/truth/motion.h"
@@ -16,9 +18,13 @@ class Trajectory {
   using State = std::vector<Real>;
   using Law = std::function<void(const State& y, State& rate)>;
 
+  /// 1e-15, or what `Real` can tell from rounding.
+  static constexpr Real kTolerance =
+      std::max<Real>(Real(1e-15L), 4096 * std::numeric_limits<Real>::epsilon());
+
   /// `spacing` of the grid, s; also the largest step. `tolerance` is the local error a step, relative to
   /// 1 + |y|.
-  Trajectory(State start, Law law, Real spacing, Real tolerance = 1e-15L);
+  Trajectory(State start, Law law, Real spacing, Real tolerance = kTolerance);
 
   State at(Real time) const;
 

@@ -70,6 +70,28 @@ TEST(ViewScene, BodiesCanBeDragged) {
   EXPECT_EQ(demo.hash(), later);
 }
 
+// What touches nothing is not there for queries, and can be taken hold of all the same: the rods of a chain.
+TEST(ViewScene, WhatTouchesNothingCanBeDragged) {
+  Scene scene = oscillator();
+  for (Body& body : scene.bodies) body.shapes[0].filter.mask = 0;
+  scene.bodies[1].velocity = {};
+  SceneDemo demo(scene, "");
+  std::vector<BodyState> states(2);
+  demo.press({0.48, 5.48});  // near a corner of the box, far from its centre
+  demo.drag({2, 3});
+  steps(demo, 120);
+  demo.read_states(states);
+  EXPECT_NEAR(states[1].position.y, 3, 1);
+  EXPECT_LT(states[0].position.x, 1.01);  // the other one swings as it would
+  demo.release({2, 3});
+  demo.press({40, 40});  // out of reach of everything
+  demo.drag({41, 40});
+  const Vec2d before = states[1].position;
+  steps(demo, 1);
+  demo.read_states(states);
+  EXPECT_LT(length_squared(states[1].position - before), 1);
+}
+
 // Outlines of a body in any state: what ghosts are drawn with.
 class Log : public DebugDraw {
  public:

@@ -83,7 +83,7 @@ test("the ball is painted where it is", async () => {
   }
 });
 
-test("every demo has the native hash after 1000 steps", async () => {
+test("every demo and every scenario has the native hash after 1000 steps", async () => {
   const lines = execFileSync(native, {encoding: "utf8"}).split("\n").map((line) => line.split(" "));
   const expected = lines.filter(([, how]) => how === "untouched").map(([name, , , hash]) => [name, hash]);
   assert.ok(expected.length >= 5);
@@ -217,6 +217,115 @@ test("an error is said, and the demo goes on from its last state", async () => {
   await page.key("p");
   await page.until(`plumb.time > ${time + 0.2}`);
   await closed(page, "error");
+});
+
+test("the mouse carries the bouncing ball, and it falls from there", async () => {
+  const page = await opened("bouncing_ball");
+  const start = await page.ask('where("ball")');
+  await page.mouse("press", start);
+  for (let i = 1; i <= 10; ++i) {
+    await page.mouse("move", {x: start.x + 15 * i, y: start.y - 4 * i});
+    await page.frames(1);
+  }
+  const end = {x: start.x + 150, y: start.y - 40};
+  await page.until(`(() => { const at = where("ball"); return Math.hypot(at.x - ${end.x}, at.y - ${end.y}) < 3; })()`);
+  await page.mouse("release", end);
+  await page.until(`where("ball").y > ${end.y + 30}`);
+  assert.ok(Math.abs((await page.ask('where("ball")')).x - end.x) < 60, "it falls where it was let go");
+  await closed(page, "bouncing_ball_carried");
+});
+
+test("a shot with the mouse breaks the rack", async () => {
+  const page = await opened("pool_break");
+  const cue = await page.ask('where("cue")'), first = await page.ask('where("1")');
+  assert.equal(await page.ask('figure("kinetic energy")'), 0);
+  await page.mouse("press", cue);
+  await page.mouse("move", first);
+  await page.frames(3);
+  await page.mouse("release", {x: first.x + 40, y: first.y + 1});
+  await page.until('figure("kinetic energy") > 0.1');
+  const shot = await page.ask('figure("momentum x")');
+  assert.ok(shot > 0, "towards the rack");
+  await page.until('figure("collisions") > 15');
+  const moved = await page.ask('where("1")');
+  assert.ok(distance(moved, first) > 5, "the balls scatter");
+  await closed(page, "pool_break_shot");
+});
+
+test("a push in the middle does not spin a box, the same at a corner does", async () => {
+  const page = await opened("spinning_boxes");
+  await page.ask('plumb.set("gravity", 0)');
+  const pixel = (x, y) => page.ask(`plumb.camera.to_pixel(${x}, ${y})`);
+  await page.click(await pixel(-3, 0));  // the middle of the square box there
+  await page.until('figure("its speed") > 1.9');
+  assert.equal(await page.ask('figure("its angular velocity")'), 0);
+  await page.ask("plumb.restart()");
+  await page.click(await pixel(-2.55, 0.45));  // near a corner
+  await page.until('figure("its angular velocity") > 3');
+  // A push of 20 N for 0.1 s at 0.5 m from the axis: w = r J / I = 0.5 * 2 * 6 = 6 rad/s, and a little less as it turns.
+  assert.ok(await page.ask('figure("its angular velocity")') < 6.01);
+  const boxes = await page.ask('figure("boxes")');
+  await page.click(await pixel(5, 3));
+  await page.until(`figure("boxes") === ${boxes + 1}`);
+  await closed(page, "spinning_boxes_pushed");
+});
+
+test("a scenario: its truth and plumb's other engines lie over it, with errors and energy", async () => {
+  const page = await opened("pendulum_chain[5]");
+  assert.ok(await page.ask('plumb.demos.filter(({kind}) => kind === "scene").length') >= 23);
+  await page.ask("plumb.paused = true, plumb.restart()");
+  await page.ask("for (let i = 0; i < 30; ++i) plumb.step()");
+  const [error, drift] = await page.ask('[figure("position error"), figure("energy drift")]');
+  assert.ok(error > 1e-6 && error < 0.1, `position error ${error} m`);
+  assert.ok(Math.abs(drift) > 0 && Math.abs(drift) < 0.01, `energy drift ${drift}`);
+  // By the boxes of the panel.
+  const box = (name) => page.middle(`#ghosts label:nth-child(${ghosts.findIndex((each) => each.name === name) + 1}) input`);
+  const ghosts = await page.ask("plumb.ghosts");
+  assert.equal(ghosts[0].name, "truth");
+  assert.equal(ghosts[0].shown, 1);
+  assert.match(ghosts[0].remark, /Lagrange/);
+  await page.click(await box("plumb-precise"));
+  await page.until('plumb.ghosts.find(({name}) => name === "plumb-precise").shown === 1');
+  await page.key("o");
+  const precise = await page.ask('figure("plumb-precise error")');
+  assert.ok(precise < 1e-8, `plumb-precise is ${precise} m off`);
+  await page.click(await box("plumb-precise"));
+  await page.until('figure("plumb-precise error") === undefined');
+  // A slider, a drag of a rod, pause and step by keys.
+  const slider = await page.middle('input[aria-label="substeps"]');
+  await page.click({x: slider.right - 2, y: slider.y});
+  await page.key("End");
+  await page.until(`control("substeps") === ${await page.ask("plumb.controls.find(({name}) => name === \"substeps\").high")}`);
+  await page.key("r");
+  await page.ask("document.activeElement.blur()");
+  await page.ask("plumb.slow = true");
+  await page.key("p");
+  const rod = await page.ask('where("rod4")');
+  await page.mouse("press", rod);
+  for (let i = 1; i <= 20; ++i) {
+    await page.mouse("move", {x: rod.x, y: rod.y - 3 * i});
+    await page.frames(1);
+  }
+  await page.ask("plumb.slow = false");
+  await page.until(`where("rod4").y < ${rod.y - 20}`, 3);
+  await page.mouse("release", {x: rod.x, y: rod.y - 60});
+  await closed(page, "scenario");
+});
+
+test("every scenario opens, and shows no complaint while plumb's engines run along", async () => {
+  const page = await opened("free_fall/vacuum", {dark: true});
+  const names = await page.ask('plumb.demos.filter(({kind}) => kind === "scene").map(({name}) => name)');
+  for (const name of names) {
+    const message = await page.ask(`(() => {
+      plumb.open(plumb.demos.findIndex((demo) => demo.name === ${JSON.stringify(name)}));
+      plumb.ghosts.forEach((_, ghost) => plumb.show_ghost(ghost, true));
+      for (let i = 0; i < 20; ++i) plumb.step();
+      return plumb.message;
+    })()`);
+    assert.equal(message, "", name);
+    await page.frames(2);
+  }
+  await closed(page, "scenarios_dark");
 });
 
 test("everything that can be drawn is drawn, on a dark ground", async () => {

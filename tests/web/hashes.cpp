@@ -1,10 +1,13 @@
-// Prints the hash of every demo's state after 1000 steps, untouched and played. play.mjs plays the same in
-// the program that was compiled for a browser.
+// Prints the hash of every demo's state after 1000 steps, untouched and played, and of every scenario.
+// play.mjs plays the same in the program that was compiled for a browser.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 
 #include "demos/core/registry.h"
+#include "demos/core/view_scene.h"
+#include "scenarios/scenario.h"
 
 namespace {
 
@@ -12,9 +15,8 @@ using plumb::Vec2d;
 using plumb::demos::Control;
 using plumb::demos::Demo;
 
-void print(const Demo& demo, const char* how, int step) {
-  std::printf("%s %s %d %016llx\n", demo.about().name.c_str(), how, step,
-              static_cast<unsigned long long>(demo.hash()));
+void print(const std::string& name, const Demo& demo, const char* how, int step) {
+  std::printf("%s %s %d %016llx\n", name.c_str(), how, step, static_cast<unsigned long long>(demo.hash()));
 }
 
 // A point of the view by its share of width and height.
@@ -54,11 +56,18 @@ int main() {
   for (const plumb::demos::Entry& entry : plumb::demos::all()) {
     const auto untouched = entry.make(), played = entry.make();
     for (int step = 0; step < 1000; ++step) untouched->step_once();
-    print(*untouched, "untouched", 1000);
+    print(entry.about.name, *untouched, "untouched", 1000);
     for (int step = 0; step < 1000; ++step) {
       play(*played, step);
       played->step_once();
-      if (step % 100 == 99) print(*played, "played", step + 1);
+      if (step % 100 == 99) print(entry.about.name, *played, "played", step + 1);
+    }
+  }
+  for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
+    for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
+      plumb::demos::SceneDemo demo(instance.build().scene, "");
+      for (int step = 0; step < 1000; ++step) demo.step_once();
+      print(instance.label(), demo, "untouched", 1000);
     }
   }
 }

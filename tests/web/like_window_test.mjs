@@ -18,6 +18,7 @@ test("colours", () => {
   const styles = numbers(part(there, "kStyles", "kGhosts"));
   assert.ok(styles.length > 40);
   assert.deepEqual(numbers(part(here, "kStyles", "kAwake")), styles);
+  assert.deepEqual(numbers(part(here, "kGhosts", "const css")), numbers(part(there, "kGhosts", "}  // namespace")));
   const rest = numbers(part(there, "Theme::ground", "Theme::paint"));
   assert.equal(rest.length, 6);
   assert.deepEqual(numbers(part(here, "get ground", "get plot")), rest);

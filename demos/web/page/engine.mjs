@@ -43,6 +43,9 @@ export class Engine {
 
   list() { this.#calls.list(); return this.#json(); }
   open(name) { this.#calls.open(this.#give(this.#encoder.encode(name))); }
+  /// [{name, shown, remark}], what can lie over a scenario.
+  ghosts() { this.#calls.ghosts(); return this.#json(); }
+  show_ghost(ghost, shown) { this.#calls.show_ghost(ghost, shown ? 1 : 0); }
   controls() { this.#calls.controls(); return this.#json(); }
   set(name, value) { this.#calls.set(this.#give(this.#encoder.encode(name)), value); }
 

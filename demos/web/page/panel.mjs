@@ -30,7 +30,10 @@ export class Panel {
   constructor(player, theme) {
     this.#player = player;
     this.#theme = theme;
-    the("list").append(...player.demos.map(({name, summary}) => made("option", {textContent: name, title: summary})));
+    const options = (wanted) => player.demos.filter(({kind}) => kind === wanted)
+      .map(({name, summary}) => made("option", {textContent: name, title: summary}));
+    the("list").append(made("optgroup", {label: "demos"}, ...options("demo")),
+                       made("optgroup", {label: "scenarios"}, ...options("scene")));
     the("list").onchange = () => player.open(the("list").selectedIndex);
     for (const [id, key] of [["restart", "r"], ["back", "b"], ["pause", "p"], ["step", "o"], ["fold", "Tab"]])
       the(id).onclick = () => player.key(key);
@@ -52,6 +55,7 @@ export class Panel {
     if (this.#changes !== player.changes) {
       this.#changes = player.changes;
       player.controls.forEach((control, i) => this.#updates[i](control));
+      this.#show_ghosts();
     }
     document.body.classList.toggle("folded", !player.panel);
     the("fold").setAttribute("aria-expanded", player.panel);
@@ -78,6 +82,21 @@ export class Panel {
                   ["wheel, two fingers", "zoom"], ["right drag, two fingers", "move the picture"]];
     the("keys").replaceChildren(...keys.flatMap(([key, about]) =>
       [made("dt", {textContent: key}), made("dd", {textContent: about})]));
+  }
+
+  // The truth and other engines, with where they come from or why they are not there.
+  #show_ghosts() {
+    const player = this.#player;
+    const remarks = [];
+    const labels = player.ghosts.map(({name, shown, remark}, i) => {
+      const box = made("input", {type: "checkbox", checked: shown !== 0, onchange: () => player.show_ghost(i, box.checked)});
+      const label = made("label", {title: remark}, box, made("span", {className: "ghost", textContent: name}));
+      label.lastChild.style.borderBottomColor = this.#theme.ghost(i);
+      // Settings are told where one points; a reason, and where the truth comes from, are read.
+      if (remark && (shown === 0 || i === 0)) remarks.push(made("p", {className: "unit", textContent: `${name}: ${remark}`}));
+      return label;
+    });
+    the("ghosts").replaceChildren(made("div", {className: "row"}, ...labels), ...remarks);
   }
 
   #control(control, i) {
@@ -135,7 +154,13 @@ export class Panel {
   }
 
   #draw_figures() {
-    for (const series of this.#player.series) {
+    const series_shown = this.#player.series;
+    this.#plots = this.#plots.filter((plot) => {
+      const there = series_shown.some(({name}) => name === plot.name);
+      if (!there) plot.row.remove();
+      return there;
+    });
+    for (const series of series_shown) {
       if (series.name === "time") continue;  // stands at the top
       let plot = this.#plots.find((each) => each.name === series.name);
       if (!plot) this.#plots.push(plot = this.#new_plot(series));
@@ -146,8 +171,9 @@ export class Panel {
 
   #new_plot({name}) {
     const canvas = made("canvas"), value = made("output");
-    the("figures").append(made("div", {className: "figure", title: name}, canvas, made("span", {textContent: name}), value));
-    return {name, canvas, value};
+    const row = made("div", {className: "figure", title: name}, canvas, made("span", {textContent: name}), value);
+    the("figures").append(row);
+    return {name, canvas, value, row};
   }
 }
 

@@ -36,7 +36,7 @@ export class Player {
   #pressed = false;
   #at_home = true;
   #covered = {left: 0, top: 0, bottom: 0};
-  #last = {time: 0, controls: [], view: [0, 0, 1, 1], drawing: {numbers: new Float64Array(), words: new Uint8Array()}};
+  #last = {time: 0, controls: [], ghosts: [], view: [0, 0, 1, 1], drawing: {numbers: new Float64Array(), words: new Uint8Array()}};
 
   static async start(module, name) {
     const player = new Player();
@@ -55,6 +55,7 @@ export class Player {
   // What follows gives the last answer while there is no engine.
   get time() { return this.#ask("time", (engine) => engine.time()); }
   get controls() { return this.#ask("controls", (engine) => engine.controls()); }
+  get ghosts() { return this.#ask("ghosts", (engine) => engine.ghosts()); }
   hash() { return this.#engine.hash(); }
   text(bytes) { return new TextDecoder().decode(bytes); }
   drawing() {
@@ -79,6 +80,15 @@ export class Player {
     ++this.changes;
   }
 
+  /// What lies over a scenario, and the plot of its error, come and go.
+  show_ghost(ghost, shown) {
+    this.#guarded((engine) => {
+      engine.show_ghost(ghost, shown);
+      const {name, shown: there} = engine.ghosts()[ghost];
+      if (!there) this.series = this.series.filter((series) => series.name !== `${name} error`);
+    });
+    ++this.changes;
+  }
   set(control, value) { this.#guarded((engine) => engine.set(control, value)); }
 
   press(point) {

@@ -26,6 +26,12 @@ const kStyles = [
   [line([150, 160, 176, 130], 1.2), line([110, 116, 128, 150], 1.2)],
 ];
 const kAwake = 2, kAsleep = 3;
+// Outlines of what lies over the bodies: the truth, other engines. Their roles begin at the number.
+const kGhost = 100;
+const kGhosts = [
+  [236, 72, 132], [72, 176, 240], [96, 190, 72], [180, 110, 250], [226, 140, 20], [40, 190, 170],
+  [150, 100, 60], [120, 130, 250], [200, 60, 60], [130, 150, 30], [220, 90, 220], [90, 130, 150],
+];
 
 const css = (colour) => colour && `rgba(${colour.slice(0, 3).join(",")},${(colour[3] ?? 255) / 255})`;
 const in_css = (style) => ({fill: css(style.fill), line: css(style.line), width: style.width});
@@ -46,5 +52,9 @@ export class Theme {
   get grid() { return css(this.#dark ? [32, 36, 43] : [233, 234, 232]); }
   get text() { return css(this.#dark ? [220, 224, 230] : [30, 34, 40]); }
   get plot() { return this.#styles[kAwake].line; }
-  style(role) { return this.#styles[role === kAsleep && !this.sleep_shows ? kAwake : role] ?? this.#styles[0]; }
+  ghost(place) { return css(kGhosts[place % kGhosts.length]); }
+  style(role) {
+    if (role >= kGhost) return {fill: null, line: this.ghost(role - kGhost), width: 1.6};
+    return this.#styles[role === kAsleep && !this.sleep_shows ? kAwake : role] ?? this.#styles[0];
+  }
 }
