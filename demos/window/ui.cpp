@@ -27,6 +27,8 @@ constexpr std::array kEditKeys = {
     EditKey{"tab", ImGuiKey_Tab},
 };
 
+static_assert(kEditKeys.size() <= 16);
+
 void set_style(bool dark) {
   if (dark) {
     ImGui::StyleColorsDark();
@@ -60,8 +62,18 @@ Ui::~Ui() { ImGui::DestroyContext(context_); }
 bool Ui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 
 void Ui::edit_key(std::string_view name, bool down) {
-  for (std::size_t i = 0; i < kEditKeys.size(); ++i)
-    if (kEditKeys[i].name == name) ImGui::GetIO().KeysDown[i] = down;
+  for (std::size_t i = 0; i < kEditKeys.size(); ++i) {
+    if (kEditKeys[i].name != name) continue;
+    // A press that is over before a frame has seen it lasts for that frame.
+    if (down) {
+      ImGui::GetIO().KeysDown[i] = true;
+      unseen_.set(i);
+    } else if (unseen_[i]) {
+      over_.set(i);
+    } else {
+      ImGui::GetIO().KeysDown[i] = false;
+    }
+  }
 }
 
 void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
@@ -95,6 +107,10 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
                                              static_cast<float>(static_cast<int>(label.pixel.y))},
                                             imgui_colour(label.colour), label.text.c_str());
   ImGui::Render();
+  for (std::size_t i = 0; i < kEditKeys.size(); ++i)
+    if (over_[i]) io.KeysDown[i] = false;
+  unseen_.reset();
+  over_.reset();
   rasterise(*ImGui::GetDrawData(), *io.Fonts, canvas);
 }
 

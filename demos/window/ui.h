@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <string_view>
 
 #include "demos/window/canvas.h"
@@ -39,6 +40,7 @@ class Ui {
  private:
   ImGuiContext* context_;
   bool dark_ = true;
+  std::bitset<16> unseen_, over_;  // by edit key: pressed since the last frame; and let go since then
 };
 
 }  // namespace plumb::window

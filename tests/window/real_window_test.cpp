@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -25,6 +26,7 @@ namespace plumb::window {
 namespace {
 
 constexpr int kWidth = 1000, kHeight = 640;
+constexpr double kQuick = 0.7;  // s, in which a quiet machine shows the window
 
 bool is_there(const char* command) {
   return std::system((std::string("command -v ") + command + " >/dev/null").c_str()) == 0;
@@ -88,6 +90,7 @@ class RealWindow : public testing::Test {
                          "--script", folder_.path("script"), "--seconds", "60", "--report", "--screenshot",
                          folder_.path("end.png")});
     });
+    const auto begin = std::chrono::steady_clock::now();
     // A search meets windows that come and go while the program starts.
     for (int tries = 0; id_.empty() && tries < 100; ++tries) {
       wait(0.1);
@@ -96,6 +99,8 @@ class RealWindow : public testing::Test {
       if (!ids.empty()) id_ = ids.front();
     }
     ASSERT_FALSE(id_.empty()) << "no window appeared";
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    slowness_ = std::clamp(took.count() / kQuick, 1.0, 10.0);
     shell("xdotool windowfocus " + id_);
     wait(0.3);
   }
@@ -140,14 +145,18 @@ class RealWindow : public testing::Test {
     const auto at = [&](int x) {
       return " mousemove --window " + id_ + " " + std::to_string(x) + " " + std::to_string(y);
     };
-    shell("xdotool" + at(from) + " sleep 0.2 mousedown 1 sleep 0.2" + at(to) +
-          " sleep 0.2 mouseup 1 sleep 0.2");
+    shell("xdotool" + at(from) + pause(0.2) + " mousedown 1" + pause(0.2) + at(to) + pause(0.2) +
+          " mouseup 1" + pause(0.2));
   }
 
   int shell(const std::string& command) {
     return std::system(("timeout 20 " + command + " 2>/dev/null").c_str());
   }
-  void wait(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+  // A busy machine needs longer for everything, as it did for the window.
+  void wait(double seconds) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(slowness_ * seconds));
+  }
+  std::string pause(double seconds) const { return " sleep " + std::to_string(slowness_ * seconds); }
 
   // Of the pixels around a point, how many show a body that moves.
   long bodies_at(const Canvas& picture, Vec2d point, double reach) const {
@@ -166,6 +175,7 @@ class RealWindow : public testing::Test {
   Camera camera_;
   std::thread program_;
   std::string id_;
+  double slowness_ = 1;
   app::Ran ran_;
 };
 
@@ -223,8 +233,9 @@ TEST_F(RealWindow, KeysAndThePanelWork) {
 TEST_F(RealWindow, NumbersAreTyped) {
   ASSERT_NO_FATAL_FAILURE(start("bouncing_ball"));
   const std::string row = std::to_string(static_cast<int>(first_knob("bouncing_ball").y));
-  shell("xdotool mousemove --window " + id_ + " 60 " + row +
-        " sleep 0.3 keydown ctrl sleep 0.2 click 1 sleep 0.3 keyup ctrl sleep 0.2 type 0");
+  shell("xdotool mousemove --window " + id_ + " 60 " + row + pause(0.3) + " keydown ctrl" + pause(0.2) +
+        " click 1" + pause(0.3) + " keyup ctrl" + pause(0.2) + " type 0");
+  wait(0.2);
   key("Return");
   for (int i = 0; i < 6; ++i) key("o");
   finish();
