@@ -41,22 +41,28 @@ Finding falls(const Lab& lab) {
       .finding();
 }
 
+std::string figures_of(const char* scheme) {
+  return fmt::format("The figures are those of {}, and \"hello\" declares another scheme.", scheme);
+}
+std::string explicit_euler() {
+  return figures_of("explicit Euler (position first, with the old velocity)") +
+         " It adds energy every step: update the velocity first, then move with the new one.";
+}
+
+// s, in which a velocity that has changed is used for the first time.
+double step_of(const Lab& lab) { return lab.substep() > 0 ? lab.substep() : lab.dt(); }
+
 Finding falls_far_enough(const Lab& lab) {
   const Trace trace = lab.run(falling(), 1);
-  const double t = trace.duration(), h = lab.substep() > 0 ? lab.substep() : lab.dt();
+  const double t = trace.duration(), h = step_of(lab);
   const double n = std::round(t / h), exact = -kGravity * t * t / 2, late = kGravity * t * h / 2;
-  const auto is = [&](const char* scheme) {
-    return fmt::format("The figures are those of {}, and \"hello\" declares another scheme.", scheme);
-  };
   return Judgement()
       .read("y after 1 s", "m", trace.last(0).position.y, lab.way(0, -kGravity, t), lab.rounding(exact, t))
       .mistake("does_not_move", {0}, "The velocity is there, but the position never changes: add v dt to it.")
-      .mistake("explicit_euler", {exact + late},
-               is("explicit Euler (position first, with the old velocity)") +
-                   " It adds energy every step: update the velocity first, then move with the new one.")
+      .mistake("explicit_euler", {exact + late}, explicit_euler())
       .mistake("semi_implicit_euler", {exact - late},
-               is("semi-implicit Euler (velocity first, position with the new velocity)"))
-      .mistake("exact_parabola", {exact}, is("an exact parabola, as by velocity Verlet"))
+               figures_of("semi-implicit Euler (velocity first, position with the new velocity)"))
+      .mistake("exact_parabola", {exact}, figures_of("an exact parabola, as by velocity Verlet"))
       .mistake("half_a_step_twice", {exact - 2 * late},
                "The way has a dt^2/2 too much: the new velocity holds a dt already, so move by v dt alone.")
       .mistake("velocity_without_dt", {(exact - late) / h}, "Each step moves the ball by v, not by v dt.")
@@ -84,6 +90,9 @@ Finding scene_says_gravity(const Lab& lab) {
       .mistake("starts_at_rest", {t * gravity.x, t * gravity.y},
                "The ball starts at rest: take \"velocity\" from the scene.")
       .mistake("ignores_gravity", {v0.x, v0.y}, "The scene's gravity is not used.")
+      .mistake("explicit_euler",
+               {right.x, right.y, v0.x * t + gravity.x * t * t / 2 - gravity.x * t * step_of(lab) / 2},
+               explicit_euler())
       .finding();
 }
 

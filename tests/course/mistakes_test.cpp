@@ -30,6 +30,7 @@ constexpr Seed kSeeds[] = {
     {"gravity_hard_coded", "scene_says_gravity", "gravity_hard_coded"},
     {"gravity_only_down", "scene_says_gravity", "gravity_only_down"},
     {"starts_at_rest", "scene_says_gravity", "starts_at_rest"},
+    {"explicit_euler", "scene_says_gravity", "explicit_euler"},
     {"per_frame", "any_step_size", "per_frame"},
     {"falls_through", "bounces", "falls_through"},
     {"both_turned", "bounces", "both_turned"},
