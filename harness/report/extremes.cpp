@@ -49,7 +49,6 @@ std::string text_of(const Json& json, const char* name) { return json.at(name).g
 
 Cell cell_of(const Json& json) {
   return {.family = text_of(json, "family"),
-          .title = json.value("title", text_of(json, "family")),
           .value = json.at("value").get<double>(),
           .engine = text_of(json, "engine"),
           .setting = text_of(json, "setting"),
@@ -140,20 +139,25 @@ std::vector<Endurance> endurances(const std::vector<Cell>& cells) {
       ++count->total;
     }
   }
-  const auto rank = [](const Endurance& row) {
+  std::map<std::string, double> worst;
+  for (const Endurance& row : out) {
     const double share = row.all.total ? static_cast<double>(row.all.survived) / row.all.total : 2;
-    return std::tuple(row.engine != kAnyPlumb, !sweep::is_plumb(row.engine), share);
+    const auto [place, fresh] = worst.try_emplace(row.engine, share);
+    place->second = std::min(place->second, share);
+  }
+  const auto rank = [&](const Endurance& row) {
+    return std::tuple(row.engine != kAnyPlumb, !sweep::is_plumb(row.engine), worst.at(row.engine),
+                      row.engine);
   };
   std::stable_sort(out.begin(), out.end(),
                    [&](const Endurance& a, const Endurance& b) { return rank(a) < rank(b); });
   return out;
 }
 
-std::vector<std::pair<std::string, std::string>> families_of(const std::vector<Cell>& cells) {
-  std::vector<std::pair<std::string, std::string>> out;
+std::vector<std::string> families_of(const std::vector<Cell>& cells) {
+  std::vector<std::string> out;
   for (const Cell& cell : cells)
-    if (std::none_of(out.begin(), out.end(), [&](const auto& family) { return family.first == cell.family; }))
-      out.emplace_back(cell.family, cell.title);
+    if (std::find(out.begin(), out.end(), cell.family) == out.end()) out.push_back(cell.family);
   return out;
 }
 

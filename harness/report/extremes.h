@@ -9,8 +9,8 @@ namespace plumb::harness::report {
 
 /// A cell of a map: one scene of a family on one engine with one of its settings.
 struct Cell {
-  std::string family, title;  ///< the family's name and what it is, for people
-  double value = 0;           ///< on the family's axis
+  std::string family;  ///< its name
+  double value = 0;    ///< on the family's axis
   std::string engine, setting;
   std::string outcome;  ///< "ok", "sinks", "refused", ...
   std::string json;     ///< the line of stress.jsonl
@@ -41,13 +41,13 @@ struct Extremes {
 /// over. Throws `Error` (Io, Syntax) that names file and line.
 Extremes read_extremes(const std::string& folder);
 
-/// A row an engine and setting: plumb's first, of these the one that survives least; then the others,
-/// likewise. Before them all what any of plumb's engines survives with any setting; engines with several
-/// settings have a row of what any of these survives.
+/// A row an engine and setting: plumb's engines first, of these the one first that survives least with one of
+/// its settings; then the others, likewise. Before them all what any of plumb's engines survives with any
+/// setting; engines with several settings have a row of what any of these survives.
 std::vector<Endurance> endurances(const std::vector<Cell>& cells);
 
-/// Families in the order in which they first appear: name and title.
-std::vector<std::pair<std::string, std::string>> families_of(const std::vector<Cell>& cells);
+/// The families' names in the order in which they first appear.
+std::vector<std::string> families_of(const std::vector<Cell>& cells);
 
 /// The page's part of the data, as JSON.
 std::string extremes_data(const Extremes& extremes);

@@ -41,6 +41,11 @@ std::string cell_svg(int x, int y, const Count& count) {
       kind, x, y, kWide - kGap, kHigh - kGap, kind, x + kWide / 2 - 1, y + 15, text);
 }
 
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return escaped(name);
+}
+
 }  // namespace
 
 std::string extremes_picture(const std::vector<Cell>& cells) {
@@ -57,17 +62,17 @@ std::string extremes_picture(const std::vector<Cell>& cells) {
       width, height, kStyle);
   const auto heading = [&](int column, const std::string& text) {
     out += fmt::format("<text transform=\"translate({} {}) rotate(-40)\">{}</text>\n",
-                       kLeft + kWide * column + kWide / 2, kTop - 8, escaped(text));
+                       kLeft + kWide * column + kWide / 2, kTop - 8, text);
   };
   heading(0, "all");
-  for (std::size_t i = 0; i < families.size(); ++i) heading(static_cast<int>(i) + 1, families[i].second);
+  for (std::size_t i = 0; i < families.size(); ++i) heading(static_cast<int>(i) + 1, in_words(families[i]));
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const int y = kTop + kHigh * static_cast<int>(k);
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", kLeft - 8, y + 15,
                        escaped(fmt::format("{}, {}", rows[k].engine, rows[k].setting)));
     out += cell_svg(kLeft, y, rows[k].all);
     for (std::size_t i = 0; i < families.size(); ++i) {
-      const auto found = rows[k].families.find(families[i].first);
+      const auto found = rows[k].families.find(families[i]);
       out += cell_svg(kLeft + kWide * (static_cast<int>(i) + 1), y,
                       found == rows[k].families.end() ? Count{} : found->second);
     }

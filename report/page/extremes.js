@@ -12,7 +12,8 @@ const kLegend = [["all", "ok", "survived"], ["near", "inexact", "off by less tha
   ["wrong", "sinks \u2026", "runs on with wrong physics"], ["broken", "NaN \u2026", "not finite, crashed, exploded or out of time"],
   ["refused", "refused", "said that it cannot"], ["none", "\u2013", "the engine does not have what the family needs: not counted"]];
 
-const axisText = (value) => figure4(value).replace(/^1\u00b7/, "");
+// Steps are shares of a second: 1/60.
+const axisText = (value) => (value > 1e-3 && value < 0.1 && figure4(value) !== String(value) ? stepText(value) : figure4(value).replace(/^1\u00b7/, ""));
 const rowName = (row) => `${row.engine}, ${row.setting}`;
 const shareClass = ({survived, total}) => (total === 0 ? "none" : survived === total ? "all" : survived >= 0.8 * total ? "near" :
   survived >= 0.5 * total ? "wrong" : "broken");
@@ -75,7 +76,7 @@ function cellText(cell, family) {
 function familiesOf(cells) {
   const families = new Map();
   for (const cell of cells) {
-    const known = families.get(cell.family) ?? families.set(cell.family, {name: cell.family, title: cell.title, axis: cell.axis,
+    const known = families.get(cell.family) ?? families.set(cell.family, {name: cell.family, title: cell.title ?? words(cell.family), axis: cell.axis,
       unit: cell.unit, cells: []}).get(cell.family);
     known.cells.push(cell);
   }
@@ -110,7 +111,7 @@ function familyMap(family, rows) {
 
 // How many cells of each family an engine survives.
 function overview(families, rows) {
-  const columns = [{text: "all"}, ...families.map((family) => ({text: family.title, family, slanted: true}))];
+  const columns = [{text: "all"}, ...families.map((family) => ({text: words(family.name), family, slanted: true}))];
   const map = heatMap("All families", "cells survived of those run; colours: all, four fifths, half, fewer", columns, rows, (row, {family}) => {
     const count = family ? row.families[family.name] ?? {survived: 0, total: 0} : row;
     const text = count.total ? `${count.survived}/${count.total}` : "\u2013";

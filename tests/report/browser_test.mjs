@@ -152,7 +152,7 @@ async function mapsTell(page) {
   await page.ask(`(${map("bullet")}.querySelector('td[tabindex="0"]').focus(), 0)`);
   await page.key("ArrowRight");
   await page.key("ArrowDown");
-  assert.match(await page.ask(`${tip}.textContent`), /^plumb-precise, default: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
+  assert.match(await page.ask(`${tip}.textContent`), /^plumb-world, careful: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
   await page.key("Escape");
   assert.equal(await page.ask(`${tip}.hidden`), true);
   assert.match(await page.ask(`${map("all")}.querySelector("tbody tr").textContent`), /^any of plumb's any setting12\/12/);
