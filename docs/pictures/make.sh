@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
-# Draws docs/pictures/compare.png from runs of plumb: `docs/pictures/make.sh results/results.jsonl`.
+# Draws docs/pictures/compare.png from runs of plumb, and stress.svg where the folder of a `plumb stress` is named too:
+# `docs/pictures/make.sh results/results.jsonl [stress]`.
 # Needs gnuplot-nox, fonts-dejavu-core and python3. Left: the path of a double pendulum's end, engine by engine, at
 # their defaults. Right: the largest position error of each engine in each scenario, from a comparison's results.
 set -euo pipefail
-results=$(readlink -f -- "${1:?usage: make.sh results.jsonl}")
+results=$(readlink -f -- "${1:?usage: make.sh results.jsonl [STRESS-FOLDER]}")
+stress=${2:+$(readlink -f -- "$2")}
 cd -- "$(dirname -- "$(readlink -f -- "$0")")"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+
+if [[ -n $stress ]]; then ../../plumb report "$stress" --out "$work/report.html" --picture stress.svg; fi
 
 # The path of the last rod's free end.
 for engine in plumb-precise plumb box2d bullet; do

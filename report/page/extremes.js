@@ -36,7 +36,7 @@ function heatMap(title, note, columns, rows, cell) {
       tips.set(td, content.tip);
       return td;
     }))));
-  const table = make("table", {class: "map"}, make("thead", {}, make("tr", {}, make("th", {scope: "col", text: "engine, setting"}),
+  const table = make("table", {class: "map", role: "grid", "aria-label": title}, make("thead", {}, make("tr", {}, make("th", {scope: "col", text: "engine, setting"}),
     ...columns.map((column) => make("th", {scope: "col", class: column.slanted ? "upright" : undefined}, make("span", {text: column.text}))))), body);
   body.querySelector("td[tabindex]")?.setAttribute("tabindex", "0");
   table.addEventListener("pointerover", (event) => say(event.target));
