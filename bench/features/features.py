@@ -11,7 +11,7 @@ feature, and these beside the 64. Then
     used    = feature - empty                   what those pay that use it
     beside  = both - feature - rest + empty     what the 64 pay more because others in their scene use it
 
---check exits with 1 where, in a compiled scene, `unused` is more than 1 % of what the rest costs. Without valgrind the exit code is 77.
+--check exits with 1 where `unused` is more than 1 % of what the rest costs. Without valgrind the exit code is 77.
 """
 
 import argparse
@@ -26,7 +26,6 @@ from concurrent.futures import ThreadPoolExecutor
 STEPS = 64
 BODIES = 64
 NOISE = 0.01  # of the rest's own cost
-PLANNED = ("plumb", "plumb-float")  # whose scenes are compiled to a plan of what they need
 
 
 def count(program, *arguments):
@@ -99,7 +98,7 @@ def main():
     for engine, feature, rest, unused, used, beside in rows(counts, engines, features):
         text = "" if unused is None else f"{unused:+.1f}"
         print(form.format(engine, feature, f"{rest:.0f}", text, f"{used:.0f}", f"{beside:+.0f} ({100 * beside / rest:+.1f} %)"))
-        if engine in PLANNED and unused is not None and unused > NOISE * rest:
+        if unused is not None and unused > NOISE * rest:
             too_much.append(f"{engine}: a scene that does not use {feature} pays {unused:.0f} instructions a step for it")
     if options.check and too_much:
         sys.exit("\n".join(too_much))

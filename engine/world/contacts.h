@@ -12,6 +12,8 @@ bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
 /// The categories that a shape's boxes are to be looked for in: a group may overrule its mask.
 inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 0xFFFFFFFFu : filter.mask; }
+/// What nothing can meet has no box in the trees, and costs no more than a body without shapes.
+inline bool meets_nothing(const Filter& filter) { return seen_by(filter) == 0; }
 
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b);

@@ -160,6 +160,7 @@ double first_impact(const WorldData<Real>& w, const FastBody& fast) {
 template <class Real>
 void show_way(WorldData<Real>& w, int body) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (w.shapes[shape].proxy == kNone) continue;
     DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
     tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, body), tree.box(w.shapes[shape].proxy)));
   }
@@ -169,6 +170,7 @@ void show_way(WorldData<Real>& w, int body) {
 template <class Real>
 void hide_way(WorldData<Real>& w, int body, Real dt) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (w.shapes[shape].proxy == kNone) continue;
     w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, stored_box(w, shape, dt));
     w.enlarged[body] = 1;
     if (!w.shapes[shape].moved) append(w.moved_shapes, shape);

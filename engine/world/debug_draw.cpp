@@ -83,6 +83,7 @@ class Drawing {
 
   void draw_boxes() const {
     for_each_used(w_.shapes, [&](int shape) {
+      if (w_.shapes[shape].proxy == kNone) return;
       const Aabb<Real>& box = w_.boxes[shape];
       const Vec2d a = box.lower.template as<double>(), b = box.upper.template as<double>();
       const Vec2d corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};

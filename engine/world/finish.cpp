@@ -90,6 +90,7 @@ Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) 
 
 template <class Real>
 bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+  if (w.shapes[shape].proxy == kNone) return true;
   const Aabb<Real> before = w.boxes[shape];
   w.boxes[shape] = box_of(w, shape);
   const ShapeRecord<Real>& record = w.shapes[shape];
@@ -135,6 +136,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     } else {
       const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+        if (w.shapes[shape].proxy == kNone) continue;
         w.boxes[shape] = convex_bounds(w.convex(shape), pose);
         store_box(w, shape, dt, w.boxes[shape]);
       }

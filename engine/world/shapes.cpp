@@ -72,7 +72,7 @@ template <class Real>
 void enter_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   w.boxes[shape] = box_of(w, shape);
-  if (w.bodies[record.body].quarantined) return;
+  if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
   if (!record.moved) append(w.moved_shapes, shape);
@@ -82,7 +82,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
 template <class Real>
 void leave_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (record.proxy == kNone) return;  // of a body in quarantine
+  if (record.proxy == kNone) return;  // in quarantine, or meets nothing
   w.tree_of(w.bodies[record.body].type).remove(record.proxy);
   record.proxy = kNone;
 }

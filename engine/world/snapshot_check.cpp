@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/bytes.h"
+#include "engine/world/contacts.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world_members.h"
@@ -195,17 +196,20 @@ class Check {
     require(!form.chain || (record.chain >= 0 && record.chain < w_.chains.size() &&
                             w_.chains.used(record.chain) && w_.chains[record.chain].body == record.body),
             "chains", "are not there");
-    if (w_.bodies[record.body].quarantined)
-      return require(record.proxy == kNone, "boxes", "are not out with their bodies");
+    if (is_out(record)) return require(record.proxy == kNone, "boxes", "are not out with their bodies");
     const DynamicTree<Real>& tree =
         w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
     require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
   }
 
+  bool is_out(const ShapeRecord<Real>& record) const {
+    return w_.bodies[record.body].quarantined || meets_nothing(record.filter);
+  }
+
   void trees() const {
     int out = 0;
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
-      if (w_.shapes.used(shape) && w_.bodies[w_.shapes[shape].body].quarantined) ++out;
+      if (w_.shapes.used(shape) && is_out(w_.shapes[shape])) ++out;
     }
     require(w_.still_tree.size() + w_.moving_tree.size() + out == w_.shapes.count(), "boxes",
             "are not as many as shapes");

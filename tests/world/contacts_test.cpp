@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/world/snapshot.h"
 #include "tests/world/support.h"
 
 namespace plumb {
@@ -125,6 +126,35 @@ TEST(Filters, CanChangeWhileTheWorldRuns) {
   world.set_filter(world.shapes(ball)[0], {.mask = 0});
   run(world, 60);
   EXPECT_LT(world.position(ball).y, -2);
+}
+
+// What nothing can meet has no box in the trees: it gets one where it is when its filter has it meet things,
+// also in a world that was restored, on a body of another type, and beside a shape of its body that has one.
+TEST(Filters, WhatMetNothingMeetsThingsLater) {
+  for (const bool beside : {false, true}) {
+    World world;
+    add_ground(world);
+    const BodyId ball = add_body(world, {0, 40}, {.geometry = Circle{0.5}, .filter = {.mask = 0}});
+    const ShapeId large = world.shapes(ball)[0];
+    if (beside) world.create_shape(ball, {.geometry = Circle{0.2}, .density = 0});
+    run(world, 60);
+    world.set_type(ball, BodyType::Kinematic);
+    run(world, 3);
+    world.set_type(ball, BodyType::Dynamic);
+    world.set_velocity(ball, {0, -4000});  // fast: it is swept
+    world.step();
+    EXPECT_LT(world.position(ball).y, beside ? 21.0 : -2.0);
+    world.set_position(ball, {0, 20}, 0);
+    world.set_velocity(ball, {});
+    World other;
+    restore(other, save(world));
+    for (World* each : {&world, &other}) {
+      each->set_filter(large, {});
+      run(*each, 300);
+      EXPECT_NEAR(each->position(ball).y, 0.5, 0.005);
+    }
+    EXPECT_EQ(world.hash(), other.hash());
+  }
 }
 
 TEST(Events, TouchingBeginsAndEnds) {
