@@ -20,6 +20,7 @@ void add_check(CLI::App& app, Action& chosen);
 void add_sweep(CLI::App& app, Action& chosen);
 void add_front(CLI::App& app, Action& chosen);
 void add_tune(CLI::App& app, Action& chosen);
+void add_stress(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view

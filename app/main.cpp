@@ -90,6 +90,7 @@ int main(int argc, char** argv) {
   add_sweep(app, action);
   add_front(app, action);
   add_tune(app, action);
+  add_stress(app, action);
   add_report(app, action);
   add_bench(app);
   add_window(app);

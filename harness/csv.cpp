@@ -6,17 +6,13 @@
 #include "harness/table.h"
 
 namespace plumb::harness {
-namespace {
 
-// RFC 4180: quoted where it has to be, quotes doubled.
-std::string field(std::string_view text) {
+std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
-
-}  // namespace
 
 std::string csv_header() {
   std::string line = "scenario,variant,size,engine,engine_version,precision,dt,status,reason";
@@ -26,9 +22,9 @@ std::string csv_header() {
 
 std::string csv_row(const Result& result) {
   std::string line =
-      fmt::format("{},{},{},{},{},{},{},{},{}", field(result.scenario), field(result.variant), result.size,
-                  field(result.engine), field(result.engine_version), field(result.precision), result.dt,
-                  name_of(result.status), field(result.reason));
+      fmt::format("{},{},{},{},{},{},{},{},{}", csv_field(result.scenario), csv_field(result.variant),
+                  result.size, csv_field(result.engine), csv_field(result.engine_version),
+                  csv_field(result.precision), result.dt, name_of(result.status), csv_field(result.reason));
   for (const MetricField& metric : kMetricFields) {
     const auto& value = result.metrics.*metric.value;
     line += value ? fmt::format(",{}", *value) : ",";

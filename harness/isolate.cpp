@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,9 +61,21 @@ void write_all(int file, const std::string& text) {
   }
 }
 
-[[noreturn]] void run_child(const std::function<std::string()>& work, const Pipe& answer,
+// Address sanitizers reserve more than there is: under them memory is not limited.
+void limit_memory(std::size_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__)
+  if (bytes == 0) return;
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+#else
+  static_cast<void>(bytes);
+#endif
+}
+
+[[noreturn]] void run_child(const std::function<std::string()>& work, std::size_t memory, const Pipe& answer,
                             const Pipe& output) {
   setpgid(0, 0);
+  limit_memory(memory);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGINT, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
@@ -125,7 +138,9 @@ struct Child {
   pid_t process = -1;
   Pipe answer, output;
   std::string text, printed;
-  Clock::time_point deadline;
+  ChildLimits limits{0};
+  Clock::time_point began, deadline;
+  std::size_t memory = 0;  // bytes, once it has been waited for
   bool open = true;
 
   Child() = default;
@@ -139,25 +154,30 @@ struct Child {
   int wait() {
     if (open) kill(-process, SIGKILL);
     int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    rusage used{};
+    while (wait4(process, &status, 0, &used) < 0 && errno == EINTR) {
     }
+    memory = static_cast<std::size_t>(used.ru_maxrss) * 1024;
     kill(-process, SIGKILL);
     process = -1;
     return status;
   }
 };
 
-std::unique_ptr<Child> start(std::size_t index, const std::function<std::string()>& work, double seconds) {
+std::unique_ptr<Child> start(std::size_t index, const std::function<std::string()>& work,
+                             const ChildLimits& limits) {
   auto child = std::make_unique<Child>();
   child->index = index;
+  child->limits = limits;
+  child->began = Clock::now();
   child->process = fork();
   if (child->process < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
-  if (child->process == 0) run_child(work, child->answer, child->output);
+  if (child->process == 0) run_child(work, limits.memory, child->answer, child->output);
   setpgid(child->process, child->process);
   child->answer.close_write();
   child->output.close_write();
-  child->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(std::min(seconds, kLongest)));
+  child->deadline = child->began + std::chrono::duration_cast<Clock::duration>(
+                                       std::chrono::duration<double>(std::min(limits.seconds, kLongest)));
   return child;
 }
 
@@ -177,10 +197,9 @@ void listen(const std::vector<std::unique_ptr<Child>>& children) {
   }
 }
 
-Outcome end(Child& child, double seconds) {
-  const int status = child.wait();
+Outcome how_it_ended(Child& child, int status) {
   if (child.open && interrupted()) return {Outcome::Kind::Interrupted, ""};
-  if (child.open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", seconds)};
+  if (child.open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", child.limits.seconds)};
   while (child.output.read >= 0 && poll_now(child.output.read) && drain(child.output.read, child.printed)) {
   }
   if (child.text.empty()) return {Outcome::Kind::Crashed, how_it_died(status, child.printed)};
@@ -188,9 +207,17 @@ Outcome end(Child& child, double seconds) {
   return {failed ? Outcome::Kind::Failed : Outcome::Kind::Done, child.text.substr(1)};
 }
 
+Outcome end(Child& child) {
+  const int status = child.wait();
+  Outcome outcome = how_it_ended(child, status);
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - child.began).count();
+  outcome.memory = child.memory;
+  return outcome;
+}
+
 }  // namespace
 
-void isolate_all(std::size_t count, int jobs, double seconds,
+void isolate_all(std::size_t count, int jobs, const std::function<ChildLimits(std::size_t)>& limits,
                  const std::function<std::string(std::size_t)>& work,
                  const std::function<void(std::size_t, const Outcome&)>& done) {
   std::vector<std::unique_ptr<Child>> running;
@@ -198,7 +225,7 @@ void isolate_all(std::size_t count, int jobs, double seconds,
   while (next < count || !running.empty()) {
     while (next < count && running.size() < static_cast<std::size_t>(std::max(1, jobs)) && !interrupted()) {
       running.push_back(start(
-          next, [&] { return work(next); }, seconds));
+          next, [&] { return work(next); }, limits(next)));
       ++next;
     }
     if (running.empty()) break;  // interrupted
@@ -210,7 +237,7 @@ void isolate_all(std::size_t count, int jobs, double seconds,
         continue;
       }
       const std::size_t index = child.index;
-      const Outcome outcome = end(child, seconds);
+      const Outcome outcome = end(child);
       running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
       done(index, outcome);
     }
@@ -218,10 +245,17 @@ void isolate_all(std::size_t count, int jobs, double seconds,
   for (; next < count; ++next) done(next, {Outcome::Kind::Interrupted, ""});
 }
 
-Outcome isolate(const std::function<std::string()>& work, double seconds) {
+void isolate_all(std::size_t count, int jobs, const ChildLimits& limits,
+                 const std::function<std::string(std::size_t)>& work,
+                 const std::function<void(std::size_t, const Outcome&)>& done) {
+  isolate_all(
+      count, jobs, [&](std::size_t) { return limits; }, work, done);
+}
+
+Outcome isolate(const std::function<std::string()>& work, const ChildLimits& limits) {
   Outcome result;
   isolate_all(
-      1, 1, seconds, [&](std::size_t) { return work(); },
+      1, 1, limits, [&](std::size_t) { return work(); },
       [&](std::size_t, const Outcome& outcome) { result = outcome; });
   return result;
 }

@@ -23,6 +23,7 @@ struct WorldSettings {
   double dt = 0;  ///< s
   int substeps = kSubsteps;
   bool continuous = true, sleeping = false;
+  Solver solver = Solver::SoftSteps;
 };
 
 template <class Real>
@@ -55,6 +56,7 @@ class WorldSimulator final : public Simulator {
     definition.sleeping = settings.sleeping;
     definition.continuous = settings.continuous;
     definition.quarantine = false;  // an answer without one of the bodies is none
+    definition.solver = settings.solver;
     return definition;
   }
 
@@ -75,7 +77,9 @@ class WorldBackend final : public Backend {
 
   std::vector<Option> options() const override {
     return {{"continuous", "on", "on or off: continuous collision"},
-            {"sleep", "off", "on or off: islands at rest stop being computed"}};
+            {"sleep", "off", "on or off: islands at rest stop being computed"},
+            {"solver", name_of(Solver::SoftSteps),
+             "soft_steps, sequential_impulses, jakobsen, xpbd or direct (islands with joints as a whole)"}};
   }
 
   std::vector<Knob> knobs() const override {
@@ -100,7 +104,7 @@ class WorldBackend final : public Backend {
     const WorldSettings chosen = read_settings(settings);
     Settings out{{"dt", shortest(chosen.dt)},
                  {"substeps", std::to_string(chosen.substeps)},
-                 {"solver", "soft steps; small islands directly"},
+                 {"solver", name_of(chosen.solver)},
                  {"continuous", chosen.continuous ? "on" : "off"},
                  {"sleep", chosen.sleeping ? "on" : "off"},
                  {"forces", "at the middle of each step, for the whole step"},
@@ -123,8 +127,10 @@ class WorldBackend final : public Backend {
   WorldSettings read_settings(const StepSettings& settings) const {
     check_steps(name_, settings, Stepping::Fixed);
     const OptionReader given(name_, settings, options());
+    std::vector<std::pair<std::string, Solver>> solvers;
+    for (const char* name : kSolverNames) solvers.emplace_back(name, *solver_of(name));
     return {settings.dt, settings.substeps.value_or(kSubsteps), given.toggle("continuous"),
-            given.toggle("sleep")};
+            given.toggle("sleep"), given.choice<Solver>("solver", solvers)};
   }
 
   std::string_view name_, summary_;

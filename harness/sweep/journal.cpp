@@ -43,7 +43,7 @@ Journal::Journal(const std::string& path) : path_(path) {
     errno = why;
     if (why == EWOULDBLOCK)
       throw Error(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
-                  "another sweep is at work in this folder; name another with --out");
+                  "another run is at work in this folder; name another with --out");
     fail("cannot be locked");
   }
   std::string text;

@@ -14,7 +14,7 @@ import tempfile
 
 # What the files below a folder may include, as prefixes of paths from the checkout's root; the longest folder
 # that contains a file decides. A folder that stands here without a slash at the end is a single header.
-EVERYTHING = ["engine/", "reference/", "scenarios/", "harness/"]
+EVERYTHING = ["engine/", "reference/", "scenarios/", "harness/", "extremes/"]
 RULES = {
     "engine": ["engine/"],
     "engine/math": ["engine/math/"],
@@ -22,6 +22,7 @@ RULES = {
     "scenarios": ["scenarios/", "engine/scene/", "engine/math/", "reference/backend.h"],
     "reference": ["reference/", "engine/"],
     "harness": ["harness/", "scenarios/", "reference/", "engine/"],
+    "extremes": ["extremes/", "harness/stress/", "scenarios/truth/", "engine/scene/", "engine/math/"],
     "app": ["app/", "demos/"] + EVERYTHING,
     "demos": ["demos/"] + EVERYTHING,
     "demos/core": ["demos/core/", "engine/"],
@@ -31,7 +32,7 @@ RULES = {
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 SUFFIXES = {".h", ".hpp", ".cpp", ".in"}
-OWN_FOLDERS = ("engine", "scenarios", "reference", "harness", "app", "demos", "bench", "tests")
+OWN_FOLDERS = ("engine", "scenarios", "reference", "harness", "extremes", "app", "demos", "bench", "tests")
 
 
 def rule_for(path):

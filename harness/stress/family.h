@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "harness/stress/verdict.h"
+
+/// Families of scenes along an axis into the extreme: where does an engine break?
+namespace plumb::harness::stress {
+
+/// What a run did, at its worst.
+struct Finding {
+  Verdict verdict = Verdict::Ok;
+  std::string measure{};  ///< "deepest overlap"
+  double figure = 0;
+  std::string unit{};
+  double bound = 0;      ///< of the figure, of the same unit
+  std::string reason{};  ///< one sentence; empty where it is ok
+};
+
+/// Watches one run and says whether it was right enough to use.
+class Judge {
+ public:
+  virtual ~Judge() = default;
+  /// False where it has seen enough. States are finite. `time` in s since the start.
+  virtual bool see(double time, std::span<const BodyState> states) = 0;
+  virtual Finding finding() const = 0;
+};
+
+/// The state of every body at a time, s.
+using Motion = std::function<void(double time, std::span<BodyState> out)>;
+
+/// A part of a run that is sampled evenly.
+struct Stretch {
+  int samples = 0;
+  int every = 1;  ///< steps from sample to sample
+};
+
+/// One scene of a family.
+struct Trial {
+  Scene scene{};
+  double dt = 1.0 / 60;  ///< s
+  std::vector<Stretch> stretches{};
+  std::function<std::unique_ptr<Judge>(const Scene& scene)> judge{};
+  /// The motion that no engine computed; empty where there is none.
+  Motion exact{};
+};
+
+/// One file in extremes/, no registration elsewhere.
+struct Family {
+  std::string name{};
+  std::string title{};  ///< "a heavy box on a light one"
+  std::string axis{};   ///< "mass ratio"
+  std::string unit{};   ///< of the axis; empty for numbers
+  std::vector<double> values{};
+  double usual = 1;     ///< the one of `values` that any engine with the features should do
+  std::string rule{};   ///< the bounds, and why these, in one line
+  double patience = 1;  ///< times the time that a cell may take
+  std::function<Trial(double value)> build{};
+};
+
+/// Every family, by name.
+const std::vector<Family>& all();
+
+/// Throws `Error` (Name) that suggests the nearest.
+const Family& find_family(std::string_view name);
+
+/// Adds a family: `static const Register r{{.name = ..., .build = ...}};`
+struct Register {
+  explicit Register(Family family);
+};
+
+/// `steps` steps in at most `samples` samples, evenly.
+std::vector<Stretch> evenly(long steps, int samples);
+
+}  // namespace plumb::harness::stress

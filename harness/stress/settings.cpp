@@ -1,0 +1,64 @@
+#include "harness/stress/settings.h"
+
+#include <string_view>
+
+namespace plumb::harness::stress {
+namespace {
+
+struct Row {
+  std::string_view engine;
+  Setting setting;
+};
+
+const std::vector<Row>& table() {
+  static const Setting realtime{.name = "careful",
+                                .summary = "four times the substeps and sweeps",
+                                .substeps = 16,
+                                .options = {{"iterations", "16"}}};
+  static const Setting world{.name = "careful", .summary = "four times the substeps", .substeps = 16};
+  static const Setting direct{.name = "direct",
+                              .summary = "islands with joints solved as a whole",
+                              .options = {{"solver", "direct"}}};
+  static const Setting bullet{.name = "careful",
+                              .summary = "a quarter of the step, four times the sweeps",
+                              .substeps = 4,
+                              .options = {{"iterations", "40"}}};
+  static const Setting quarter{.name = "careful", .summary = "a quarter of the step", .substeps = 4};
+  static const std::vector<Row> rows{
+      {"plumb", realtime},
+      {"plumb-float", realtime},
+      {"plumb-precise",
+       {.name = "symplectic",
+        .summary = "a fixed step that keeps energy over long runs",
+        .options = {{"method", "symplectic"}}}},
+      {"plumb-world", world},
+      {"plumb-world", direct},
+      {"plumb-world-double", world},
+      {"plumb-world-double", direct},
+      {"box2d",
+       {.name = "careful",
+        .summary = "a quarter of the step, four times the sweeps",
+        .substeps = 4,
+        .options = {{"velocity_iterations", "32"}, {"position_iterations", "12"}}}},
+      {"bullet", bullet},
+      {"bullet-double", bullet},
+      {"bullet-multibody", quarter},
+      {"mujoco", quarter},
+  };
+  return rows;
+}
+
+}  // namespace
+
+reference::StepSettings Setting::with(double dt) const {
+  return {.dt = dt, .substeps = substeps, .tolerance = tolerance, .options = options};
+}
+
+std::vector<Setting> settings_of(const reference::Backend& backend) {
+  std::vector<Setting> out{{.name = "default", .summary = "the engine's own"}};
+  for (const Row& row : table())
+    if (row.engine == backend.name()) out.push_back(row.setting);
+  return out;
+}
+
+}  // namespace plumb::harness::stress

@@ -1,0 +1,46 @@
+#include "harness/stress/verdict.h"
+
+#include <array>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
+
+namespace plumb::harness::stress {
+namespace {
+
+struct Words {
+  std::string_view name, in_short, meaning;
+};
+
+constexpr std::array<Words, kVerdicts> kWords{{
+    {"ok", "ok", "within its bounds"},
+    {"inaccurate", "inacc", "sane, off by up to ten times its bound"},
+    {"drifts", "drifts", "leaves its place or energy"},
+    {"sinks", "sinks", "shapes lie in each other"},
+    {"stretches", "longer", "stretches: joints are open"},
+    {"freezes", "frozen", "freezes: what should move does not"},
+    {"tunnels", "tunnel", "went through a wall"},
+    {"explodes", "explod", "flies off"},
+    {"NaN", "NaN", "a state that is not finite"},
+    {"crashed", "crash", "its process died"},
+    {"timeout", "time", "took too long"},
+    {"refused", "refuse", "said that it cannot"},
+    {"skipped", "-", "has no such feature; not counted"},
+}};
+
+const Words& words_of(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) { return words_of(verdict).name; }
+std::string_view short_name_of(Verdict verdict) { return words_of(verdict).in_short; }
+std::string_view meaning_of(Verdict verdict) { return words_of(verdict).meaning; }
+
+Verdict verdict_of(std::string_view name) {
+  for (std::size_t i = 0; i < kWords.size(); ++i)
+    if (kWords[i].name == name) return static_cast<Verdict>(i);
+  throw Error(Error::Kind::Name, "a cell", "outcome", quoted(name), "is none of the outcomes");
+}
+
+}  // namespace plumb::harness::stress
