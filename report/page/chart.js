@@ -164,13 +164,16 @@ function chart(options, series, look) {
   const all = series.map((one) => {
     const clean = (points) => points.filter(drawable).map((point) => ({...point, engine: one.engine})).sort((a, b) => a.x - b.x);
     const points = clean(one.points);
-    return {...one, points, line: clean(one.line), marked: points.filter((_, i) => !one.every || i % one.every === one.offset)};
+    const line = clean(one.line), onLine = new Set(line.map(({x, y}) => `${x} ${y}`));
+    const marked = points.filter((_, i) => !one.every || i % one.every === one.offset);
+    // What lies beside the line is small.
+    return {...one, points, line, marked, radius: marked.map(({x, y}) => (one.every ? 4 : onLine.has(`${x} ${y}`) ? 5 : 3))};
   }).filter((one) => one.points.length > 0);
   const seen = (hidden) => all.filter((one) => !hidden.has(one.engine));
   const configure = (hidden, colours) => {
     const sets = seen(hidden).flatMap((one) => {
       const style = look.get(one.engine);
-      const marks = {...kPlain, type: "scatter", engine: one.engine, data: one.marked, radius: one.every ? 4 : 5, ...markStyle(style, colours)};
+      const marks = {...kPlain, type: "scatter", engine: one.engine, data: one.marked, radius: one.radius, ...markStyle(style, colours)};
       const line = {...kPlain, type: "line", engine: one.engine, data: one.line, ...markStyle(style, colours), radius: 0,
         borderWidth: 1.8, borderDash: style.dash};
       // Where not every point has a mark, the line has them all.
