@@ -39,22 +39,20 @@ void PreciseDriver::step() {
 /// on how often they are looked at. Events do end it.
 void PreciseDriver::go_on(double end) {
   arrive();
-  if (active(kContacts) && !contacts_.settled()) {
+  if (!contacts_.empty() && !contacts_.settled()) {
     const Clock clock(profiling_, cost_[kContacts]);
     contacts_.settle();
   }
-  if (!stops_.empty() && !stops_.settled()) stops_.settle();
   // Without events to look for, nothing but the motion decides how long a step is.
-  const bool as_asked = smooth_.dimension() == 0 || !contacts_.empty() || !stops_.empty();
+  const bool as_asked = smooth_.dimension() == 0 || !contacts_.empty();
   {
     const Clock clock(profiling_, cost_[kRungeKutta]);
     smooth_.step(as_asked ? end : std::numeric_limits<double>::infinity());
   }
-  if (active(kContactSearch)) {
+  if (!contacts_.empty()) {
     const Clock clock(profiling_, cost_[kContactSearch]);
     contacts_.stop();  // at the first event on the way
   }
-  stops_.stop();
   if (++steps_in_step_ > kMostSteps) smooth_.blame_fastest();
   if (contacts_.impacts() - impacts_before_ > kMostImpacts) {
     fail("the scene", "impacts", std::to_string(kMostImpacts) + " and more",
@@ -69,7 +67,6 @@ void PreciseDriver::arrive() {
   if (!std::binary_search(parts_.switches.begin(), parts_.switches.end(), now)) return;
   flight_.switch_forces(now);
   contacts_.unsettle();
-  stops_.unsettle();
 }
 
 PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options)
@@ -80,8 +77,7 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
       equations_(scene, parts_, flight_, options.every_stage),
       smooth_(scene, parts_, precise, equations_),
       sample_(equations_.dimension()),
-      contacts_(scene, parts_, flight_, equations_, smooth_),
-      stops_(scene, parts_, equations_, smooth_) {
+      contacts_(scene, parts_, flight_, equations_, smooth_) {
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
     at_rest_.push_back(body.type == BodyType::Static);
@@ -104,7 +100,6 @@ void PreciseDriver::close_joints() {
   if (joints_closed_) return;
   smooth_.start_anew();
   contacts_.unsettle();
-  stops_.unsettle();
   joints_closed_ = true;
 }
 

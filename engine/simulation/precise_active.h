@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/joints/row.h"
@@ -26,6 +27,15 @@ struct ContactForces {
   std::vector<double> normal, tangent;
   std::vector<double> stop;  ///< of held stops of joints, N or N m, in their order
 };
+
+/// J v of one row; `motion` by body.
+inline double rate_along(const Row<double>& row, std::span<const Twist<double>> motion) {
+  const auto part = [&](int body, Vec2d linear, double angular) {
+    if (body == kFixedFrame) return 0.0;
+    return dot(linear, motion[body].velocity) + angular * motion[body].angular_velocity;
+  };
+  return part(row.a, row.linear_a, row.angular_a) + part(row.b, row.linear_b, row.angular_b);
+}
 
 /// Rows and what a unit impulse along each of them changes, joints included.
 struct ContactResponse {

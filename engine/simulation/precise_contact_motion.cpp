@@ -173,6 +173,11 @@ std::span<const Row<double>> EquationsOfMotion::stop_rows() {
   return stop_rows_;
 }
 
+std::span<const Row<double>> EquationsOfMotion::stop_rows(double time, std::span<const double> y) {
+  place(time, y);
+  return stop_rows();
+}
+
 /// Adds the forces of motors that push as hard as they can.
 void EquationsOfMotion::add_motors() {
   const std::span<const Row<double>> rows = stop_rows();

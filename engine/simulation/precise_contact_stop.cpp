@@ -33,9 +33,10 @@ Feature feature_of_height(const Feature& f, const Outline& a, const Outline& b, 
 
 void Contacts::stop() {
   if (empty()) return;
-  paths_.take(smooth_);
+  if (!finder_.outlines().empty()) paths_.take(smooth_);
   double until = smooth_.time();
-  std::optional<Event> event = first_meeting(until);
+  std::optional<Event> event;
+  if (!finder_.outlines().empty()) event = first_meeting(until);
   if (event) until = event->time;
   if (const auto change = first_change(until)) event = change;
   if (!event) {
@@ -61,8 +62,10 @@ void Contacts::stop() {
       count(ContactEvent::Change, smooth_.time());
       break;
     case Quantity::Height:
+    case Quantity::Stop:
       break;
   }
+  stops_.meet(event->limit);
   settled_ = false;
 }
 
@@ -79,7 +82,7 @@ std::optional<Contacts::Event> Contacts::first_meeting(double until) {
       const ContactSearch::Departure departure = search_.departure(pair, until, near_);
       if (departure.pressed) {
         until = *departure.pressed;
-        first = Event{until, Quantity::Height, pair, std::nullopt};
+        first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
         continue;
       }
       if (!departure.apart) continue;
@@ -88,7 +91,7 @@ std::optional<Contacts::Event> Contacts::first_meeting(double until) {
     const auto time = search_.first(pair, from, until, near_ / 8);
     if (!time) continue;
     until = *time;
-    first = Event{until, Quantity::Height, pair, std::nullopt};
+    first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
   }
   return first;
 }
@@ -96,10 +99,18 @@ std::optional<Contacts::Event> Contacts::first_meeting(double until) {
 void Contacts::list_watched() {
   watched_.clear();
   tolerance_.clear();
+  watch_contacts();
+  for (std::size_t k = 0; k < stops_.count(); ++k) {
+    watched_.push_back({.quantity = Quantity::Stop, .stop = k});
+    tolerance_.push_back(stops_.tolerance(k));
+  }
+}
+
+void Contacts::watch_contacts() {
   const double acceleration = finder_.scale_of_speed() * finder_.scale_of_speed() / finder_.scale_of_length();
   const auto watch = [&](Quantity quantity, std::size_t patch, int point, double tolerance,
                          Feature feature = {}) {
-    watched_.push_back({quantity, patch, point, feature});
+    watched_.push_back({quantity, patch, point, feature, 0});
     tolerance_.push_back(tolerance);
   };
   for (std::size_t p = 0; p < equations_.held().size(); ++p) {
@@ -127,53 +138,73 @@ void Contacts::list_watched() {
 
 void Contacts::evaluate(double time, std::span<double> values) {
   smooth_.at(time, false, sample_);
-  const ContactForces& forces = equations_.contact_forces(time, sample_.value());
+  const std::span<const double> y = sample_.value();
   const std::span<const ActivePatch> held = equations_.held();
+  if (!stops_.empty()) {
+    stop_values_.resize(stops_.count());
+    stops_.evaluate(time, y, stop_values_);
+  }
+  static const ContactForces kNone;
+  const bool forces_known = !stops_.empty() && equations_.holds_anything();
+  const ContactForces& forces = forces_known   ? equations_.last_contact_forces()
+                                : held.empty() ? kNone
+                                               : equations_.contact_forces(time, y);
   std::vector<std::size_t> first_point(held.size() + 1, 0);
   for (std::size_t p = 0; p < held.size(); ++p)
     first_point[p + 1] = first_point[p] + static_cast<std::size_t>(held[p].count);
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const Watched& watched = watched_[w];
-    const ActivePatch& patch = held[watched.patch];
-    const std::size_t first = first_point[watched.patch];
-    const auto placed = [&](const Outline& o) { return paths_.at(o.body, time); };
-    switch (watched.quantity) {
-      case Quantity::Force:
-        values[w] = forces.normal[first + static_cast<std::size_t>(watched.point)];
-        break;
-      case Quantity::Cone: {
-        double normal = 0;
-        for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
-        values[w] = patch.friction * normal - std::abs(forces.tangent[watched.patch]);
-        break;
-      }
-      case Quantity::Slip: {
-        const StepPaths::Placed a = placed(*patch.a), b = placed(*patch.b);
-        const ContactRows rows =
-            rows_of(patch.features[0], *patch.a, a.pose, a.twist, *patch.b, b.pose, b.twist);
-        values[w] = patch.mode * speed_along(rows.tangent, a.twist, b.twist);
-        break;
-      }
-      case Quantity::Range:
-      case Quantity::Height: {
-        const int index = watched.quantity == Quantity::Height ? 0 : watched.point / 4;
-        const Limits limits = limits_of(patch.features[index], *patch.a, placed(*patch.a).pose, *patch.b,
-                                        placed(*patch.b).pose);
-        values[w] = limits.value[watched.point % 4];
-        break;
-      }
+    if (watched.quantity == Quantity::Stop) {
+      values[w] = stop_values_[watched.stop];
+    } else {
+      evaluate_contact(watched, forces, first_point[watched.patch], time, values[w]);
     }
   }
 }
 
+void Contacts::evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first,
+                                double time, double& value) {
+  const ActivePatch& patch = equations_.held()[watched.patch];
+  const auto placed = [&](const Outline& o) { return paths_.at(o.body, time); };
+  switch (watched.quantity) {
+    case Quantity::Force:
+      value = forces.normal[first + static_cast<std::size_t>(watched.point)];
+      break;
+    case Quantity::Cone: {
+      double normal = 0;
+      for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
+      value = patch.friction * normal - std::abs(forces.tangent[watched.patch]);
+      break;
+    }
+    case Quantity::Slip: {
+      const StepPaths::Placed a = placed(*patch.a), b = placed(*patch.b);
+      const ContactRows rows =
+          rows_of(patch.features[0], *patch.a, a.pose, a.twist, *patch.b, b.pose, b.twist);
+      value = patch.mode * speed_along(rows.tangent, a.twist, b.twist);
+      break;
+    }
+    case Quantity::Range:
+    case Quantity::Height: {
+      const int index = watched.quantity == Quantity::Height ? 0 : watched.point / 4;
+      const Limits limits =
+          limits_of(patch.features[index], *patch.a, placed(*patch.a).pose, *patch.b, placed(*patch.b).pose);
+      value = limits.value[watched.point % 4];
+      break;
+    }
+    case Quantity::Stop:
+      break;
+  }
+}
+
 std::optional<Contacts::Event> Contacts::first_change(double until) {
-  if (held_.empty()) return std::nullopt;
+  if (held_.empty() && stops_.empty()) return std::nullopt;
   list_watched();
   const auto fall = first_fall([this](double time, std::span<double> values) { evaluate(time, values); },
-                               tolerance_, paths_.start(), until, kSamples);
+                               tolerance_, smooth_.start(), until, kSamples);
   if (!fall) return std::nullopt;
   const Watched& watched = watched_[fall->index];
-  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt};
+  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
+  if (watched.quantity == Quantity::Stop && stops_.is_free_limit(watched.stop)) event.limit = watched.stop;
   if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
   return event;
 }
@@ -182,6 +213,7 @@ std::optional<Contacts::Event> Contacts::first_change(double until) {
 /// Newton's method on the gap with steps of their own.
 void Contacts::refine(const Event& event) {
   constexpr int kMost = 4;
+  if (event.limit) return refine_limit(*event.limit);
   if (!event.meet && !event.down) return;
   const double start = smooth_.start();
   for (int i = 0; i < kMost; ++i) {
@@ -199,6 +231,23 @@ void Contacts::refine(const Event& event) {
     const double closing = speed_along(row, at_a.twist, at_b.twist);
     if (std::abs(row.residual) <= near_ / 64 || !(closing < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - row.residual / closing;
+    if (time == smooth_.time() || time <= start) return;
+    if (time < smooth_.time()) {
+      smooth_.cut(time);
+    } else {
+      smooth_.step(time);
+      if (smooth_.time() < time) return;
+    }
+  }
+}
+
+void Contacts::refine_limit(std::size_t limit) {
+  constexpr int kMost = 4;
+  const double length = finder_.scale_of_length(), start = smooth_.start();
+  for (int i = 0; i < kMost; ++i) {
+    const Stops::Approach at = stops_.approach(limit, smooth_.time(), smooth_.state().value());
+    if (std::abs(at.gap) <= 1e-14 * length || !(at.rate < -1e-6 * finder_.scale_of_speed())) return;
+    const double time = smooth_.time() - at.gap / at.rate;
     if (time == smooth_.time() || time <= start) return;
     if (time < smooth_.time()) {
       smooth_.cut(time);
@@ -229,6 +278,7 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(last_event_);
   out.put(events_at_once_);
   out.put(events_);
+  stops_.save(out);
 }
 
 void Contacts::restore(SnapshotReader& in) {
@@ -264,6 +314,7 @@ void Contacts::restore(SnapshotReader& in) {
   events_at_once_ = in.get<int>();
   events_ = in.get<std::array<EventCount, kContactEvents>>();
   equations_.hold_contacts(std::move(patches));
+  stops_.restore(in);
 }
 
 }  // namespace plumb::precise

@@ -20,12 +20,6 @@ constexpr double kClatter = 1e-7;
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 
-double rate_along(const Row<double>& row, std::span<const Twist<double>> motion) {
-  const Twist<double>&a = motion[row.a], &b = motion[row.b];
-  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
-         row.angular_b * b.angular_velocity;
-}
-
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
@@ -35,6 +29,7 @@ Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight,
       smooth_(smooth),
       finder_(scene, parts),
       law_(finder_, equations),
+      stops_(scene, parts, equations),
       paths_(flight, parts.integrated, scene.bodies.size()),
       search_(finder_.outlines(), paths_),
       states_(scene.bodies.size()),
@@ -48,8 +43,8 @@ void Contacts::count(ContactEvent event, double time, std::int64_t times) {
 }
 
 void Contacts::look_at_states() {
-  for (const Outline& o : finder_.outlines()) {
-    if (flight_.holds(o.body)) states_[o.body] = flight_.at(o.body, smooth_.time()).state;
+  for (std::size_t body = 0; body < states_.size(); ++body) {
+    if (flight_.holds(body)) states_[body] = flight_.at(body, smooth_.time()).state;
   }
   for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
     states_[equations_.bodies()[slot]] = EquationsOfMotion::state(smooth_.state().value(), slot);
@@ -62,14 +57,16 @@ void Contacts::settle() {
       now - last_event_ <= 4 * std::numeric_limits<double>::epsilon() * now ? events_at_once_ + 1 : 0;
   last_event_ = now;
   if (events_at_once_ > kMostEventsAtOnce)
-    throw Error(Error::Kind::Run, "contacts", "events", std::to_string(kMostEventsAtOnce) + " and more",
+    throw Error(Error::Kind::Run, "contacts, limits and motors", "events",
+                std::to_string(kMostEventsAtOnce) + " and more",
                 "they change at one instant without end; Realtime may do");
   equations_.set_window(now, now);
   look_at_states();
   near_ = kTouching * finder_.near(states_);
   for (int round = 0;; ++round) {
     std::vector<Touch> touches = finder_.touches(states_, near_, passing_);
-    if (round == 0 && touches.empty() && held_.empty()) {  // the motion goes on as it was
+    stops_.find(now, smooth_.state().value(), finder_, states_, touches);
+    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion goes on as it was
       touching_.clear();
       settled_ = true;
       return;
@@ -87,6 +84,7 @@ void Contacts::settle() {
 }
 
 bool Contacts::is_held(const Touch& touch, int point) const {
+  if (touch.stop) return false;
   for (std::size_t p = 0; p < held_.size(); ++p) {
     if (held_[p] != touch.pair) continue;
     const ActivePatch& patch = equations_.held()[p];
@@ -143,8 +141,8 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
     const double speed = -touch.closing[point];
     const double e = speed >= finder_.rules().restitution_threshold ? touch.restitution : 0;
     if (e == 0 || e == 1) return e;
-    const auto place =
-        std::find_if(before.begin(), before.end(), [&](const Touch& t) { return t.pair == touch.pair; });
+    const auto place = std::find_if(before.begin(), before.end(),
+                                    [&](const Touch& t) { return !t.stop && t.pair == touch.pair; });
     const double drawn =
         pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
     if (!(drawn > 0)) return e;
@@ -161,15 +159,16 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
   if (ends) count(ContactEvent::Rest, limit);
 }
 
-/// Which of the points that neither close nor open push, by Coulomb's law for the accelerations.
+/// Which of the points that neither close nor open push, by Coulomb's law for the accelerations; and which
+/// motors at their speed hold it.
 Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   const double now = smooth_.time();
+  const std::span<const double> y = smooth_.state().value();
+  const std::vector<Brake> brakes = stops_.push(now, y, states_, touches);
   TouchProblem p = TouchProblem::of(
       touches, [&](std::size_t t, int i) { return std::abs(touches[t].closing[i]) <= touches[t].quiet; },
-      equations_, now, smooth_.state().value());
-  const std::span<const Twist<double>> free =
-      equations_.accelerations_without_contacts(now, smooth_.state().value());
-  const std::size_t n = p.problem.points();
+      brakes, equations_, now, y);
+  const std::span<const Twist<double>> free = equations_.accelerations_without_contacts(now, y);
   for (std::size_t i = 0; i < p.problem.size(); ++i) {
     const Row<double>& row = p.response.rows[i];
     p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
@@ -178,13 +177,13 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
     const Touch& touch = touches[p.touches[q]];
     if (std::abs(touch.slip) > touch.quiet) p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
   }
-  if (n > 0 &&
+  if (p.problem.size() > 0 &&
       std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
     p.problem.rate.assign(p.problem.size(), 0.0);  // nothing of it can move
-  const CoulombSolution solution = solve_coulomb(p.problem);
+  const CoulombSolution solution = solve(p.problem, brakes);
   if (!solution.solved) {
     if (!law_.jamb(now, touches, states_, smooth_.change())) {
-      throw Error(Error::Kind::Run, "contacts", "forces", std::to_string(n) + " points",
+      throw Error(Error::Kind::Run, "contacts", "forces", std::to_string(p.problem.points()) + " points",
                   "no forces obey Coulomb's law here, and no impulse either; Realtime may do");
     }
     count(ContactEvent::Paradox, now);
@@ -192,7 +191,53 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   }
   if (solution.ambiguous) count(ContactEvent::Paradox, now);
   activate(touches, p, solution);
+  act_on_stops(touches, brakes, p, solution);
   return end_clatter(touches) ? Decision::Again : Decision::Done;
+}
+
+/// Motors far stronger than all else would swallow the others' digits: they are taken as weaker as long as
+/// that suffices.
+CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
+  constexpr double kStronger = 1e3;
+  if (brakes.empty()) return solve_coulomb(problem);
+  const std::size_t n = problem.size();
+  double strength = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double own = problem.response[i * n + i];
+    if (own > 0) strength = std::max(strength, std::abs(problem.rate[i]) / own);
+  }
+  const std::size_t first_patch = problem.patches.size() - brakes.size();
+  for (;;) {
+    strength *= kStronger;
+    bool weaker = false, gives_way = false;
+    for (std::size_t b = 0; b < brakes.size(); ++b) {
+      double& bound = problem.patches[first_patch + b].bound;
+      bound = strength > 0 ? std::min(brakes[b].bound, strength) : brakes[b].bound;
+      weaker = weaker || bound < brakes[b].bound;
+    }
+    const CoulombSolution solution = solve_coulomb(problem);
+    for (std::size_t b = 0; b < brakes.size(); ++b)
+      gives_way = gives_way || (solution.mode[first_patch + b] != 0 &&
+                                problem.patches[first_patch + b].bound < brakes[b].bound);
+    if (!weaker || (solution.solved && !gives_way)) return solution;
+  }
+}
+
+void Contacts::act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+                            const TouchProblem& p, const CoulombSolution& solution) {
+  double most = 0;
+  for (std::size_t i = 0; i < p.problem.points(); ++i) {
+    const Touch& touch = touches[p.touch_of[i]];
+    if (!touch.stop || !solution.pushes[i]) continue;
+    stops_.hold(*touch.stop);
+    most = std::max(most, solution.force[i]);
+  }
+  for (std::size_t b = 0; b < brakes.size(); ++b) {
+    const std::size_t patch = p.touches.size() + b;
+    stops_.take(brakes[b], solution.mode[patch]);
+    most = std::max(most, std::abs(solution.force[p.problem.points() + patch]));
+  }
+  stops_.act(most);
 }
 
 void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
@@ -203,6 +248,7 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
   force_scale_ = 0;
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
     const Touch& touch = touches[p.touches[q]];
+    if (touch.stop) continue;
     ActivePatch patch{&finder_.outlines()[touch.pair.a],
                       &finder_.outlines()[touch.pair.b],
                       touch.friction,
@@ -222,7 +268,8 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
   }
   touching_.clear();
   for (const Touch& touch : touches) {
-    if (!std::binary_search(held_.begin(), held_.end(), touch.pair)) touching_.push_back(touch.pair);
+    if (!touch.stop && !std::binary_search(held_.begin(), held_.end(), touch.pair))
+      touching_.push_back(touch.pair);
   }
   equations_.hold_contacts(std::move(patches));
 }
@@ -230,7 +277,7 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
 /// Points that open but come back at once, corners that take turns: they are closed. Returns whether any was.
 bool Contacts::end_clatter(std::vector<Touch>& touches) {
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
-  const auto opens = [](const Touch& touch, int i) { return touch.closing[i] > touch.quiet; };
+  const auto opens = [](const Touch& touch, int i) { return !touch.stop && touch.closing[i] > touch.quiet; };
   bool any = false;
   for (const Touch& touch : touches) {
     for (int i = 0; i < touch.count; ++i) any = any || opens(touch, i);
@@ -240,6 +287,7 @@ bool Contacts::end_clatter(std::vector<Touch>& touches) {
   std::vector<ActivePatch> closed;
   any = false;
   for (const Touch& touch : touches) {
+    if (touch.stop) continue;
     ActivePatch patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
     for (int i = 0; i < touch.count; ++i) {
       const Row<double>& row = touch.rows[i].normal;

@@ -14,13 +14,14 @@
 #include "engine/simulation/precise_paths.h"
 #include "engine/simulation/precise_search.h"
 #include "engine/simulation/precise_smooth.h"
+#include "engine/simulation/precise_stops.h"
 #include "engine/simulation/precise_touch.h"
 #include "engine/simulation/snapshot.h"
 
 namespace plumb::precise {
 
-/// Contacts of `Precise`: between events those that last are constraints of the equations of motion; at
-/// events it is decided anew which they are.
+/// Contacts of `Precise`, and limits and motors of joints: between events those that last are constraints of
+/// the equations of motion; at events it is decided anew which they are.
 /// - `stop` looks for the first event of the step just made, and cuts the step there;
 /// - `settle` resolves impacts, and finds by a complementarity problem in the accelerations which contacts
 ///   push, stick, slip or open.
@@ -29,8 +30,8 @@ class Contacts {
   Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
            SmoothMotion& smooth);
 
-  /// Nothing may touch.
-  bool empty() const { return finder_.outlines().empty(); }
+  /// Nothing may touch, and joints have neither limits nor motors.
+  bool empty() const { return finder_.outlines().empty() && stops_.empty(); }
 
   /// At the time where the motion has stopped: after events, jumps of forces and changes from outside.
   void settle();
@@ -49,18 +50,20 @@ class Contacts {
 
  private:
   /// What is watched of contacts that last.
-  enum class Quantity { Force, Cone, Slip, Range, Height };
+  enum class Quantity { Force, Cone, Slip, Range, Height, Stop };
   struct Watched {
     Quantity quantity{};
     std::size_t patch = 0;
     int point = 0;
     Feature feature{};  // of a height: the corner that comes down
+    std::size_t stop = 0;
   };
   struct Event {
     double time = 0;
     Quantity quantity{};
     std::optional<OutlinePair> meet;                      // shapes that come together
     std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
+    std::optional<std::size_t> limit;                     // of a joint, that is met
   };
 
   void look_at_states();
@@ -72,7 +75,10 @@ class Contacts {
   bool is_held(const Touch& touch, int point) const;
   enum class Decision { Done, Again };
   Decision decide(std::vector<Touch>& touches);
+  CoulombSolution solve(CoulombProblem& problem, std::span<const Brake> brakes);
   void activate(std::span<const Touch> touches, const TouchProblem& problem, const CoulombSolution& solution);
+  void act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+                    const TouchProblem& problem, const CoulombSolution& solution);
   bool end_clatter(std::vector<Touch>& touches);
   std::vector<Twist<double>> accelerations();
 
@@ -82,12 +88,17 @@ class Contacts {
   void list_watched();
   void evaluate(double time, std::span<double> values);
   void refine(const Event& event);
+  void refine_limit(std::size_t limit);
+  void watch_contacts();
+  void evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first, double time,
+                        double& value);
 
   const Flight& flight_;
   EquationsOfMotion& equations_;
   SmoothMotion& smooth_;
   TouchFinder finder_;
   ImpactLaw law_;
+  Stops stops_;
   StepPaths paths_;
   ContactSearch search_;
   std::vector<BodyState> states_;  // by body, at the motion's time
@@ -101,7 +112,7 @@ class Contacts {
   std::vector<double> tolerance_;
   double force_scale_ = 0;
   Compensated sample_;
-  std::vector<double> rate_;
+  std::vector<double> rate_, stop_values_;
 
   std::array<EventCount, kContactEvents> events_{};
   double last_event_ = -1;

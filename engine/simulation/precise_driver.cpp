@@ -49,7 +49,7 @@ Statistics PreciseDriver::statistics() const {
   all.leaps = smooth_.leaps();
   all.redundant_joints = static_cast<std::int64_t>(smooth_.redundant_joints().size());
   all.contacts = contacts_.events();
-  all.impacts = contacts_.impacts() + stops_.impacts();
+  all.impacts = contacts_.impacts();
   return all;
 }
 
@@ -97,7 +97,6 @@ std::vector<std::byte> PreciseDriver::save() const {
   out.put(std::int64_t{joints_closed_});
   out.put(statistics_.steps);
   contacts_.save(out);
-  stops_.save(out);
   smooth_.save(time_, out);
   out.put(equations_.evaluations());
   for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
@@ -122,7 +121,6 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   statistics_ = {};
   statistics_.steps = in.get<std::int64_t>();
   contacts_.restore(in);
-  stops_.restore(in);
   smooth_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();

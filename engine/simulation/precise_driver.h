@@ -17,7 +17,6 @@
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_plan.h"
 #include "engine/simulation/precise_smooth.h"
-#include "engine/simulation/precise_stops.h"
 #include "engine/simulation/simulation.h"
 
 namespace plumb::precise {
@@ -63,7 +62,6 @@ class PreciseDriver final : public Driver {
   mutable Compensated sample_;   // of the integrated bodies at sampled_, where that is within the last step
   mutable double sampled_ = -1;  // s
   Contacts contacts_;
-  Stops stops_;
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 

@@ -28,8 +28,9 @@ double fastest(const Touch& touch) {
 }  // namespace
 
 TouchProblem TouchProblem::of(std::span<const Touch> touches,
-                              const std::function<bool(std::size_t, int)>& take, EquationsOfMotion& equations,
-                              double time, std::span<const double> y) {
+                              const std::function<bool(std::size_t, int)>& take,
+                              std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
+                              std::span<const double> y) {
   TouchProblem out;
   std::vector<Row<double>> normals, tangents;
   for (std::size_t t = 0; t < touches.size(); ++t) {
@@ -38,7 +39,7 @@ TouchProblem TouchProblem::of(std::span<const Touch> touches,
       if (!take(t, i)) continue;
       if (!any) {
         out.touches.push_back(t);
-        out.problem.patches.push_back({touches[t].friction, 0});
+        out.problem.patches.push_back({touches[t].friction, 0, 0});
         tangents.push_back(touches[t].rows[i].tangent);
       }
       any = true;
@@ -47,6 +48,10 @@ TouchProblem TouchProblem::of(std::span<const Touch> touches,
       out.problem.patch_of.push_back(static_cast<int>(out.touches.size()) - 1);
       normals.push_back(touches[t].rows[i].normal);
     }
+  }
+  for (const Brake& brake : brakes) {
+    out.problem.patches.push_back({0, 0, brake.bound});
+    tangents.push_back(brake.row);
   }
   normals.insert(normals.end(), tangents.begin(), tangents.end());
   if (!normals.empty()) equations.respond(time, y, std::move(normals), out.response, out.problem.response);
@@ -62,10 +67,17 @@ void ImpactLaw::apply(const ContactResponse& response, std::span<const double> i
   for (Touch& touch : touches) finder_.measure(states, touch);
 }
 
-void ImpactLaw::strike(double time, std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+std::string ImpactLaw::subject(const Touch& touch) const {
+  if (touch.stop) return "joint '" + equations_.kind_joints().stops()[*touch.stop].joint + "'";
+  return "bodies '" + equations_.name(finder_.outlines()[touch.pair.a].body) + "' and '" +
+         equations_.name(finder_.outlines()[touch.pair.b].body) + "'";
+}
+
+void ImpactLaw::strike(double time, const std::function<bool(const Touch&)>& takes_part,
+                       std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
                        const Restitution& restitution) {
   TouchProblem p = TouchProblem::of(
-      touches, [](std::size_t, int) { return true; }, equations_, time, y.value());
+      touches, [&](std::size_t t, int) { return takes_part(touches[t]); }, {}, equations_, time, y.value());
   const std::size_t n = p.problem.points();
   for (std::size_t i = 0; i < n; ++i) {
     const Touch& touch = touches[p.touch_of[i]];
@@ -77,11 +89,7 @@ void ImpactLaw::strike(double time, std::span<Touch> touches, std::span<BodyStat
   for (const std::size_t t : p.touches) p.problem.rate.push_back(touches[t].slip);
   const CoulombSolution solution = solve_coulomb(p.problem);
   if (!solution.solved) {
-    const Touch& touch = touches[0];
-    throw Error(Error::Kind::Run,
-                "bodies '" + equations_.name(finder_.outlines()[touch.pair.a].body) + "' and '" +
-                    equations_.name(finder_.outlines()[touch.pair.b].body) + "'",
-                "effective mass", "infinite",
+    throw Error(Error::Kind::Run, subject(touches[p.touches[0]]), "effective mass", "infinite",
                 "an impact meets what joints and other contacts hold everything fast: nothing can give way");
   }
   apply(p.response, solution.force, touches, states, y);
@@ -100,19 +108,17 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
     if (worst == touches.size()) return count;
     together = together || count >= kMostInSequence;
     if (count >= 2 * kMostInSequence) {
-      const Touch& touch = touches[worst];
-      throw Error(Error::Kind::Run,
-                  "bodies '" + equations_.name(finder_.outlines()[touch.pair.a].body) + "' and '" +
-                      equations_.name(finder_.outlines()[touch.pair.b].body) + "'",
-                  "impacts", std::to_string(count) + " and more", "they do not stop at one instant");
+      throw Error(Error::Kind::Run, subject(touches[worst]), "impacts", std::to_string(count) + " and more",
+                  "they do not stop at one instant");
     }
     if (together) {
       for (const Touch& touch : touches) count += closes(touch) ? 1 : 0;
-      strike(time, touches, states, y, restitution);
+      strike(
+          time, [](const Touch&) { return true; }, touches, states, y, restitution);
     } else {
       ++count;
-      strike(time, std::span(touches).subspan(worst, 1), states, y, restitution);
-      for (Touch& touch : touches) finder_.measure(states, touch);
+      const auto takes_part = [&](const Touch& t) { return t.stop.has_value() || &t == &touches[worst]; };
+      strike(time, takes_part, touches, states, y, restitution);
     }
   }
 }

@@ -12,16 +12,24 @@
 
 namespace plumb::precise {
 
-/// The Coulomb problem of touches' points: normals first, then one tangent a touch.
+/// A motor or a brake at its speed: a force of at most `bound` along its row, N or N m, keeps it there.
+struct Brake {
+  std::size_t stop = 0;
+  Row<double> row{};
+  double bound = 0;
+};
+
+/// The Coulomb problem of touches' points: normals first, then one tangent a touch, then the brakes' rows.
 struct TouchProblem {
   std::vector<std::size_t> touch_of, index_of;  ///< by point: which touch, and which of its points
-  std::vector<std::size_t> touches;             ///< by patch
+  std::vector<std::size_t> touches;             ///< by patch; the brakes' patches follow
   ContactResponse response;
   CoulombProblem problem;  ///< response filled; rates are the caller's to fill
 
   /// Of the points that `take` chooses.
   static TouchProblem of(std::span<const Touch> touches, const std::function<bool(std::size_t, int)>& take,
-                         EquationsOfMotion& equations, double time, std::span<const double> y);
+                         std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
+                         std::span<const double> y);
 };
 
 /// Impacts at an instant: Newton's restitution and Coulomb's friction for impulses. For a touch with gap
@@ -29,7 +37,8 @@ struct TouchProblem {
 ///   u' >= -e u where it closes, u' >= 0 else;  impulses push, and only where equality holds;
 ///   tangential impulses oppose the slip that is left, or stop it within Coulomb's cone.
 /// Two corners of one shape on an edge of another are one problem. Several touches at once are a sequence,
-/// the fastest first, until none closes, or one problem (`ContactRules::simultaneous`).
+/// the fastest first, until none closes, or one problem (`ContactRules::simultaneous`). Limits of joints that
+/// are met take part in every impact as joints do, but only push, and have no restitution.
 class ImpactLaw {
  public:
   ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
@@ -50,8 +59,9 @@ class ImpactLaw {
   bool jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y);
 
  private:
-  void strike(double time, std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
-              const Restitution& restitution);
+  void strike(double time, const std::function<bool(const Touch&)>& takes_part, std::span<Touch> touches,
+              std::span<BodyState> states, Compensated& y, const Restitution& restitution);
+  std::string subject(const Touch& touch) const;
   void apply(const ContactResponse& response, std::span<const double> impulses, std::span<Touch> touches,
              std::span<BodyState> states, Compensated& y);
 

@@ -80,11 +80,13 @@ class EquationsOfMotion final : public Flow {
   void hold_stops(std::vector<StopMode> modes);
   std::span<const StopMode> stop_modes() const { return stop_modes_; }
   bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
-  /// Their rows where bodies were placed last.
+  /// Their rows where bodies were placed last, and those at a state.
   std::span<const Row<double>> stop_rows();
+  std::span<const Row<double>> stop_rows(double time, std::span<const double> y);
 
   /// The forces of the contacts that are held, at a state. Counts as one evaluation.
   const ContactForces& contact_forces(double time, std::span<const double> y);
+  const ContactForces& last_contact_forces() const { return contact_forces_; }
 
   /// What unit impulses along `rows` change at the state `y`, joints included; `matrix`, row after row, the
   /// change of each row's rate by each impulse.

@@ -1,79 +1,72 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_impacts.h"
 #include "engine/simulation/precise_motion.h"
-#include "engine/simulation/precise_smooth.h"
+#include "engine/simulation/precise_touch.h"
 #include "engine/simulation/snapshot.h"
 
 namespace plumb::precise {
 
-/// Limits and motors of joints, by events located in time as those of contacts are. A limit that is met takes
-/// the approach away (no restitution) and is a constraint for as long as it pushes; a motor is a constraint
-/// at its speed for as long as its force suffices, and a constant force else. Which of them hold is decided
-/// at events by a complementarity problem in the accelerations.
+/// Limits and motors of joints. They take part in what is decided for contacts: a limit that is met is a
+/// touch without friction and without restitution, and a constraint for as long as it pushes; a motor is a
+/// constraint at its speed for as long as its force suffices (a `Brake`), and a constant force else.
 class Stops {
  public:
-  Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equations, SmoothMotion& smooth);
+  Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
 
-  bool empty() const { return count_ == 0; }
+  bool empty() const { return modes_.empty(); }
 
-  /// At the time where the motion has stopped: after events, jumps of forces and changes from outside.
-  void settle();
-  bool settled() const { return settled_; }
-  void unsettle() { settled_ = false; }
+  /// Takes the rows at a state, bodies' velocities besides; adds the limits that are met there.
+  void find(double time, std::span<const double> y, const TouchFinder& finder,
+            std::span<const BodyState> states, std::vector<Touch>& touches);
 
-  /// Cuts the last step at its first event, and is unsettled then.
-  void stop();
+  /// After impacts: takes the rows anew, those of `touches` too. Motors that are off their speed push from
+  /// now on; returns those that are at it.
+  std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
+                          std::vector<Touch>& touches);
 
-  std::int64_t impacts() const { return impacts_; }
+  /// What was decided: how limits, and brakes (by mode: 0 holds, +1 and -1 gives way in that direction), act
+  /// from now on; `force` is the largest of theirs.
+  void hold(std::size_t limit);
+  void take(const Brake& brake, int mode);
+  void act(double force);
+
+  /// What is watched while they act: of limits that are free and pass what is theirs, of forces, of what
+  /// motors lack of their speed. Negative, beyond the tolerance, is an event.
+  double tolerance(std::size_t stop) const;
+  void evaluate(double time, std::span<const double> y, std::span<double> values);
+  std::size_t count() const { return modes_.size(); }
+
+  /// Whether the step just made ended where this limit is met: it is met whatever rounding says.
+  void meet(std::optional<std::size_t> limit) { met_ = limit; }
+  bool is_free_limit(std::size_t stop) const;
+
+  /// Of a limit at a state: how far it is off, and how fast that changes.
+  struct Approach {
+    double gap = 0, rate = 0;
+  };
+  Approach approach(std::size_t limit, double time, std::span<const double> y);
 
   void save(SnapshotWriter& out) const;
   void restore(SnapshotReader& in);
 
  private:
   using Mode = EquationsOfMotion::StopMode;
-  struct Event {
-    double time = 0;
-    std::optional<std::size_t> met;  // a limit
-  };
-  /// Rows that take part at an instant, with what unit forces along them change, and their rates.
-  struct Problem {
-    std::vector<std::size_t> stops;
-    ContactResponse response;
-    std::vector<double> matrix, rate, least, most;
-  };
-
-  void look();
-  double rate_of(std::size_t stop) const;
-  bool at_end(std::size_t stop) const;
-  Problem problem(const std::vector<std::size_t>& stops);
-  std::vector<double> solve(const Problem& p, std::vector<Mode>& modes) const;
-  void strike();
-  void decide();
-  std::optional<Event> first_event();
-  void refine(std::size_t stop);
-  void evaluate(double time, std::span<double> values);
+  const KindJoints::Stop& stop(std::size_t k) const { return equations_.kind_joints().stops()[k]; }
+  double lacking(std::size_t motor, std::span<const Twist<double>> twists) const;
 
   EquationsOfMotion& equations_;
-  SmoothMotion& smooth_;
-  std::size_t count_;
   double length_, speed_;  // the scene's
-  bool settled_ = false;
   std::vector<Mode> modes_;
   std::optional<std::size_t> met_;  // the limit that the last step ended at
   std::vector<Row<double>> rows_;   // at the motion's time
   std::vector<Twist<double>> twists_;
-  std::vector<double> tolerance_, scratch_;
   double force_scale_ = 0;
-  Compensated sample_;
-  std::int64_t impacts_ = 0;
-  double last_event_ = -1;
-  int events_at_once_ = 0;
 };
 
 }  // namespace plumb::precise

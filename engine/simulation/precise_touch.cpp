@@ -98,6 +98,7 @@ std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, doubl
 }
 
 void TouchFinder::measure(std::span<const BodyState> states, Touch& touch) const {
+  if (touch.stop) return measure_stop(states, touch);
   const Outline &a = outlines_[touch.pair.a], &b = outlines_[touch.pair.b];
   const BodyState &state_a = states[a.body], &state_b = states[b.body];
   const Twist<double> twist_a = twist_of(state_a), twist_b = twist_of(state_b);
@@ -109,6 +110,22 @@ void TouchFinder::measure(std::span<const BodyState> states, Touch& touch) const
   const double around = length(twist_a.velocity) + length(twist_b.velocity) +
                         std::abs(twist_a.angular_velocity) * (a.reach + a.radius) +
                         std::abs(twist_b.angular_velocity) * (b.reach + b.radius);
+  touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
+}
+
+/// Of a limit: its row stays as it is while bodies do not move.
+void TouchFinder::measure_stop(std::span<const BodyState> states, Touch& touch) const {
+  const Row<double>& row = touch.rows[0].normal;
+  double around = 0;
+  touch.closing[0] = 0;
+  const auto add = [&](int body, Vec2d linear, double angular) {
+    if (body == kFixedFrame) return;
+    const BodyState& s = states[static_cast<std::size_t>(body)];
+    touch.closing[0] += dot(linear, s.velocity) + angular * s.angular_velocity;
+    around += length(linear) * length(s.velocity) + std::abs(angular * s.angular_velocity);
+  };
+  add(row.a, row.linear_a, row.angular_a);
+  add(row.b, row.linear_b, row.angular_b);
   touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
 }
 

@@ -12,9 +12,11 @@
 
 namespace plumb::precise {
 
-/// Two shapes that touch at an instant, in one or two points, and how they move against each other there.
+/// Two shapes that touch at an instant, in one or two points, and how they move against each other there; or
+/// a limit of a joint that is met, in one.
 struct Touch {
   OutlinePair pair{};
+  std::optional<std::size_t> stop{};  ///< of the equations' stops: the limit; without shapes then
   double friction = 0, restitution = 0;
   int count = 0;
   Feature features[2] = {};
@@ -49,6 +51,8 @@ class TouchFinder {
   void measure(std::span<const BodyState> states, Touch& touch) const;
 
  private:
+  void measure_stop(std::span<const BodyState> states, Touch& touch) const;
+
   Parts parts_;
   std::vector<Outline> outlines_;
   std::vector<char> dynamic_;  // by body

@@ -6,7 +6,6 @@
 #include "engine/scene/features.h"
 #include "engine/scene/text.h"
 #include "engine/simulation/precise.h"
-#include "engine/simulation/precise_joints.h"
 #include "engine/simulation/precise_parts.h"
 
 namespace plumb {
@@ -39,12 +38,6 @@ std::string precise_unsupported(const Scene& scene) {
     if (missing.empty()) continue;
     return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
            kElsewhere;
-  }
-  const bool touch = !precise::divide(scene).outlines.empty();
-  if (const precise::KindJoints joints(scene); touch && !joints.stops().empty()) {
-    return "joint " + quoted(joints.stops()[0].joint) +
-           " has limits or a motor, and shapes may touch, which Precise does not do at once; 'plumb-world' "
-           "runs it";
   }
   // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
   constexpr std::size_t kMostBodies = 300;

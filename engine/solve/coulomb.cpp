@@ -9,9 +9,8 @@ namespace plumb {
 namespace {
 
 /// The problem in scaled quantities, force = scale * scaled force, as a standard complementarity problem.
-/// With tau = s - mu sum lambda its unknowns z are lambda, s and the negative part of b, and w are a, the
-/// positive part of b and 2 mu sum lambda - s (Ch. Glocker, Set-Valued Force Laws, 2001, ch. 9, in the
-/// plane).
+/// With tau = s - m its unknowns z are lambda, s and the negative part of b, and w are a, the positive part
+/// of b and 2 m - s (Ch. Glocker, Set-Valued Force Laws, 2001, ch. 9, in the plane).
 class Pivoting {
  public:
   explicit Pivoting(const CoulombProblem& problem)
@@ -22,7 +21,8 @@ class Pivoting {
     }
     for (std::size_t p = 0; p < problem.patches.size(); ++p) {
       const std::size_t t = n_ + p;
-      const bool may_stick = problem.patches[p].slip == 0 && problem.patches[p].friction > 0 &&
+      const bool may_stick = problem.patches[p].slip == 0 &&
+                             (problem.patches[p].friction > 0 || problem.patches[p].bound > 0) &&
                              problem.response[t * size_ + t] > 0;
       place_.push_back(may_stick ? static_cast<int>(free_.size()) : -1);
       if (may_stick) free_.push_back(p);
@@ -59,6 +59,12 @@ class Pivoting {
     return -problem_.patches[p].slip * cone(point);
   }
 
+  /// m0 in scaled forces, and the tangential force without any normal force, before s.
+  double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
+  double set(std::size_t patch) const {
+    return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
+  }
+
   void assemble() {
     const std::size_t f = free_.size(), size = n_ + 2 * f;
     matrix_.assign(size * size, 0.0);
@@ -69,6 +75,7 @@ class Pivoting {
       }
       for (std::size_t k = 0; k < f; ++k) matrix_[row * size + n_ + k] = response(of, n_ + free_[k]);
       q_[row] = scale_[of] * problem_.rate[of];
+      for (std::size_t p = 0; p < place_.size(); ++p) q_[row] += set(p) * response(of, n_ + p);
     };
     for (std::size_t i = 0; i < n_; ++i) {
       fill(i, i);
@@ -79,6 +86,7 @@ class Pivoting {
       fill(n_ + k, n_ + free_[k]);
       matrix_[(n_ + k) * size + n_ + f + k] = 1;
       matrix_[(n_ + f + k) * size + n_ + k] = -1;
+      q_[n_ + f + k] = 2 * bound(free_[k]);
       for (std::size_t j = 0; j < n_; ++j) {
         if (problem_.patch_of[j] == static_cast<int>(free_[k]))
           matrix_[(n_ + f + k) * size + j] = 2 * cone(j);
@@ -111,6 +119,7 @@ class Pivoting {
       out.pushes[i] = found.basic[i];
     }
     for (std::size_t k = 0; k < f; ++k) scaled[n_ + free_[k]] += wide_[k] * found.z[n_ + k];
+    for (std::size_t p = 0; unit_ > 0 && p < place_.size(); ++p) scaled[n_ + p] += set(p) / unit_;
     for (std::size_t i = 0; i < size_; ++i) out.force[i] = unit_ * scale_[i] * scaled[i];
     for (std::size_t p = 0; p < place_.size(); ++p) {
       out.mode[p] = problem_.patches[p].slip;

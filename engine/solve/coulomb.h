@@ -9,13 +9,15 @@ namespace plumb {
 /// accelerations (forces) or of velocities (impulses). With lambda the normal forces, tau the tangential ones
 /// and a, b the normal and tangential rates that they lead to,
 ///   a >= 0,  lambda >= 0,  a lambda = 0,
-///   |tau| <= mu sum of lambda;  b > 0 only with tau = -mu sum lambda, b < 0 only with tau = +mu sum lambda.
+///   |tau| <= m = m0 + mu sum of lambda;  b > 0 only with tau = -m, b < 0 only with tau = +m.
 /// Points of the same two shapes that share their tangent line are one patch with one tangential force: how
-/// it is divided among them changes nothing.
+/// it is divided among them changes nothing. A patch without points is a force of bounded size, as a motor's
+/// or a brake's; a point of a patch without friction is a force that pushes, as a limit's.
 struct CoulombProblem {
   struct Patch {
     double friction = 0;  ///< Coulomb's coefficient
     int slip = 0;         ///< +1, -1: it slips in this direction, whatever its rate; 0: it may stick
+    double bound = 0;     ///< m0, N: what the tangential force may be without any normal force
   };
   std::vector<int> patch_of;  ///< by point
   std::vector<Patch> patches;
