@@ -32,13 +32,9 @@ class Pivoting {
   CoulombSolution solve() {
     assemble();
     const ComplementaritySolution found = solve_complementarity(matrix_, q_);
-    CoulombSolution out;
+    CoulombSolution out = nothing();
     out.solved = found.status == ComplementaritySolution::Status::Solved;
-    out.force.assign(size_, 0.0);
-    out.rate = problem_.rate;
-    out.pushes.assign(n_, 0);
-    out.mode.assign(problem_.patches.size(), 0);
-    out.ambiguous = ambiguous_;
+    if (!out.solved && !free_.empty()) return solve_split();
     if (out.solved) take(found, out);
     return out;
   }
@@ -63,6 +59,84 @@ class Pivoting {
   double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
   double set(std::size_t patch) const {
     return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
+  }
+
+  /// The same with tau = p - m, its parts p, m >= 0, and the slip's size g as unknowns (M. Anitescu, F. A.
+  /// Potra, Nonlinear Dynamics 14, 1997): one more a patch, but copositive, so that Lemke's method reaches a
+  /// solution where all patches may stick, however wide the cones are.
+  CoulombSolution solve_split() {
+    const std::size_t f = free_.size(), size = n_ + 3 * f;
+    std::vector<double> matrix(size * size, 0.0), q(size, 0.0);
+    const auto fill = [&](std::size_t row, std::size_t of, double sign) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        const auto patch = static_cast<std::size_t>(problem_.patch_of[j]);
+        const double own = place_[patch] >= 0 ? 0 : drawn(j);
+        matrix[row * size + j] = sign * (response(of, j) + own * response(of, n_ + patch));
+      }
+      for (std::size_t k = 0; k < f; ++k) {
+        matrix[row * size + n_ + k] = sign * response(of, n_ + free_[k]);
+        matrix[row * size + n_ + f + k] = -sign * response(of, n_ + free_[k]);
+      }
+      q[row] = scale_[of] * problem_.rate[of];
+      for (std::size_t p = 0; p < place_.size(); ++p)
+        q[row] += place_[p] < 0 ? set(p) * response(of, n_ + p) : 0;
+      q[row] *= sign;
+    };
+    for (std::size_t i = 0; i < n_; ++i) fill(i, i, 1);
+    for (std::size_t k = 0; k < f; ++k) {
+      const std::size_t plus = n_ + k, minus = n_ + f + k, slip = n_ + 2 * f + k;
+      fill(plus, n_ + free_[k], 1);
+      fill(minus, n_ + free_[k], -1);
+      matrix[plus * size + slip] = matrix[minus * size + slip] = 1;
+      matrix[slip * size + plus] = matrix[slip * size + minus] = -1;
+      q[slip] = bound(free_[k]);
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (problem_.patch_of[j] == static_cast<int>(free_[k])) matrix[slip * size + j] = cone(j);
+      }
+    }
+    unit_ = 0;
+    for (const double x : q) unit_ = std::max(unit_, std::abs(x));
+    for (double& x : q) x /= unit_;
+    const ComplementaritySolution found = solve_complementarity(matrix, q);
+    CoulombSolution out = nothing();
+    out.solved = found.status == ComplementaritySolution::Status::Solved;
+    if (!out.solved) return out;
+    std::vector<double> scaled(size_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const auto patch = static_cast<std::size_t>(problem_.patch_of[i]);
+      scaled[i] = found.z[i];
+      if (place_[patch] < 0) scaled[n_ + patch] += drawn(i) * found.z[i];
+      out.pushes[i] = found.basic[i];
+    }
+    for (std::size_t p = 0; p < place_.size(); ++p) {
+      out.mode[p] = problem_.patches[p].slip;
+      if (place_[p] < 0) {
+        scaled[n_ + p] += set(p) / unit_;
+        continue;
+      }
+      const std::size_t k = static_cast<std::size_t>(place_[p]), slip = n_ + 2 * f + k;
+      scaled[n_ + p] += found.z[n_ + k] - found.z[n_ + f + k];
+      out.mode[p] = !(found.z[slip] > 0) ? 0 : scaled[n_ + p] > 0 ? -1 : 1;
+    }
+    finish(scaled, out);
+    return out;
+  }
+
+  CoulombSolution nothing() const {
+    CoulombSolution out;
+    out.force.assign(size_, 0.0);
+    out.rate = problem_.rate;
+    out.pushes.assign(n_, 0);
+    out.mode.assign(problem_.patches.size(), 0);
+    out.ambiguous = ambiguous_;
+    return out;
+  }
+
+  void finish(const std::vector<double>& scaled, CoulombSolution& out) const {
+    for (std::size_t i = 0; i < size_; ++i) out.force[i] = unit_ * scale_[i] * scaled[i];
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t j = 0; j < size_; ++j) out.rate[i] += problem_.response[i * size_ + j] * out.force[j];
+    }
   }
 
   void assemble() {
@@ -120,16 +194,13 @@ class Pivoting {
     }
     for (std::size_t k = 0; k < f; ++k) scaled[n_ + free_[k]] += wide_[k] * found.z[n_ + k];
     for (std::size_t p = 0; unit_ > 0 && p < place_.size(); ++p) scaled[n_ + p] += set(p) / unit_;
-    for (std::size_t i = 0; i < size_; ++i) out.force[i] = unit_ * scale_[i] * scaled[i];
     for (std::size_t p = 0; p < place_.size(); ++p) {
       out.mode[p] = problem_.patches[p].slip;
       if (place_[p] < 0) continue;
       const std::size_t s = n_ + static_cast<std::size_t>(place_[p]);
       out.mode[p] = found.basic[s + f] ? -1 : found.basic[s] ? 0 : 1;
     }
-    for (std::size_t i = 0; i < size_; ++i) {
-      for (std::size_t j = 0; j < size_; ++j) out.rate[i] += problem_.response[i * size_ + j] * out.force[j];
-    }
+    finish(scaled, out);
   }
 
   const CoulombProblem& problem_;

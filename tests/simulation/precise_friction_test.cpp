@@ -144,5 +144,59 @@ TEST(PreciseFriction, PainlevesRodIsJammedByAnImpulse) {
   EXPECT_NEAR(s.velocity.y, about_end * std::cos(angle), 1e-7);
 }
 
+TEST(PreciseFriction, SlidingBlockTripsOverItsFrontWhereItIsRough) {
+  // mu = 5 at the front corner of a block of half sizes b, h: no force holds it while it slips. It is stopped
+  // there at once, its angular momentum about the corner kept, w = m v h / (I + m (b^2 + h^2)), and turns
+  // about it as a pendulum upside down: q'' = -m g r cos(q0 + q) / (I + m r^2).
+  constexpr double kHalf = 0.5, kHeight = 0.25, kInertia = 0.1, kSpeed = 3;
+  Scene scene{.name = "trip"};
+  scene.bodies = {ground(5), block("block", {0, kHeight}, 2 * kHalf, 2 * kHeight, 5)};
+  scene.bodies[1].mass = 1, scene.bodies[1].inertia = kInertia, scene.bodies[1].velocity = {kSpeed, 0};
+  const auto driver = make_precise_driver(scene, {}, {});
+  const auto s = advance(*driver, 2, 12)[1];
+  EXPECT_EQ(events(*driver, ContactEvent::Paradox).count, 1);
+  const double arm2 = kHalf * kHalf + kHeight * kHeight, about = kInertia + arm2;
+  const Real lean = std::atan2(Real(kHeight), Real(-kHalf)), arm = std::sqrt(Real(arm2));
+  const auto y = truth::integrate_twice(
+      [&](Real, const std::vector<Real>& q, std::vector<Real>& out) {
+        out = {q[1], -9.81L * arm * std::cos(lean + q[0]) / about};
+      },
+      {0, -kSpeed * kHeight / about}, 0, 0.2L, 400);
+  EXPECT_NEAR(s.angle, static_cast<double>(y[0]), 1e-10);
+  EXPECT_NEAR(s.angular_velocity, static_cast<double>(y[1]), 1e-10);
+  EXPECT_NEAR(s.position.x, static_cast<double>(kHalf + arm * std::cos(lean + y[0])), 1e-10);
+}
+
+TEST(PreciseFriction, WhateverFallsOnRoughFloorsFindsItsForces) {
+  // Energy is all that is known of these: friction and impacts without restitution only take it.
+  for (const double friction : {1.0, 5.0, 20.0}) {
+    for (const double speed : {0.5, -3.0, 10.0}) {
+      for (const double spin : {0.0, 8.0}) {
+        for (const bool rounded : {false, true}) {
+          Scene scene{.name = "rough"};
+          Body body{.name = "body",
+                    .position = {0, 0.5},
+                    .angle = 0.3,
+                    .velocity = {speed, 0},
+                    .angular_velocity = spin,
+                    .inertia = 0.1};
+          body.shapes = {{.geometry = Box{1, 0.5}, .friction = friction}};
+          if (rounded) body.shapes[0].geometry = Capsule{{-0.5, 0}, {0.5, 0}, 0.25};
+          scene.bodies = {ground(friction), body};
+          const auto driver = make_precise_driver(scene, {.tolerance = 1e-6}, {});
+          double energy = 1e9;
+          for (int i = 0; i < 24; ++i) {
+            const auto s = advance(*driver, 2, 5)[1];
+            const double now = 0.5 * length_squared(s.velocity) +
+                               0.05 * s.angular_velocity * s.angular_velocity + 9.81 * s.position.y;
+            EXPECT_LT(now, energy + 1e-5) << friction << " " << speed << " " << spin << " " << rounded;
+            energy = now;
+          }
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb
