@@ -120,7 +120,8 @@ class WorldBackend final : public Backend {
 
  private:
   // A World refuses numbers beyond these.
-  static constexpr Range kWorldRange{.smallest = 1e-12, .largest = 1e12};
+  static constexpr Range kWorldRange{
+      .smallest = 1e-12, .largest = 1e12, .smallest_inertia = 1e-30, .largest_inertia = 1e30};
 
   static std::string precision() { return std::is_same_v<Real, float> ? "float" : "double"; }
 

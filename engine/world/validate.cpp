@@ -77,6 +77,11 @@ void require_positive(const std::string& subject, const std::string& field, doub
   }
 }
 
+void require_inertia(const std::string& subject, double value) {
+  if (!(value >= kSmallestInertia && value <= kLargestInertia))
+    refuse(subject, "inertia", value, "must be a positive number between 1e-30 and 1e30");
+}
+
 void validate(const WorldDefinition& definition) {
   require_finite("world", "gravity", definition.gravity);
   if (static_cast<int>(definition.solver) >= static_cast<int>(std::size(kSolverNames))) {
@@ -101,7 +106,7 @@ void validate(const BodyDefinition& definition) {
   if (!definition.mass) return;
   require_positive(subject, "mass", definition.mass->mass);
   require_finite(subject, "centre", definition.mass->centre);
-  require_positive(subject, "inertia", definition.mass->inertia);
+  require_inertia(subject, definition.mass->inertia);
 }
 
 void validate(const ShapeDefinition& definition) {

@@ -18,9 +18,15 @@ void require_finite(const std::string& subject, const std::string& field, double
 void require_finite(const std::string& subject, const std::string& field, Vec2d value);
 void require_not_negative(const std::string& subject, const std::string& field, double value);
 void require_positive(const std::string& subject, const std::string& field, double value);
+/// kg m^2: from kSmallestInertia to its inverse.
+void require_inertia(const std::string& subject, double value);
 
 /// Beyond this, squares and cubes of a float would not be finite.
 inline constexpr double kLargestNumber = 1e12;
 inline constexpr double kSmallestNumber = 1e-12;
+/// A box of 1e-6 m and 1e-12 kg has 1e-25 kg m^2. Inverses, and their products with levers of a body's own
+/// size, are floats.
+inline constexpr double kSmallestInertia = 1e-30;
+inline constexpr double kLargestInertia = 1e30;
 
 }  // namespace plumb

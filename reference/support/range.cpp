@@ -24,13 +24,21 @@ class Checker {
     }
   }
 
+  void inertia(const std::string& who, double value) {
+    const double least = range_.smallest_inertia, most = range_.largest_inertia;
+    if (value > most || value < least) reject(who, "inertia", value, least, most);
+  }
+
   std::string reason;
 
  private:
   void reject(const std::string& who, const char* field, double value) {
+    reject(who, field, value, range_.smallest, range_.largest);
+  }
+  void reject(const std::string& who, const char* field, double value, double least, double most) {
     if (!reason.empty()) return;
     reason = who + ": " + field + " " + shortest(value) + " is beyond the range of its arithmetic, " +
-             shortest(range_.smallest) + " to " + shortest(range_.largest);
+             shortest(least) + " to " + shortest(most);
   }
 
   Range range_;
@@ -65,7 +73,7 @@ void check(const Body& body, Checker& checker) {
   checker.at_most(who, "angular_velocity", {body.angular_velocity});
   if (body.type == BodyType::Dynamic) {
     checker.within(who, "mass", {body.mass});
-    if (!body.fixed_rotation) checker.within(who, "inertia", {inertia_of(body)});
+    if (!body.fixed_rotation) checker.inertia(who, inertia_of(body));
   }
   for (const Shape& shape : body.shapes) {
     checker.at_most(who, "shape position", {shape.position.x, shape.position.y});

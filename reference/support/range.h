@@ -11,6 +11,8 @@ namespace plumb::reference {
 struct Range {
   double smallest;
   double largest;
+  double smallest_inertia = smallest;  ///< kg m^2
+  double largest_inertia = largest;
 };
 
 inline constexpr Range kFloatRange{.smallest = 1e-18, .largest = 1e18};
