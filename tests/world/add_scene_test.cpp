@@ -108,6 +108,53 @@ TEST(SceneForces, AreOfSecondOrderInFreeFlight) {
   EXPECT_NEAR(coarse / fine, 4, 0.4);
 }
 
+/// However stiff: the implicit midpoint method turns by 2 atan(w h/2) a step, and its amplitude stays.
+TEST(SceneForces, SpringsMayBeStiff) {
+  for (const double turn : {0.4, 1.0, 10.0, 1e4}) {
+    const double dt = 1.0 / 60, k = 2 * (turn / dt) * (turn / dt), angle = 2 * std::atan(turn / 2);
+    Scene scene{.name = "spring", .gravity = {0, 0}};
+    scene.bodies = {{.name = "ball", .position = {0.1, 0}, .mass = 2, .inertia = 1}};
+    scene.forces = {SpringForce{"world", "ball", {-3, 0}, {}, 3, k}};
+    DoubleWorld world(world_definition(scene));
+    const SceneParts parts = add_scene(world, scene);
+    SceneForces<double> forces(scene, parts);
+    for (int i = 1; i <= 200; ++i) {
+      forces.apply(world, dt), world.step(dt, 1);
+      // Rounding of k x enters each step, (w h)^2 eps of x at most.
+      EXPECT_NEAR(world.position(parts.bodies[0]).x, 0.1 * std::cos(i * angle), 1e-13 * i * (1 + turn));
+    }
+  }
+}
+
+/// Two bodies, the spring at their corners, damped a thousand times beyond what a step can follow: they come
+/// to rest about each other, and what the pair has as a whole is kept.
+TEST(SceneForces, DampersMayBeStiff) {
+  Scene scene{.name = "damper", .gravity = {0, 0}};
+  scene.bodies = {{.name = "a", .velocity = {1, 2}, .mass = 1, .inertia = 0.2},
+                  {.name = "b", .position = {2, 0}, .velocity = {-3, 0}, .mass = 3, .inertia = 0.5}};
+  scene.forces = {SpringForce{"a", "b", {0.5, 0.2}, {-0.5, 0.3}, 1, 1e4, 1e5}};
+  DoubleWorld world(world_definition(scene));
+  const SceneParts parts = add_scene(world, scene);
+  SceneForces<double> forces(scene, parts);
+  const auto energy = [&] {
+    double sum = 0;
+    for (const BodyId body : parts.bodies) {
+      const double w = world.angular_velocity(body);
+      sum += world.mass(body) * length_squared(world.velocity(body)) + world.inertia(body) * w * w;
+    }
+    return sum / 2;
+  };
+  const double start = energy();
+  for (int i = 0; i < 600; ++i) {
+    forces.apply(world, 1.0 / 60), world.step(1.0 / 60, 1);
+    // The line turns while its tension acts for a step: a share of (w h)^2.
+    EXPECT_LT(energy(), 1.02 * start);
+  }
+  const Vec2d momentum = world.velocity(parts.bodies[0]) + 3.0 * world.velocity(parts.bodies[1]);
+  EXPECT_NEAR(momentum.x, 1 - 9, 1e-9);
+  EXPECT_NEAR(momentum.y, 2, 1e-9);
+}
+
 /// A force that is switched within steps gives its impulse; gravity and the law act together.
 TEST(SceneForces, GiveTheirImpulse) {
   Scene scene{.name = "push", .gravity = {0, -10}};
