@@ -19,6 +19,7 @@
 namespace plumb::harness::report {
 namespace {
 
+using stress::Cell;
 using Json = nlohmann::ordered_json;
 
 /// Every line of a file whose "kind" is `kind`.
@@ -37,7 +38,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
     try {
       const Json json = Json::parse(line);
       if (json.at("kind") == kind) take(json);
-    } catch (const Json::exception& error) {
+    } catch (const std::exception& error) {
       if (file.eof()) break;  // no line end: the writer was stopped in the middle of it
       throw Error(Error::Kind::Syntax, subject, fmt::format("line {}", number), "",
                   fmt::format("is not a line of results: {}", error.what()));
@@ -46,15 +47,6 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
 }
 
 std::string text_of(const Json& json, const char* name) { return json.at(name).get<std::string>(); }
-
-Cell cell_of(const Json& json) {
-  return {.family = text_of(json, "family"),
-          .value = json.at("value").get<double>(),
-          .engine = text_of(json, "engine"),
-          .setting = text_of(json, "setting"),
-          .outcome = text_of(json, "outcome"),
-          .json = json.dump()};
-}
 
 /// Keeps of what has the same key the last, in the first one's place.
 template <class Item>
@@ -106,8 +98,8 @@ std::vector<Cell> best_of(const std::vector<Cell>& cells,
 Extremes read_extremes(const std::string& folder) {
   Latest<Cell> cells;
   for_each_line(std::filesystem::path(folder) / "stress.jsonl", "cell", [&](const Json& json) {
-    Cell cell = cell_of(json);
-    const std::string key = fmt::format("{}|{}|{}|{}", cell.family, cell.value, cell.engine, cell.setting);
+    Cell cell = stress::cell_from_json(json.dump());
+    const std::string key = key_of(cell);
     cells.add(key, std::move(cell));
   });
   Latest<std::string> thresholds;
@@ -132,7 +124,7 @@ std::vector<Endurance> endurances(const std::vector<Cell>& cells) {
       return one.engine == cell.engine && one.setting == cell.setting;
     });
     if (row == out.end()) row = out.insert(out.end(), {.engine = cell.engine, .setting = cell.setting});
-    ++row->outcomes[cell.outcome];
+    ++row->outcomes[std::string(name_of(cell.finding.verdict))];
     if (!cell.counted()) continue;
     for (Count* count : {&row->all, &row->families[cell.family]}) {
       count->survived += cell.survived();
@@ -163,7 +155,7 @@ std::vector<std::string> families_of(const std::vector<Cell>& cells) {
 
 std::string extremes_data(const Extremes& extremes) {
   Json json{{"cells", Json::array()}, {"endurances", Json::array()}, {"thresholds", Json::array()}};
-  for (const Cell& cell : extremes.cells) json["cells"].push_back(Json::parse(cell.json));
+  for (const Cell& cell : extremes.cells) json["cells"].push_back(Json::parse(stress::to_json(cell)));
   for (const Endurance& row : endurances(extremes.cells)) {
     Json families = Json::object();
     for (const auto& [name, count] : row.families)

@@ -4,20 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "harness/stress/cell.h"
+
 /// What `plumb stress` and `plumb thresholds` found, for the report.
 namespace plumb::harness::report {
-
-/// A cell of a map: one scene of a family on one engine with one of its settings.
-struct Cell {
-  std::string family;  ///< its name
-  double value = 0;    ///< on the family's axis
-  std::string engine, setting;
-  std::string outcome;  ///< "ok", "sinks", "refused", ...
-  std::string json;     ///< the line of stress.jsonl
-
-  bool survived() const { return outcome == "ok"; }
-  bool counted() const { return outcome != "skipped"; }  ///< a missing feature is no failure
-};
 
 struct Count {
   int survived = 0, total = 0;
@@ -32,7 +22,7 @@ struct Endurance {
 };
 
 struct Extremes {
-  std::vector<Cell> cells;              ///< by engine, setting, family and value the last
+  std::vector<stress::Cell> cells;      ///< by engine, setting, family and value the last
   std::vector<std::string> thresholds;  ///< lines of thresholds.jsonl, by engine, setting and name the last
   bool empty() const { return cells.empty() && thresholds.empty(); }
 };
@@ -44,15 +34,15 @@ Extremes read_extremes(const std::string& folder);
 /// A row an engine and setting: plumb's engines first, of these the one first that survives least with one of
 /// its settings; then the others, likewise. Before them all what any of plumb's engines survives with any
 /// setting; engines with several settings have a row of what any of these survives.
-std::vector<Endurance> endurances(const std::vector<Cell>& cells);
+std::vector<Endurance> endurances(const std::vector<stress::Cell>& cells);
 
 /// The families' names in the order in which they first appear.
-std::vector<std::string> families_of(const std::vector<Cell>& cells);
+std::vector<std::string> families_of(const std::vector<stress::Cell>& cells);
 
 /// The page's part of the data, as JSON.
 std::string extremes_data(const Extremes& extremes);
 
 /// A picture of all families, a row an engine and setting: SVG, readable without colour, in light and dark.
-std::string extremes_picture(const std::vector<Cell>& cells);
+std::string extremes_picture(const std::vector<stress::Cell>& cells);
 
 }  // namespace plumb::harness::report

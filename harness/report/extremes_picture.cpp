@@ -48,7 +48,7 @@ std::string in_words(std::string name) {
 
 }  // namespace
 
-std::string extremes_picture(const std::vector<Cell>& cells) {
+std::string extremes_picture(const std::vector<stress::Cell>& cells) {
   const auto families = families_of(cells);
   const std::vector<Endurance> rows = endurances(cells);
   // Slanted headings lean out to the right.

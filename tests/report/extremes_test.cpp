@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
 #include "harness/report/environments.h"
@@ -16,11 +15,19 @@ namespace plumb::harness::report {
 namespace {
 
 using app::Folder;
+using stress::Cell;
+using stress::Verdict;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
 const std::string kData = PLUMB_REPORT_DATA;
+
+Cell cell_of(double value, const char* engine, const char* setting, Verdict verdict) {
+  Cell cell{.family = "f", .value = value, .engine = engine, .setting = setting};
+  cell.finding.verdict = verdict;
+  return cell;
+}
 
 TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
   const std::vector<Endurance> rows = endurances(read_extremes(kData).cells);
@@ -45,17 +52,14 @@ TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
 }
 
 TEST(Extremes, ACellSurvivesWhereAnySettingDoes) {
-  const auto cell = [](double value, const char* engine, const char* setting, const char* outcome) {
-    return Cell{"f", value, engine, setting, outcome, ""};
-  };
   // 1: the first alone; 2: the second alone; 3: none; 4: only another engine of plumb; 5: only a rival.
   const std::vector<Cell> cells{
-      cell(1, "plumb-world", "a", "ok"),      cell(2, "plumb-world", "a", "sinks"),
-      cell(3, "plumb-world", "a", "NaN"),     cell(4, "plumb-world", "a", "skipped"),
-      cell(5, "plumb-world", "a", "skipped"), cell(1, "plumb-world", "b", "sinks"),
-      cell(2, "plumb-world", "b", "ok"),      cell(3, "plumb-world", "b", "refused"),
-      cell(4, "plumb-world", "b", "skipped"), cell(5, "plumb-world", "b", "skipped"),
-      cell(4, "plumb-precise", "a", "ok"),    cell(5, "box2d", "a", "ok")};
+      cell_of(1, "plumb-world", "a", Verdict::Ok),        cell_of(2, "plumb-world", "a", Verdict::Sinks),
+      cell_of(3, "plumb-world", "a", Verdict::NotFinite), cell_of(4, "plumb-world", "a", Verdict::Skipped),
+      cell_of(5, "plumb-world", "a", Verdict::Skipped),   cell_of(1, "plumb-world", "b", Verdict::Sinks),
+      cell_of(2, "plumb-world", "b", Verdict::Ok),        cell_of(3, "plumb-world", "b", Verdict::Refused),
+      cell_of(4, "plumb-world", "b", Verdict::Skipped),   cell_of(5, "plumb-world", "b", Verdict::Skipped),
+      cell_of(4, "plumb-precise", "a", Verdict::Ok),      cell_of(5, "box2d", "a", Verdict::Ok)};
   std::map<std::string, std::string> counts;
   for (const Endurance& row : endurances(cells))
     if (row.setting == "any setting")
@@ -65,19 +69,17 @@ TEST(Extremes, ACellSurvivesWhereAnySettingDoes) {
 
 TEST(Extremes, ALaterLineReplacesAnEarlierOneAndACutLineIsPassedOver) {
   const Folder folder;
-  const auto line = [](double value, const char* outcome) {
-    return nlohmann::json{{"kind", "cell"},   {"family", "f"},      {"value", value},
-                          {"engine", "mine"}, {"setting", "plain"}, {"outcome", outcome}}
-               .dump() +
-           "\n";
+  const auto line = [](double value, Verdict verdict) {
+    return stress::to_json(cell_of(value, "mine", "plain", verdict)) + "\n";
   };
-  folder.write("stress.jsonl", "{\"kind\":\"environment\"}\n" + line(1, "crashed") + line(2, "NaN") +
-                                   line(1, "ok") + "{\"kind\":\"cell\",\"fam");
+  folder.write("stress.jsonl", "{\"kind\":\"environment\"}\n" + line(1, Verdict::Crashed) +
+                                   line(2, Verdict::NotFinite) + line(1, Verdict::Ok) +
+                                   "{\"kind\":\"cell\",\"fam");
   const std::vector<Cell> cells = read_extremes(folder.path("")).cells;
   ASSERT_EQ(cells.size(), 2u);
-  EXPECT_EQ(cells[0].outcome, "ok");
-  EXPECT_EQ(cells[1].outcome, "NaN");
-  folder.write("stress.jsonl", line(1, "ok") + "{\"kind\":\"cell\"}\n" + line(2, "ok"));
+  EXPECT_EQ(cells[0].finding.verdict, Verdict::Ok);
+  EXPECT_EQ(cells[1].finding.verdict, Verdict::NotFinite);
+  folder.write("stress.jsonl", line(1, Verdict::Ok) + "{\"kind\":\"cell\"}\n" + line(2, Verdict::Ok));
   try {
     read_extremes(folder.path(""));
     ADD_FAILURE() << "nothing was thrown";
