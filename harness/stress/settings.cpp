@@ -28,6 +28,8 @@ const std::vector<Row>& table() {
       {"plumb", realtime},
       {"plumb-float", realtime},
       {"plumb-precise",
+       {.name = "loose", .summary = "a tolerance of 1e-5, for what is too stiff for more", .tolerance = 1e-5}},
+      {"plumb-precise",
        {.name = "symplectic",
         .summary = "a fixed step that keeps energy over long runs",
         .options = {{"method", "symplectic"}}}},
