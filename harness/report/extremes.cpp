@@ -154,7 +154,14 @@ std::vector<std::string> families_of(const std::vector<Cell>& cells) {
 }
 
 std::string extremes_data(const Extremes& extremes) {
-  Json json{{"cells", Json::array()}, {"endurances", Json::array()}, {"thresholds", Json::array()}};
+  Json json{{"cells", Json::array()},
+            {"rules", Json::object()},
+            {"endurances", Json::array()},
+            {"thresholds", Json::array()}};
+  const std::vector<std::string> present = families_of(extremes.cells);
+  for (const stress::Family& family : stress::all())
+    if (std::find(present.begin(), present.end(), family.name) != present.end())
+      json["rules"][family.name] = family.rule;
   for (const Cell& cell : extremes.cells) json["cells"].push_back(Json::parse(stress::to_json(cell)));
   for (const Endurance& row : endurances(extremes.cells)) {
     Json families = Json::object();

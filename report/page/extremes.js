@@ -92,7 +92,7 @@ function familiesOf(cells) {
   return [...families.values()].sort((a, b) => share(a) - share(b));
 }
 
-function familyMap(family, rows) {
+function familyMap(family, rows, rule) {
   const values = [...new Set(family.cells.map((cell) => cell.value))].sort((a, b) => a - b);
   const places = new Map(family.cells.map((cell) => [`${rowName(cell)}|${cell.value}`, cell]));
   const of = ({survived, total}, who) => (total ? `${who} ${survived} of ${total}` : "");
@@ -106,6 +106,7 @@ function familyMap(family, rows) {
     return {kind, text, tip: cellText(cell, family), data: {"data-outcome": cell.outcome}};
   });
   map.dataset.family = family.name;
+  if (rule) map.querySelector("figcaption").after(make("p", {class: "note", text: `Survives: ${rule}.`}));
   return map;
 }
 
@@ -136,7 +137,7 @@ function enduranceTable(rows) {
 }
 
 /// The section of the maps, if `plumb stress` left any.
-function showExtremes({cells, endurances}) {
+function showExtremes({cells, rules, endurances}) {
   const section = document.getElementById("extremes");
   section.hidden = cells.length === 0;
   if (section.hidden) return;
@@ -144,7 +145,7 @@ function showExtremes({cells, endurances}) {
   section.querySelector(".table").append(enduranceTable(endurances));
   section.querySelector(".keys").append(...kLegend.map(([kind, word, text]) => make("li", {},
     make("b", {class: kind, text: word}), make("span", {text: ` ${text}`}))));
-  section.querySelector(".maps").append(overview(families, endurances), ...families.map((family) => familyMap(family, endurances)));
+  section.querySelector(".maps").append(overview(families, endurances), ...families.map((family) => familyMap(family, endurances, rules[family.name])));
 }
 
 // What was found, for people: where every value that was tried is alike, these are told.

@@ -19,6 +19,7 @@ using stress::Cell;
 using stress::Verdict;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::Pair;
 
 const std::string kData = PLUMB_REPORT_DATA;
@@ -108,6 +109,12 @@ TEST(Extremes, AFolderWithoutResultsHasAReportOfThem) {
   // "<" stands in a reason.
   EXPECT_THAT(page, HasSubstr("the step can follow: \\u003c= 1e3"));
   EXPECT_THAT(page, HasSubstr("\"thresholds\":[{\"kind\":\"threshold\",\"name\":\"ramp_friction\""));
+}
+
+TEST(Extremes, AFamilyBringsItsRule) {
+  const std::string data = extremes_data(read_extremes(kData));
+  EXPECT_THAT(data, HasSubstr("\"mass_ratio_stack\":\"" + stress::find_family("mass_ratio_stack").rule));
+  EXPECT_THAT(data, Not(HasSubstr("\"bullet\":\""))) << "there is no such family";
 }
 
 TEST(Extremes, ThePictureHasANumberInEveryCell) {
