@@ -60,24 +60,31 @@ function axisOf(values, log, title, colours, say = null) {
 }
 
 const tip = document.getElementById("tip");
-const untell = () => { tip.hidden = true; };
-addEventListener("scroll", untell, {passive: true});
+let told = null;
+const untell = () => { tip.hidden = true; told = null; };
 
-/// Tells `text` beside a point of the screen.
-function tell(text, x, y) {
+/// Tells `text` about a part of `element`, which lies at (x, y) within it.
+function tell(text, element, x, y) {
   tip.textContent = text;
   tip.hidden = false;
-  const size = tip.getBoundingClientRect();
-  tip.style.left = `${Math.max(6, Math.min(x + 12, innerWidth - size.width - 6))}px`;
-  tip.style.top = `${y - size.height - 12 > 4 ? y - size.height - 12 : y + 16}px`;
+  told = {element, x, y};
+  const box = element.getBoundingClientRect(), size = tip.getBoundingClientRect();
+  const [left, top] = [box.x + x, box.y + y];
+  tip.style.left = `${Math.max(6, Math.min(left + 12, innerWidth - size.width - 6))}px`;
+  tip.style.top = `${top - size.height - 12 > 4 ? top - size.height - 12 : top + 16}px`;
 }
+
+// What the keyboard has gone to scrolls into view and is told there; the pointer stays behind.
+addEventListener("scroll", () => {
+  if (!told) return;
+  document.activeElement === told.element ? tell(tip.textContent, told.element, told.x, told.y) : untell();
+}, {passive: true, capture: true});
 
 // Called by Chart.js when what is under the pointer changes.
 function tellPoint({chart, tooltip}) {
   const point = tooltip.opacity ? tooltip.dataPoints?.[0] : null;
   if (!point) return untell();
-  const box = chart.canvas.getBoundingClientRect();
-  tell(`${point.raw.engine}\n${point.raw.text}`, box.x + point.element.x, box.y + point.element.y);
+  tell(`${point.raw.engine}\n${point.raw.text}`, chart.canvas, point.element.x, point.element.y);
 }
 
 // With the keyboard the arrows go from mark to mark.

@@ -24,8 +24,7 @@ function heatMap(title, note, columns, rows, cell) {
   const say = (target) => {
     const text = tips.get(target);
     if (!text) return untell();
-    const box = target.getBoundingClientRect();
-    tell(text, box.right - 12, box.top);
+    tell(text, target, target.offsetWidth - 12, 0);
   };
   const body = make("tbody", {}, ...rows.map((row) => make("tr", {},
     make("th", {scope: "row"}, make("b", {text: row.engine}), row.setting === undefined ? null : make("span", {text: ` ${row.setting}`})),

@@ -153,6 +153,13 @@ async function mapsTell(page) {
   await page.key("ArrowRight");
   await page.key("ArrowDown");
   assert.match(await page.ask(`${tip}.textContent`), /^plumb-world, careful: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
+  // A cell that has to scroll into view is told there.
+  await page.ask(`(scrollTo(0, 0), ${map("bullet")}.querySelector('tbody tr:last-child td:last-child').focus(), 0)`);
+  await page.frames(5);
+  assert.match(await page.ask(`${tip}.hidden ? "" : ${tip}.textContent`), /^box2d, default: speed 10\u2078 m\/s\ntunnels/);
+  const gap = await page.ask(`(() => { const cell = document.activeElement.getBoundingClientRect(), box = ${tip}.getBoundingClientRect();
+    return Math.min(Math.abs(cell.top - box.bottom), Math.abs(cell.top - box.top)); })()`);
+  assert.ok(gap < 30, `the tip is ${gap} px away`);
   await page.key("Escape");
   assert.equal(await page.ask(`${tip}.hidden`), true);
   assert.match(await page.ask(`${map("all")}.querySelector("tbody tr").textContent`), /^any of plumb's any setting12\/12/);
