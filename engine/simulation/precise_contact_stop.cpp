@@ -33,11 +33,15 @@ Feature feature_of_height(const Feature& f, const Outline& a, const Outline& b, 
 
 void Contacts::stop() {
   if (empty()) return;
-  if (!finder_.outlines().empty()) paths_.take(smooth_);
+  paths_.take(smooth_);
   double until = smooth_.time();
   std::optional<Event> event;
   if (!finder_.outlines().empty()) event = first_meeting(until);
   if (event) until = event->time;
+  if (const auto met = stops_.first_met(paths_, smooth_, until)) {
+    until = met->time;
+    event = Event{until, Quantity::Stop, std::nullopt, std::nullopt, met->limit};
+  }
   if (const auto change = first_change(until)) event = change;
   if (!event) {
     // Pairs that have come apart are looked for again like any other.
@@ -101,6 +105,7 @@ void Contacts::list_watched() {
   tolerance_.clear();
   watch_contacts();
   for (std::size_t k = 0; k < stops_.count(); ++k) {
+    if (stops_.is_free_limit(k)) continue;
     watched_.push_back({.quantity = Quantity::Stop, .stop = k});
     tolerance_.push_back(stops_.tolerance(k));
   }
@@ -204,7 +209,6 @@ std::optional<Contacts::Event> Contacts::first_change(double until) {
   if (!fall) return std::nullopt;
   const Watched& watched = watched_[fall->index];
   Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
-  if (watched.quantity == Quantity::Stop && stops_.is_free_limit(watched.stop)) event.limit = watched.stop;
   if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
   return event;
 }

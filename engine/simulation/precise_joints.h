@@ -54,6 +54,11 @@ class KindJoints {
     RowRole role = RowRole::Limit;
     double speed = 0, max_force = 0;
     std::string joint{};
+    /// What a limit's C is: an angle; how far anchor b lies along a's axis; the anchors' distance.
+    enum class Kind { Turn, Line, Distance };
+    Kind kind = Kind::Turn;
+    int a = kFixedFrame, b = kFixedFrame;
+    Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; of a for distances alone
   };
   const std::vector<Stop>& stops() const { return stops_; }
   /// The rows of C; `out` has an element for each stop.
@@ -92,6 +97,7 @@ class KindJoints {
   struct Pull;
 
   static void add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries);
+  static void place_stop(const Entry& entry, bool moves, Stop& stop);
   static Ends ends_of(const Entry& entry, const BodiesNow& now, const Directions& along);
   template <class Visit>
   static void each_coordinate(const Entry& entry, const Ends& ends, const Visit& visit);

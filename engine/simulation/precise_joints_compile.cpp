@@ -81,6 +81,20 @@ void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>&
   entries.push_back(std::move(e));
 }
 
+/// The anchors of a stop that is no angle.
+void KindJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
+  if (!moves) return;
+  const auto value = [](Vec2<Dual> v) { return Vec2d{v.x.value, v.y.value}; };
+  if (const auto* rod = std::get_if<DistanceRows<Dual>>(&e.kind)) {
+    stop.kind = Stop::Kind::Distance;
+    stop.anchor_a = value(rod->anchor_a), stop.anchor_b = value(rod->anchor_b);
+  } else {
+    stop.kind = Stop::Kind::Line;
+    if (const auto* rail = std::get_if<PrismaticRows<Dual>>(&e.kind)) stop.anchor_b = value(rail->anchor_b);
+    if (const auto* wheel = std::get_if<WheelRows<Dual>>(&e.kind)) stop.anchor_b = value(wheel->anchor_b);
+  }
+}
+
 KindJoints::KindJoints(const Scene& scene) {
   std::vector<Pose<double>> poses;
   std::vector<double> angles;
@@ -121,8 +135,10 @@ KindJoints::KindJoints(const Scene& scene) {
     row_names_.insert(row_names_.end(), e.rows, std::visit([](const auto& j) { return j.name; }, joint));
     e.first_stop = stops_.size();
     const auto& name = std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
-    const auto add_stop = [&](const JointRow<Dual>&, const RowRule& rule) {
-      stops_.push_back({rule.role, rule.speed, rule.max_force, name});
+    const auto add_stop = [&](const JointRow<Dual>& row, const RowRule& rule) {
+      Stop stop{rule.role, rule.speed, rule.max_force, name, Stop::Kind::Turn, e.a, e.b, {}, {}};
+      place_stop(e, length_squared(Vec2d{row.linear_b.x.value, row.linear_b.y.value}) > 0, stop);
+      stops_.push_back(stop);
     };
     each_coordinate(e, ends_of(e, start, {}), StopRows{add_stop});
     e.stops = stops_.size() - e.first_stop;

@@ -110,7 +110,16 @@ void StepPaths::follow_parabola(std::size_t body, const BodyState& from, const B
 }
 
 StepPaths::Relative StepPaths::relative(std::size_t a, std::size_t b) const {
-  const Path &p = paths_[a], &q = paths_[b];
+  return bounds(paths_[a], paths_[b]);
+}
+
+StepPaths::Relative StepPaths::relative_of(int a, int b) const {
+  const Path still;
+  return bounds(a == kFixedFrame ? still : paths_[static_cast<std::size_t>(a)],
+                b == kFixedFrame ? still : paths_[static_cast<std::size_t>(b)]);
+}
+
+StepPaths::Relative StepPaths::bounds(const Path& p, const Path& q) const {
   Relative most;
   const auto velocity = [&](std::size_t j) { return Vec2d{p.vx[j] - q.vx[j], p.vy[j] - q.vy[j]}; };
   for (std::size_t j = 0; j < kControls; ++j) {

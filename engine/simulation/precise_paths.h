@@ -43,6 +43,15 @@ class StepPaths {
   };
   Relative relative(std::size_t a, std::size_t b) const;
 
+  /// The same where a body may be `kFixedFrame`.
+  Placed placed(int body, double time) const {
+    return body == kFixedFrame ? Placed{} : at(static_cast<std::size_t>(body), time);
+  }
+  Turning turning_of(int body) const {
+    return body == kFixedFrame ? Turning{} : turning_[static_cast<std::size_t>(body)];
+  }
+  Relative relative_of(int a, int b) const;
+
   /// A box that the outline stays in.
   Aabb<double> swept(const Outline& outline) const;
 
@@ -54,6 +63,7 @@ class StepPaths {
     double turned = 0;    // rad, at most away from the start
   };
 
+  Relative bounds(const Path& p, const Path& q) const;
   void follow_integrated(std::size_t body, int slot, SmoothMotion& motion);
   void follow_parabola(std::size_t body, const BodyState& from, const BodyState& to);
 

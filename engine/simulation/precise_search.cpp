@@ -14,14 +14,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
-/// How long f + f' s - A s^2 / 2 stays above zero.
-double lasts(double f, double rate, double most_fall) {
-  if (!(f > 0)) return 0;
-  if (most_fall <= 0) return rate < 0 ? f / -rate : kInfinity;
-  const double root = std::sqrt(rate * rate + 2 * most_fall * f);
-  return rate > 0 ? (rate + root) / most_fall : 2 * f / (root - rate);
-}
-
 struct View {
   const Outline &a, &b;
   StepPaths::Placed at_a, at_b;
@@ -83,6 +75,13 @@ double direction_lasts(const View& v, const StepPaths& paths, Vec2d n) {
 }
 
 }  // namespace
+
+double lasts(double f, double rate, double most_fall) {
+  if (!(f > 0)) return 0;
+  if (most_fall <= 0) return rate < 0 ? f / -rate : kInfinity;
+  const double root = std::sqrt(rate * rate + 2 * most_fall * f);
+  return rate > 0 ? (rate + root) / most_fall : 2 * f / (root - rate);
+}
 
 double ContactSearch::distance(const OutlinePair& pair, double time) const {
   const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];

@@ -18,6 +18,9 @@ struct OutlinePair {
   friend auto operator<=>(const OutlinePair&, const OutlinePair&) = default;
 };
 
+/// How long f + f' s - A s^2 / 2 stays above zero, s.
+double lasts(double f, double rate, double most_fall);
+
 /// When two outlines first touch during a step. The search advances by what no motion within the step's
 /// bounds can overtake: along a separating direction every corner's height f obeys
 ///   f(t + s) >= f + f' s - A s^2 / 2,

@@ -19,7 +19,8 @@ Stops::Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equation
     : equations_(equations),
       length_(scales_of(scene, parts).length),
       speed_(scales_of(scene, parts).speed),
-      modes_(equations.kind_joints().stops().size(), Mode::Free) {}
+      modes_(equations.kind_joints().stops().size(), Mode::Free),
+      sample_(equations.dimension()) {}
 
 void Stops::find(double time, std::span<const double> y, const TouchFinder& finder,
                  std::span<const BodyState> states, std::vector<Touch>& touches) {
@@ -116,6 +117,74 @@ void Stops::evaluate(double time, std::span<const double> y, std::span<double> v
 Stops::Approach Stops::approach(std::size_t limit, double time, std::span<const double> y) {
   const Row<double>& row = equations_.stop_rows(time, y)[limit];
   return {row.residual, rate_along(row, equations_.twists())};
+}
+
+/// How long a limit is certainly not met from `time` on.
+double Stops::safe_step(std::size_t k, const Approach& now, const StepPaths& paths, double time,
+                        double until) const {
+  const KindJoints::Stop& s = stop(k);
+  const StepPaths::Turning turn_a = paths.turning_of(s.a), turn_b = paths.turning_of(s.b);
+  const double f = now.gap + tolerance(k);
+  if (s.kind == KindJoints::Stop::Kind::Turn)
+    return lasts(f, now.rate, turn_a.acceleration + turn_b.acceleration);
+  const auto length = [](Vec2d v) { return std::sqrt(length_squared(v)); };
+  const auto swing = [](const StepPaths::Turning& turn) {
+    return turn.acceleration + turn.speed * turn.speed;
+  };
+  const StepPaths::Relative relative = paths.relative_of(s.a, s.b);
+  const StepPaths::Placed a = paths.placed(s.a, time), b = paths.placed(s.b, time);
+  const double reach_a = length(s.anchor_a), reach_b = length(s.anchor_b);
+  const double apart = length((b.pose.position + b.pose.rotation * s.anchor_b) -
+                              (a.pose.position + a.pose.rotation * s.anchor_a));
+  const double speed = relative.speed + turn_a.speed * reach_a + turn_b.speed * reach_b;
+  const double acceleration = relative.acceleration + swing(turn_a) * reach_a + swing(turn_b) * reach_b;
+  if (s.kind == KindJoints::Stop::Kind::Line) {
+    // C = n . d, n turning with a: C'' = n . d'' + 2 w t . d' + (dw/dt) t . d - w^2 n . d.
+    const double far = apart + (until - time) * speed;
+    return lasts(f, now.rate, acceleration + 2 * turn_a.speed * speed + swing(turn_a) * far);
+  }
+  // |d|'' is at most |d''| + |d'|^2 / |d|, and |d| no less than its half for a while.
+  if (!(speed > 0)) return until - time;
+  const double half = apart / (2 * speed);
+  const double bent = apart > 0 ? lasts(f, now.rate, acceleration + 2 * speed * speed / apart) : 0;
+  return std::max(f / speed, std::min(bent, half));
+}
+
+std::optional<double> Stops::first_time(std::size_t k, const StepPaths& paths, SmoothMotion& smooth,
+                                        double until) {
+  constexpr double kShortest = 1.0 / 4096;
+  const double start = smooth.start(), h = smooth.time() - start, there = 1e-3 * tolerance(k);
+  const auto look = [&](double time) {
+    smooth.at(time, false, sample_);
+    return approach(k, time, sample_.value());
+  };
+  double time = start;
+  Approach now = look(time);
+  // One that starts where it is met, opening or about to: from where it is open on.
+  const double deepest = std::min(now.gap, 0.0) - tolerance(k);
+  for (double share = 1e-8; now.gap + tolerance(k) <= there && time < until; share *= 4) {
+    time = std::min(start + share * h, until);
+    now = look(time);
+    if (now.gap < deepest) return time;
+  }
+  while (time < until) {
+    if (now.gap + tolerance(k) <= there) return time;
+    time = std::min(time + std::max(safe_step(k, now, paths, time, until), kShortest * h), until);
+    now = look(time);
+  }
+  return now.gap + tolerance(k) <= there ? std::optional(until) : std::nullopt;
+}
+
+std::optional<Stops::Met> Stops::first_met(const StepPaths& paths, SmoothMotion& smooth, double until) {
+  std::optional<Met> first;
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    if (!is_free_limit(k)) continue;
+    const auto time = first_time(k, paths, smooth, until);
+    if (!time) continue;
+    until = *time;
+    first = Met{until, k};
+  }
+  return first;
 }
 
 void Stops::save(SnapshotWriter& out) const {

@@ -7,6 +7,8 @@
 
 #include "engine/simulation/precise_impacts.h"
 #include "engine/simulation/precise_motion.h"
+#include "engine/simulation/precise_paths.h"
+#include "engine/simulation/precise_smooth.h"
 #include "engine/simulation/precise_touch.h"
 #include "engine/simulation/snapshot.h"
 
@@ -46,6 +48,16 @@ class Stops {
   void meet(std::optional<std::size_t> limit) { met_ = limit; }
   bool is_free_limit(std::size_t stop) const;
 
+  /// The first limit that is met within the step just made, up to `until`, and when. C obeys
+  ///   C(t + s) >= C + C' s - A s^2 / 2,
+  /// A a bound on C'' from the step's polynomials: nothing is missed, but what is passed and left again
+  /// within 1/4096 of a step by less than that allows for.
+  struct Met {
+    double time = 0;
+    std::size_t limit = 0;
+  };
+  std::optional<Met> first_met(const StepPaths& paths, SmoothMotion& smooth, double until);
+
   /// Of a limit at a state: how far it is off, and how fast that changes.
   struct Approach {
     double gap = 0, rate = 0;
@@ -58,6 +70,10 @@ class Stops {
  private:
   using Mode = EquationsOfMotion::StopMode;
   const KindJoints::Stop& stop(std::size_t k) const { return equations_.kind_joints().stops()[k]; }
+  std::optional<double> first_time(std::size_t limit, const StepPaths& paths, SmoothMotion& smooth,
+                                   double until);
+  double safe_step(std::size_t limit, const Approach& now, const StepPaths& paths, double time,
+                   double until) const;
   double lacking(std::size_t motor, std::span<const Twist<double>> twists) const;
 
   EquationsOfMotion& equations_;
@@ -67,6 +83,7 @@ class Stops {
   std::vector<Row<double>> rows_;   // at the motion's time
   std::vector<Twist<double>> twists_;
   double force_scale_ = 0;
+  Compensated sample_;
 };
 
 }  // namespace plumb::precise

@@ -132,6 +132,43 @@ TEST(PreciseStops, ChainWithStopsLosesEnergyOnlyAndKeepsWithinThem) {
   EXPECT_GT(driver->statistics().impacts, 3);
 }
 
+TEST(PreciseStops, LimitsThatArePassedForMomentsAreMet) {
+  // x'' = a sin(w t) from rest with x' = -a/w: x = -(a/w^2) sin(w t). The step is a second long, the limit is
+  // above the first crest's reach by shares of it down to a millionth: passed for 3 ms or less at that.
+  constexpr double kAmplitude = 40, kRate = 5, kCrest = kAmplitude / (kRate * kRate);
+  for (const bool rope : {false, true}) {
+    for (const double share : {0.5, 0.9, 0.99, 0.9999, 0.999999}) {
+      Scene scene{.name = "moment", .gravity = {}};
+      scene.bodies = {bead("slider", {0, 0})};
+      scene.bodies[0].velocity = {kAmplitude / kRate, 0};
+      scene.forces = {SinusoidalForce{
+          .body = "slider", .amplitude = {kAmplitude, 0}, .angular_frequency = kRate, .phase = kPi}};
+      const double limit = kCrest * share;
+      if (rope) {
+        scene.joints = {DistanceJoint{.name = "rope",
+                                      .body_a = kFrame,
+                                      .body_b = "slider",
+                                      .anchor_a = {-20, 0},
+                                      .length = 20 + limit,
+                                      .range = Range{0, 20 + limit}}};
+      } else {
+        scene.joints = {
+            PrismaticJoint{.name = "rail", .body_a = kFrame, .body_b = "slider", .limits = Range{-9, limit}}};
+      }
+      const auto driver = make_precise_driver(scene, {.tolerance = 1e-4, .max_dt = 1}, {});
+      // Stopped there, x' = (a/w) (cos(w t) - cos(w t1)) from t1, asin(share)/w.
+      const double met = std::asin(share) / kRate;
+      const BodyState s = advance(*driver, 1, 1)[0];
+      EXPECT_EQ(driver->statistics().impacts, 1) << rope << " " << share;
+      const double t = 1 - met,
+                   x = limit +
+                       kAmplitude / kRate * ((std::sin(kRate) - share) / kRate - std::cos(kRate * met) * t);
+      // A step's error of 1e-7 (a thousandth of the tolerance) moves t1 by itself over the speed there.
+      EXPECT_NEAR(s.position.x, x, 4e-7 / std::cos(kRate * met)) << rope << " " << share;
+    }
+  }
+}
+
 TEST(PreciseStops, SavedAndRestoredRunsGoOnWithTheSameBits) {
   Scene scene{.name = "saved"};
   scene.bodies = {bead("slider", {0, 0}), {.name = "wheel", .position = {3, 0}, .inertia = 0.8}};
