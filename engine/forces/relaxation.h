@@ -13,6 +13,8 @@ inline double mean_of_decay(double x) {
     for (int n = 13; n >= 2; --n) sum = 1 - x / n * sum;
     return sum;
   }
+  // exp(-x) is nothing beside 1; infinity would be halved for ever.
+  if (x > 64) return 1 / x;
   // exp(-x) = exp(-x / 2^k)^(2^k) with the series where it is short.
   double small = x;
   int halvings = 0;

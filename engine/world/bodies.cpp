@@ -1,6 +1,7 @@
 #include "engine/world/bodies.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/geometry/convex_bounds.h"
 #include "engine/geometry/convex_mass.h"
@@ -76,7 +77,11 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   BodyMotion<Real>& motion = w.motion[body];
   recentre(w, body, mass.centre.as<Real>());
   w.ties_changed = true;
-  record.mass = static_cast<Real>(mass.mass), record.inertia = static_cast<Real>(mass.inertia);
+  // What does not move may weigh more than a number holds.
+  const auto held = [](double x) {
+    return static_cast<Real>(std::min<double>(x, std::numeric_limits<Real>::max()));
+  };
+  record.mass = held(mass.mass), record.inertia = held(mass.inertia);
   const bool dynamic = own_type(w, body) == BodyType::Dynamic;
   motion.inverse_mass = dynamic ? static_cast<Real>(1 / mass.mass) : Real(0);
   motion.inverse_inertia =
@@ -232,7 +237,9 @@ void update_mass(WorldData<Real>& w, int body) {
     mass += parts.back().mass;
     moment += parts.back().mass * parts.back().centroid;
   }
-  if (!(mass > 0)) return apply_mass(w, body, {1, record.centre.template as<double>(), 0});
+  // Where the reciprocal is no number, what there is does not count.
+  if (!(mass > 0 && 1 / mass <= std::numeric_limits<double>::max()))
+    return apply_mass(w, body, {1, record.centre.template as<double>(), 0});
   const Vec2d centre = (1 / mass) * moment;  // seen from the centre so far
   for (const ConvexMass& part : parts) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);

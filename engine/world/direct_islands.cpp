@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/world/constants.h"
+#include "engine/world/free_motion.h"
 #include "engine/world/link_gaps.h"
 #include "engine/world/link_inertia.h"
 #include "engine/world/union_find.h"
@@ -303,6 +304,7 @@ void close_direct_joints(WorldData<Real>& w, const JointStep<Real>& joints) {
       island.system.correct();
       island.system.move(w.motion.data(), w.rotation.data());
     }
+    hold_locks(w);  // the rows know masses alone
   }
 }
 

@@ -18,18 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Fault = ProcessError::Fault;
+using protocol::Loaded;
 
 /// How to start a program, and what to call it.
 struct Launch {
   std::string engine;
   std::vector<std::string> command;
   ProcessLimits limits;
-};
-
-/// The answer to "load".
-struct Loaded {
-  std::string unsupported;
-  Settings effective;
 };
 
 /// One running program and the conversation with it.
@@ -57,18 +52,7 @@ class Session {
   Loaded load(const std::string& request) {
     Loaded out;
     process_.write_line(request, "load");
-    read_answer([&](const Json& answer) {
-      if (answer.contains("unsupported")) {
-        if (!answer["unsupported"].is_string() || answer["unsupported"].get<std::string>().empty()) {
-          throw protocol::Malformed("its \"unsupported\" is not a reason");
-        }
-        out.unsupported = printable(answer["unsupported"].get<std::string>(), 400);
-      } else if (answer.contains("effective_settings")) {
-        out.effective = protocol::effective_from_json(answer["effective_settings"]);
-      } else {
-        throw protocol::Malformed("it has no \"effective_settings\"");
-      }
-    });
+    read_answer([&](const Json& answer) { out = protocol::loaded_from_json(answer); });
     return out;
   }
 
@@ -87,11 +71,7 @@ class Session {
       sink(due, states);
     }
     double nanoseconds = 0;
-    read_answer([&](const Json& answer) {
-      if (!answer.contains("done")) throw protocol::Malformed("it is not \"done\" after the last sample");
-      nanoseconds = answer.contains("ns") && answer["ns"].is_number() ? answer["ns"].get<double>() : -1;
-      if (!(nanoseconds >= 0)) throw protocol::Malformed("its \"ns\" is not a time");
-    });
+    read_answer([&](const Json& answer) { nanoseconds = protocol::done_from_json(answer); });
     return nanoseconds;
   }
 

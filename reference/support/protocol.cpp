@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -48,6 +49,10 @@ Value member(const Json& message, const char* name, Value fallback) {
   return message.contains(name) ? member<Value>(message, name) : fallback;
 }
 
+int whole_number_or(const Json& message, const char* name, int fallback) {
+  return message.contains(name) ? protocol::whole_number(message, name) : fallback;
+}
+
 /// A setting's value as text: strings as they stand, other values as JSON writes them.
 std::string as_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
@@ -73,14 +78,14 @@ Method method_from_json(const Json& message) {
     known = true;
   }
   if (!known) throw Malformed("its \"scheme\" is " + plumb::quoted(scheme));
-  out.order = member<int>(message, "order");
+  out.order = whole_number(message, "order");
   out.epsilon = member<double>(message, "epsilon");
   if (!(out.epsilon > 0) || out.order < 0) throw Malformed("its \"method\" is " + printable(message.dump()));
   return out;
 }
 
 int substeps_from_json(const Json& method) {
-  const int out = member<int>(method, "substeps", 1);
+  const int out = whole_number_or(method, "substeps", 1);
   if (out < 1) throw Malformed("its \"substeps\" is " + std::to_string(out));
   return out;
 }
@@ -96,7 +101,37 @@ Json method_json(const Method& method, int substeps) {
   return out;
 }
 
+/// Whether arrays and objects of a text lie in each other deeper than scenes and messages do. What handles
+/// JSON calls itself for each level, so that a line of brackets would use up the stack.
+bool nests_too_deep(std::string_view text) {
+  constexpr int kDeepest = 64;
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      if (++depth > kDeepest) return true;
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+int whole_number(const Json& message, const char* name) {
+  const auto number = member<Json>(message, name);
+  const double value = number.is_number() ? number.get<double>() : 0.5;
+  // Beyond an int a conversion would have no defined result.
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+    throw Malformed("its \"" + std::string(name) + "\" is " + printable(number.dump()));
+  return static_cast<int>(value);
+}
 
 Json to_json(const Hello& hello) {
   Json methods = Json::array();
@@ -128,7 +163,7 @@ Json to_json(const Hello& hello) {
 }
 
 Hello hello_from_json(const Json& message) {
-  const int version = member<int>(message, "protocol");
+  const int version = whole_number(message, "protocol");
   if (version != kVersion) {
     throw Malformed("it speaks version " + std::to_string(version) + " of the protocol, not " +
                     std::to_string(kVersion));
@@ -176,7 +211,7 @@ Json to_json(const StepSettings& settings) {
 StepSettings settings_from_json(const Json& message) {
   StepSettings out;
   out.dt = member<double>(message, "dt");
-  if (message.contains("substeps")) out.substeps = member<int>(message, "substeps");
+  if (message.contains("substeps")) out.substeps = whole_number(message, "substeps");
   if (message.contains("tolerance")) out.tolerance = member<double>(message, "tolerance");
   const Json options = member<Json>(message, "options", Json::object());
   for (const auto& [name, value] : options.items()) out.options[name] = as_text(value);
@@ -194,6 +229,29 @@ Settings effective_from_json(const Json& message) {
   Settings out;
   for (const auto& [name, value] : message.items()) out.emplace_back(name, as_text(value));
   return out;
+}
+
+Loaded loaded_from_json(const Json& message) {
+  Loaded out;
+  if (message.contains("unsupported")) {
+    const Json& reason = message["unsupported"];
+    if (!reason.is_string() || reason.get<std::string>().empty())
+      throw Malformed("its \"unsupported\" is not a reason");
+    out.unsupported = printable(reason.get<std::string>(), 400);
+  } else if (message.contains("effective_settings")) {
+    out.effective = effective_from_json(message["effective_settings"]);
+  } else {
+    throw Malformed("it has no \"effective_settings\"");
+  }
+  return out;
+}
+
+double done_from_json(const Json& message) {
+  if (!message.contains("done")) throw Malformed("it is not \"done\" after the last sample");
+  const bool timed = message.contains("ns") && message["ns"].is_number();
+  const double nanoseconds = timed ? message["ns"].get<double>() : -1;
+  if (!(nanoseconds >= 0)) throw Malformed("its \"ns\" is not a time");
+  return nanoseconds;
 }
 
 Json to_json(const Error& error) {
@@ -268,6 +326,7 @@ double sample_from_json(const Json& message, std::span<BodyState> out) {
 }
 
 Json parse_line(std::string_view line) {
+  if (nests_too_deep(line)) throw Malformed("it nests too deep: " + plumb::quoted(line));
   Json out;
   try {
     out = Json::parse(line);

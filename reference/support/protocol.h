@@ -36,6 +36,12 @@ struct Hello {
   std::vector<Knob> knobs{};
 };
 
+/// The answer to "load".
+struct Loaded {
+  std::string unsupported{};  ///< why the engine cannot run the scene; empty: it can
+  Settings effective{};
+};
+
 /// A message that is JSON, but not what is due; `what()` says how.
 class Malformed : public std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -54,6 +60,10 @@ StepSettings settings_from_json(const nlohmann::ordered_json& message);
 
 nlohmann::ordered_json to_json(const Settings& effective);
 Settings effective_from_json(const nlohmann::ordered_json& message);
+Loaded loaded_from_json(const nlohmann::ordered_json& message);
+
+/// Reads the line after the last sample: the engine's ns. Throws `Malformed`.
+double done_from_json(const nlohmann::ordered_json& message);
 
 /// An error as its parts; a bare string is read as a problem. Throws `NotFinite` for one of kind `kDiverged`.
 nlohmann::ordered_json to_json(const Error& error);
@@ -65,7 +75,11 @@ std::string sample_line(double time, std::span<const BodyState> states);
 /// Reads a sample of `out.size()` bodies and returns its time. Throws `Malformed` or `NotFinite`.
 double sample_from_json(const nlohmann::ordered_json& message, std::span<BodyState> out);
 
-/// A line as a JSON object. Throws `Malformed`, or `NotFinite` for JSON with a NaN or an infinity in it.
+/// The member `name`, which must be there and be a whole number that an int holds. Throws `Malformed`.
+int whole_number(const nlohmann::ordered_json& message, const char* name);
+
+/// A line as a JSON object. Throws `Malformed`, also for one that nests deeper than any message, or
+/// `NotFinite` for JSON with a NaN or an infinity in it.
 nlohmann::ordered_json parse_line(std::string_view line);
 
 /// Empty, or what `scene` needs that an engine with these capabilities does not have.

@@ -24,16 +24,7 @@ using Clock = std::chrono::steady_clock;
 /// Lines to the host. Many samples share a write, but none waits for long.
 class Output {
  public:
-  Output() {
-    // Engines print banners: their standard output becomes the standard error, the protocol keeps a copy.
-    file_ = fdopen(dup(STDOUT_FILENO), "w");
-    dup2(STDERR_FILENO, STDOUT_FILENO);
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output() {
-    if (file_ != nullptr) std::fclose(file_);
-  }
+  explicit Output(std::FILE* file) : file_(file) {}
 
   void sample(const std::string& line) {
     write(line);
@@ -54,13 +45,13 @@ class Output {
     flushed_ = Clock::now();
   }
 
-  FILE* file_ = nullptr;
+  std::FILE* file_;
   Clock::time_point flushed_ = Clock::now();
 };
 
 class Server {
  public:
-  explicit Server(const Backend& backend) : backend_(backend) {}
+  Server(const Backend& backend, std::FILE* answers) : backend_(backend), output_(answers) {}
 
   /// False when the host is done.
   bool handle(const std::string& line) {
@@ -141,11 +132,15 @@ class Server {
 
   void run(const Json& message) {
     if (!simulator_) throw Error(Error::Kind::Run, "request", "run", "", "no scene is loaded");
+    const int samples = protocol::whole_number(message, "samples");
+    const int every = protocol::whole_number(message, "every");
+    if (samples < 0 || every < 1)
+      throw Error(Error::Kind::Value, "request", "run", "",
+                  "must ask for samples >= 0, each after steps >= 1");
     const double nanoseconds =
-        simulator_->record(message.at("samples").get<int>(), message.at("every").get<int>(), bodies_,
-                           [this](double time, std::span<const BodyState> states) {
-                             output_.sample(protocol::sample_line(time, states));
-                           });
+        simulator_->record(samples, every, bodies_, [this](double time, std::span<const BodyState> states) {
+          output_.sample(protocol::sample_line(time, states));
+        });
     output_.answer({{"done", true}, {"ns", nanoseconds}});
   }
 
@@ -158,9 +153,18 @@ class Server {
 }  // namespace
 
 int serve(const Backend& backend) {
-  Server server(backend);
+  // Engines print banners: their standard output becomes the standard error, the protocol keeps a copy.
+  std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  const int code = serve(backend, std::cin, answers);
+  if (answers != nullptr) std::fclose(answers);
+  return code;
+}
+
+int serve(const Backend& backend, std::istream& requests, std::FILE* answers) {
+  Server server(backend, answers);
   std::string line;
-  while (std::getline(std::cin, line)) {
+  while (std::getline(requests, line)) {
     try {
       if (!server.handle(line)) break;
     } catch (const Error& error) {

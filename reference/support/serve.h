@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdio>
+#include <iosfwd>
+
 #include "reference/backend.h"
 
 namespace plumb::reference {
@@ -8,5 +11,8 @@ namespace plumb::reference {
 /// input: `int main() { return serve(*make_my_backend()); }` makes any adapter a worker. What the engine
 /// itself prints on standard output goes to standard error. Returns the exit code.
 int serve(const Backend& backend);
+
+/// The same between `requests` and `answers`; what the engine prints is left alone.
+int serve(const Backend& backend, std::istream& requests, std::FILE* answers);
 
 }  // namespace plumb::reference

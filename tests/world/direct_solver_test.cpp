@@ -57,6 +57,23 @@ TEST(Direct, SoftStepsMayGoWithoutIt) {
   EXPECT_EQ(test::worst_gap(world, chain.joints), gap[0]);
 }
 
+// A joint that is open across a locked axis stays open: closing it moves what may move alone.
+TEST(Direct, ClosingJointsMovesNothingAlongLockedAxes) {
+  for (const bool along_x : {false, true}) {
+    World world(with(Solver::Direct));
+    const BodyId anchor = world.create_body({.type = BodyType::Static});
+    const BodyId slider =
+        world.create_body({.position = {1, 0.2}, .velocity = {1, 1}, .lock_x = along_x, .lock_y = !along_x},
+                          {.geometry = Box{1, 0.2}});
+    world.create_joint(anchor, slider,
+                       {.kind = RevoluteDefinition{.anchor_a = {0.7, -0.1}, .anchor_b = {-0.5, 0}}});
+    for (int i = 0; i < 30; ++i) {
+      world.step();
+      EXPECT_EQ(along_x ? world.centre(slider).x : world.centre(slider).y, along_x ? 1 : 0.2) << i;
+    }
+  }
+}
+
 // Few rows, but each one tied to all others: too costly to solve directly, so it is as without the direct
 // solution.
 TEST(Direct, AWheelOfSpokesIsLeftToTheSweeps) {

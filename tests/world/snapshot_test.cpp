@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <set>
 #include <string>
@@ -276,6 +277,19 @@ TEST(SnapshotRules, RestoringKeepsTheRulesThatTheWorldHas) {
   EXPECT_NEAR(speed_after(slippery, box), 3, 1e-5);
   restore(plain, from_slippery);
   EXPECT_LT(speed_after(plain, box), 0.1);
+}
+
+// Static and kinematic bodies need no mass, and may have shapes whose mass or its reciprocal no number holds.
+TEST(Snapshot, HoldsBodiesOfAnySize) {
+  World world;
+  const BodyId huge = world.create_body({.type = BodyType::Kinematic}, {.geometry = Circle{1e12}});
+  const BodyId light = world.create_body({.type = BodyType::Static, .position = {3, 4}},
+                                         {.geometry = Polygon{{{0, 0}, {1, 0}, {0, 1}}}, .density = 5e-324});
+  EXPECT_TRUE(std::isfinite(world.centre(light).x));
+  EXPECT_EQ(world.position(light), (Vec2d{3, 4}));
+  const std::vector<std::byte> saved = save(world);
+  EXPECT_NO_THROW(restore(world, saved));
+  EXPECT_EQ(world.mass(huge), 0);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "tests/fuzz/support/byte_source.h"
+
+namespace plumb::fuzz {
+
+/// Changes bytes here and there, as the rest of `in` says: single ones, numbers, blocks.
+inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
+  const auto overwrite = [&](std::size_t at, const auto& value) {
+    if (at + sizeof(value) <= bytes.size()) std::memcpy(bytes.data() + at, &value, sizeof(value));
+  };
+  while (!in.empty() && !bytes.empty()) {
+    const int how = in.below(8);
+    const std::size_t at = in.word() % bytes.size();
+    const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    switch (how) {
+      case 0:
+        bytes[at] = std::byte{in.byte()};
+        break;
+      case 1:
+        bytes[at] ^= std::byte{static_cast<unsigned char>(1u << in.below(8))};
+        break;
+      case 2:
+        overwrite(at, static_cast<std::int32_t>(in.byte()) - 2);
+        break;
+      case 3:
+        overwrite(at, in.number(-10, 10));
+        break;
+      case 4:
+        overwrite(at, static_cast<float>(in.number(-10, 10)));
+        break;
+      case 5: {
+        const std::size_t to = in.word() % bytes.size(), most = bytes.size() - std::max(at, to);
+        std::memmove(bytes.data() + to, bytes.data() + at, std::min<std::size_t>(in.byte(), most));
+        break;
+      }
+      case 6:
+        bytes.erase(from,
+                    from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(in.byte(), bytes.size() - at)));
+        break;
+      default:
+        bytes.insert(from, 1 + in.byte() % 16u, std::byte{in.byte()});
+    }
+  }
+}
+
+}  // namespace plumb::fuzz

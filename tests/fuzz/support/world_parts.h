@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/world/definitions.h"
+#include "engine/world/query_shape.h"
+#include "tests/fuzz/support/byte_source.h"
+
+/// What a world is made from, drawn from bytes: metres and kilograms as games have them, and anything at all
+/// in extreme runs.
+namespace plumb::fuzz {
+
+WorldDefinition draw_world(ByteSource& in);
+BodyDefinition draw_body(ByteSource& in);
+MassProperties draw_mass(ByteSource& in);
+Material draw_material(ByteSource& in);
+Filter draw_filter(ByteSource& in);
+ShapeGeometry draw_geometry(ByteSource& in);
+ShapeDefinition draw_shape(ByteSource& in);
+ChainDefinition draw_chain(ByteSource& in);
+JointKind draw_joint_kind(ByteSource& in, int kind);
+JointDefinition draw_joint(ByteSource& in);
+
+}  // namespace plumb::fuzz
