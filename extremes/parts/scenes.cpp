@@ -27,6 +27,7 @@ Scene pendulum(std::string name, double length, double angle, Vec2d pivot) {
                    .position = pivot + length / 2 * along,
                    .angle = angle,
                    .mass = length * length,
+                   .inertia = length * length * length * length / 12,
                    .shapes = {untouchable(Box{length / 20, length})}}};
   scene.joints = {RevoluteJoint{.name = "hinge",
                                 .body_a = std::string(kWorld),
@@ -54,6 +55,7 @@ Scene rod_chain(std::string name, int count, Vec2d direction, double tip) {
           .position = (i + 0.5) * direction,
           .angle = std::atan2(direction.y, direction.x),
           .mass = 1,
+          .inertia = 1.0 / 12,
           .shapes = {untouchable(Box{1, 0.05})}},
          {-0.5, 0});
     anchor = {0.5, 0};

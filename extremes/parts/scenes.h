@@ -28,11 +28,12 @@ inline long steps_for(double seconds, double dt) { return std::max(1L, std::lrou
 /// touches, nothing presses. The floor is the last body.
 Scene tower(std::string name, int count, double size, Vec2d foot = {});
 
-/// A rod of `length`, m, from a hinge at `pivot`, at `angle` from straight down; its mass is length^2 kg/m^2.
+/// A thin rod of `length`, m, from a hinge at `pivot`, at `angle` from straight down; its mass is length^2
+/// kg/m^2.
 Scene pendulum(std::string name, double length, double angle, Vec2d pivot = {});
 
-/// `count` rods of 1 m and 1 kg, hinged end to end from the origin, along `direction` (a unit vector); where
-/// `tip` > 0 a disc of that mass, kg, is hinged to the end.
+/// `count` thin rods of 1 m and 1 kg, hinged end to end from the origin, along `direction` (a unit vector);
+/// where `tip` > 0 a disc of that mass, kg, is hinged to the end.
 Scene rod_chain(std::string name, int count, Vec2d direction, double tip = 0);
 
 /// The scene stays as it is: nothing may lie in another shape deeper than a hundredth of `size`, m, or leave

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -40,20 +39,43 @@ int name_width(std::span<const Cell> cells) {
   return static_cast<int>(width);
 }
 
-struct Count {
-  int survived = 0, counted = 0;
-
+/// Which scenes somebody survived, in any way that was tried.
+class Tally {
+ public:
   void add(const Cell& cell) {
-    survived += cell.survived() ? 1 : 0;
-    counted += cell.counted() ? 1 : 0;
+    if (!cell.counted()) return;
+    bool& survived = scenes_[{cell.family, cell.value}];
+    survived = survived || cell.survived();
   }
+
+  std::string line(const std::string& name, int width) const {
+    const auto survived =
+        std::count_if(scenes_.begin(), scenes_.end(), [](const auto& s) { return s.second; });
+    const double share =
+        scenes_.empty() ? 0 : 100.0 * static_cast<double>(survived) / static_cast<double>(scenes_.size());
+    return fmt::format("  {}  {:>4} of {:>4}  {:>5.1f} %\n", pad_right(name, width), survived, scenes_.size(),
+                       share);
+  }
+
+ private:
+  std::map<std::pair<std::string, double>, bool> scenes_;
 };
 
-std::string count_text(const std::string& name, const Count& count, int width) {
-  const double share = count.counted > 0 ? 100.0 * count.survived / count.counted : 0;
-  return fmt::format("  {}  {:>4} of {:>4}  {:>5.1f} %\n", pad_right(name, width), count.survived,
-                     count.counted, share);
-}
+/// An engine's settings, in their order, and all of them together.
+struct EngineTally {
+  std::string engine;
+  std::vector<std::pair<std::string, Tally>> settings{};
+  Tally any{};
+
+  void add(const Cell& cell) {
+    any.add(cell);
+    const std::string name = row_name(cell);
+    auto known =
+        std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.first == name; });
+    if (known == settings.end()) known = settings.insert(settings.end(), {name, {}});
+    known->second.add(cell);
+  }
+};
 
 }  // namespace
 
@@ -68,7 +90,8 @@ std::string value_text(double value) {
 }
 
 std::string map_text(const Family& family, std::span<const Cell> cells, const Style& style) {
-  std::string out = style.paint(family.name, Ink::Bold) + "  " + family.title + "\n";
+  std::string out =
+      style.paint(family.name, Ink::Bold) + "\n  " + wrap(family.title, style.width - 2, 2) + "\n";
   out += style.paint("  " + wrap("right is: " + family.rule, style.width - 2, 2), Ink::Dim) + "\n";
   const int width = name_width(cells);
   std::vector<double> values;
@@ -102,30 +125,27 @@ std::string legend(const Style& style) {
 }
 
 std::string survival_text(std::span<const Cell> cells, const Style& style) {
-  std::vector<std::pair<std::string, Count>> rows;
-  std::map<std::string, std::set<std::string>> settings;
-  std::map<std::string, std::map<std::pair<std::string, double>, Cell>> best;
+  std::vector<EngineTally> engines;
+  Tally plumb;
+  int of_plumb = 0;
   for (const Cell& cell : cells) {
-    auto row =
-        std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == row_name(cell); });
-    if (row == rows.end()) row = rows.insert(rows.end(), {row_name(cell), {}});
-    row->second.add(cell);
-    settings[cell.engine].insert(cell.setting);
-    const auto [place, fresh] = best[cell.engine].try_emplace({cell.family, cell.value}, cell);
-    if (!fresh && cell.survived()) place->second = cell;
+    auto known = std::find_if(engines.begin(), engines.end(),
+                              [&](const EngineTally& e) { return e.engine == cell.engine; });
+    if (known == engines.end()) {
+      known = engines.insert(engines.end(), {cell.engine});
+      of_plumb += cell.engine.starts_with("plumb") ? 1 : 0;
+    }
+    known->add(cell);
+    if (cell.engine.starts_with("plumb")) plumb.add(cell);
   }
-  const int width = name_width(cells) + 16;
+  constexpr int kWords = 16;  // " in any setting"
+  const int width = name_width(cells) + kWords;
   std::string out = style.paint("cells survived", Ink::Bold) + "\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out += count_text(rows[i].first, rows[i].second, width);
-    const std::string engine = rows[i].first.substr(0, rows[i].first.find(' '));
-    const bool last =
-        i + 1 == rows.size() || rows[i + 1].first.substr(0, rows[i + 1].first.find(' ')) != engine;
-    if (!last || settings[engine].size() < 2) continue;
-    Count any;
-    for (const auto& [key, cell] : best[engine]) any.add(cell);
-    out += count_text(engine + " in any setting", any, width);
+  for (const EngineTally& engine : engines) {
+    for (const auto& [name, tally] : engine.settings) out += tally.line(name, width);
+    if (engine.settings.size() > 1) out += engine.any.line(engine.engine + " in any setting", width);
   }
+  if (of_plumb > 1) out += plumb.line("any of plumb's engines", width);
   return out;
 }
 

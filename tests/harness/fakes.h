@@ -37,7 +37,7 @@ class FakeSimulator final : public reference::Simulator {
   std::vector<BodyState> states_;
 };
 
-class FakeBackend final : public reference::Backend {
+class FakeBackend : public reference::Backend {
  public:
   FakeBackend(std::string name, Motion motion, reference::Method method = {})
       : name_(std::move(name)), motion_(std::move(motion)), method_(method) {}
