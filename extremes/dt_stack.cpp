@@ -16,6 +16,7 @@ const Register r{{.name = "dt_stack",
                   .values = {1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 60, 0.05, 0.2, 1},
                   .usual = 1.0 / 60,
                   .rule = "no box sinks by more than 1 % of its side or moves by more than 5 %",
+                  .patience = 3,
                   .build = build}};
 
 }  // namespace
