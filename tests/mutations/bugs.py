@@ -71,6 +71,23 @@ MUTATIONS = [
     Mutation("product for the geometric mean", "engine/scene/scene.cpp",
              "return std::sqrt(a * b);", "return a * b;"),
 
+    # Precise.
+    Mutation("precise: a hinge's push turns its body the wrong way", "engine/simulation/precise_hinges.cpp",
+             "motion[line.b].angular_velocity += line.inertia_b * cross(block.arm_b, push);",
+             "motion[line.b].angular_velocity -= line.inertia_b * cross(block.arm_b, push);", "precise"),
+    Mutation("precise: a limit takes no part in impacts", "engine/simulation/precise_impacts.cpp",
+             "return t.stop.has_value() || &t == &touches[worst];", "return &t == &touches[worst];", "precise"),
+    Mutation("precise: a motor at its speed has no force one way", "engine/solve/coulomb.cpp",
+             "q_[n_ + f + k] = 2 * bound(free_[k]);", "q_[n_ + f + k] = 0;", "precise"),
+    Mutation("precise: ropes are looked at where steps end", "engine/simulation/precise_stops.cpp",
+             "return std::max(f / speed, std::min(bent, half));",
+             "return std::max(until - time, std::min(bent, half));", "precise"),
+    Mutation("precise: friction pushes what slips", "engine/simulation/precise_contact_motion.cpp",
+             "sum(rows.normal, -patch.mode * patch.friction, rows.tangent)",
+             "sum(rows.normal, patch.mode * patch.friction, rows.tangent)", "precise"),
+    Mutation("precise: the companion is no finer than the run", "engine/simulation/precise_companion.cpp",
+             "kFiner = 0.1,", "kFiner = 1,", "precise"),
+
     # The real-time world.
     Mutation("world: a limit pulls", "engine/solve/joint_rule.h",
              "return role == RowRole::Limit ? 0 : -most;", "return -most;", "world"),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Plants physics bugs in a copy of the engine, one at a time, and shows that tests catch each: those of
-agreement for what scenes show, the engine's own for its real-time world.
+agreement for what scenes show, the engine's own for Precise and for its real-time world.
 
     mutate.py [--work DIR] [--only NAME]... [--compiler CXX] [-j N]
     mutate.py --list         names the bugs
@@ -67,6 +67,7 @@ def mismatches(root, mutations):
 # Programs to build, and what ctest is to run of them.
 SUITES = {
     "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
+    "precise": (["test_simulation"], ["-L", "unit", "-R", "^simulation/Precise"]),
     "world": (["test_collide", "test_joints", "test_solve", "test_world"],
               ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
 }
