@@ -77,15 +77,15 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   BodyMotion<Real>& motion = w.motion[body];
   recentre(w, body, mass.centre.as<Real>());
   w.ties_changed = true;
-  // What does not move may weigh more than a number holds.
+  // Shapes may weigh more than a number holds, or so little that its reciprocal is none.
   const auto held = [](double x) {
     return static_cast<Real>(std::min<double>(x, std::numeric_limits<Real>::max()));
   };
   record.mass = held(mass.mass), record.inertia = held(mass.inertia);
   const bool dynamic = own_type(w, body) == BodyType::Dynamic;
-  motion.inverse_mass = dynamic ? static_cast<Real>(1 / mass.mass) : Real(0);
+  motion.inverse_mass = dynamic ? held(1 / mass.mass) : Real(0);
   motion.inverse_inertia =
-      dynamic && !record.lock_rotation && mass.inertia > 0 ? static_cast<Real>(1 / mass.inertia) : Real(0);
+      dynamic && !record.lock_rotation && mass.inertia > 0 ? held(1 / mass.inertia) : Real(0);
   update_extents(w, body);
   forget_manifolds(w, body);
 }
