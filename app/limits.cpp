@@ -1,0 +1,80 @@
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "engine/scene/error.h"
+#include "harness/limits/limits_page.h"
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+  std::string folder = "stress", out;
+};
+
+[[noreturn]] void fail(const std::string& path, const char* what) {
+  throw Error(Error::Kind::Io, fmt::format("file '{}'", path), "", "",
+              fmt::format("{}: {}", what, std::strerror(errno)));
+}
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) fail(path, "cannot be read");
+  return text;
+}
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  if (!file) fail(path, "cannot be written");
+}
+
+int start(const Options& options) {
+  const harness::limits::LimitsData data = harness::limits::read_limits(options.folder);
+  const std::string part = harness::limits::measured_part(data);
+  if (options.out.empty()) {
+    print(part);
+    flush();
+    return kOk;
+  }
+  const std::string page = harness::limits::with_measured_part(read(options.out), part);
+  const std::string kept = std::filesystem::path(options.out).replace_extension(".jsonl").string();
+  write(kept, harness::limits::to_jsonl(data));
+  write(options.out, page);
+  print(fmt::format("{} has the measured part anew, from what is kept in {}\n", options.out, kept));
+  flush();
+  return kOk;
+}
+
+}  // namespace
+
+void add_limits(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "limits", "write the measured part of docs/limits.md from what stress and thresholds found");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("folder", options->folder, "with stress.jsonl, thresholds.jsonl or both (default stress)")
+      ->type_name("DIR");
+  command
+      ->add_option("--out", options->out,
+                   "page whose part between the markers is replaced; what it is made of is kept beside it\n"
+                   "as .jsonl (default: the part goes to stdout)")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n  plumb limits\n"
+      "  plumb stress && plumb thresholds && plumb limits stress --out docs/limits.md\n"
+      "Exit codes: 0 written, 2 usage, or files that cannot be read or written.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

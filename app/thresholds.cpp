@@ -1,0 +1,130 @@
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "app/progress_line.h"
+#include "app/selection.h"
+#include "app/usage.h"
+#include "harness/interrupt.h"
+#include "harness/stress/settings.h"
+#include "harness/thresholds/find.h"
+#include "harness/thresholds/finding_table.h"
+#include "harness/thresholds/record.h"
+
+namespace plumb::app {
+namespace {
+
+namespace thresholds = harness::thresholds;
+
+struct Options {
+  std::vector<std::string> names;
+  EngineOptions engines;
+  std::string out = "stress", seconds, format = "console";
+  int digits = 3;
+  int jobs = 0;
+  bool list = false, all_settings = false;
+};
+
+std::vector<const thresholds::Threshold*> chosen_thresholds(const std::vector<std::string>& names) {
+  std::vector<const thresholds::Threshold*> out;
+  for (const std::string& name : names) out.push_back(&thresholds::find(name));
+  if (names.empty())
+    for (const thresholds::Threshold& threshold : thresholds::all()) out.push_back(&threshold);
+  return out;
+}
+
+int list() {
+  const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
+  for (const thresholds::Threshold& threshold : thresholds::all()) {
+    print(style.paint(fmt::format("{:<21}", threshold.name), harness::Style::Ink::Bold) +
+          harness::wrap(threshold.quantity, style.width - 21, 21) + "\n");
+  }
+  return kOk;
+}
+
+void show(const std::vector<thresholds::Finding>& findings, const std::string& format) {
+  if (format == "console") {
+    print(thresholds::finding_table(findings, harness::Style::of_file(STDOUT_FILENO)));
+    return;
+  }
+  if (format == "csv") print(thresholds::finding_csv_header() + "\n");
+  for (const thresholds::Finding& finding : findings)
+    print((format == "csv" ? thresholds::to_csv(finding) : thresholds::to_json(finding)) + "\n");
+}
+
+int start(const Options& options) {
+  if (options.list) return list();
+  std::vector<std::unique_ptr<reference::Backend>> programs;
+  const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
+  thresholds::FindOptions how{.digits = options.digits, .jobs = options.jobs};
+  if (how.jobs == 0) how.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (!options.seconds.empty()) how.seconds_a_run = parse_positive("--run-seconds", options.seconds);
+
+  std::vector<thresholds::Request> requests;
+  for (const thresholds::Threshold* threshold : chosen_thresholds(options.names)) {
+    for (const reference::Backend* engine : engines) {
+      for (const harness::stress::Setting& setting : harness::stress::settings_of(*engine)) {
+        if (setting.name == "default" || options.all_settings)
+          requests.push_back({threshold, engine, setting.name, setting.with(thresholds::kStep)});
+      }
+    }
+  }
+
+  thresholds::Record record(options.out);
+  ProgressLine progress;
+  harness::catch_interrupts();
+  const auto say = [&](const harness::Progress& now) { progress.show(now); };
+  const thresholds::Searched searched = thresholds::find_missing(requests, how, record, say);
+  progress.clear();
+  if (searched.interrupted) {
+    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", record.path());
+    return kInterrupted;
+  }
+  show(searched.findings, options.format);
+  if (options.format == "console") print(fmt::format("\nThese are in {}.\n", record.path()));
+  flush();
+  return kOk;
+}
+
+}  // namespace
+
+void add_thresholds(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "thresholds", "each engine's own critical values, by bisection, beside the exact ones");
+  auto options = std::make_shared<Options>();
+  command->add_option("names", options->names, "thresholds, see --list (default: all)")->type_name("NAME");
+  options->engines.add_to(*command);
+  command->add_option("--digits", options->digits, "digits of a critical value (default 3)")
+      ->check(CLI::Range(1, 4))
+      ->type_name("N");
+  command->add_option("--run-seconds", options->seconds, "s that one run may take (default 30)")
+      ->type_name("T");
+  command->add_option("--jobs", options->jobs, "searches at a time (default: one a core)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command
+      ->add_option("--out", options->out,
+                   "folder of thresholds.jsonl; what is there already is not searched again (default stress)")
+      ->type_name("DIR");
+  command->add_option("--format", options->format, "console, json (a value a line) or csv")
+      ->check(CLI::IsMember({"console", "json", "csv"}));
+  command->add_flag("--all-settings", options->all_settings,
+                    "also with the engines' settings for extremes, docs/stress.md");
+  command->add_flag("--list", options->list, "say which there are");
+  command->footer(
+      "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-world,box2d\n"
+      "  plumb thresholds stopped_bullet --format json --out bullets\n"
+      "  plumb thresholds --engine plumb-precise --engine-command mine='python3 my_engine.py'\n"
+      "Stopping it at any instant loses at most the searches under way; the same command goes on.\n"
+      "See docs/thresholds.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

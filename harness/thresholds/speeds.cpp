@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/thresholds/catalogue.h"
+#include "harness/thresholds/parts.h"
+
+// How fast things may be: stopped by a thin wall, and left alone where nothing is in their way.
+namespace plumb::harness::thresholds {
+namespace {
+
+constexpr double kWall = 0.01, kRadius = 0.05;  // m
+constexpr int kBullets = 8;
+constexpr int kSteps = 60;
+constexpr double kSlowed = 1e-3;  // of the speed, of the way
+
+// Whether a step happens to end inside the wall is a matter of where the bullet started: eight of them start
+// at even parts of a step's way, of 10 m at most.
+Trial bullets(double speed, double) {
+  Trial trial{.scene = {.name = "stopped_bullet", .gravity = {0, 0}}};
+  trial.scene.bodies = {held(block("wall", kWall, 40, {kWall / 2, 0}, 0))};
+  const double spread = std::min(speed * kStep, 10.0);
+  for (int i = 0; i < kBullets; ++i) {
+    trial.scene.bodies.push_back({.name = fmt::format("bullet {}", i + 1),
+                                  .position = {-(kRadius + 0.2 + spread * i / kBullets), i - kBullets / 2.0},
+                                  .velocity = {speed, 0},
+                                  .shapes = {{.geometry = Circle{kRadius}, .friction = 0}}});
+  }
+  trial.duration = (0.2 + spread) / speed + 20 * kStep;
+  trial.broke = [](double time, std::span<const BodyState> states) {
+    for (std::size_t i = 1; i < states.size(); ++i)
+      if (states[i].position.x > kWall) return fmt::format("goes through the wall within {:.2g} s", time);
+    return std::string();
+  };
+  return trial;
+}
+
+Trial flight(double speed, double) {
+  Trial trial{.scene = {.name = "free_speed", .gravity = {0, 0}}, .duration = kSteps * kStep};
+  trial.scene.bodies = {{.name = "ball", .velocity = {speed, 0}, .shapes = {{.geometry = Circle{kRadius}}}}};
+  trial.broke = [speed](double time, std::span<const BodyState> states) {
+    const double way = states[0].position.x / (speed * time), share = states[0].velocity.x / speed;
+    if (std::abs(share - 1) > kSlowed) return fmt::format("is slowed to {:.3g} m/s", share * speed);
+    if (std::abs(way - 1) > kSlowed) return fmt::format("goes {:.3g} of its way", way);
+    return std::string();
+  };
+  return trial;
+}
+
+Trial turning(double spin, double) {
+  Trial trial{.scene = {.name = "free_spin", .gravity = {0, 0}}, .duration = kSteps * kStep};
+  trial.scene.bodies = {{.name = "rod", .angular_velocity = spin, .shapes = {{.geometry = Box{1, 0.1}}}}};
+  trial.broke = [spin](double time, std::span<const BodyState> states) {
+    const double way = states[0].angle / (spin * time), share = states[0].angular_velocity / spin;
+    if (std::abs(share - 1) > kSlowed) return fmt::format("is slowed to {:.3g} rad/s", share * spin);
+    if (std::abs(way - 1) > kSlowed) return fmt::format("turns by {:.3g} of what it should", way);
+    return std::string();
+  };
+  return trial;
+}
+
+}  // namespace
+
+Threshold stopped_bullet() {
+  return {.name = "stopped_bullet",
+          .title = "the fastest bullet that a thin wall stops",
+          .quantity = "largest speed at which discs of 10 cm are stopped by a wall of 1 cm",
+          .unit = "m/s",
+          .source = "none: a rigid wall stops any",
+          .judged =
+              "one of eight discs, which start at even parts of a step's way, has its centre beyond the wall",
+          .range = {.low = 1, .high = 1e8, .logarithmic = true},
+          .exact = no_exact_value,
+          .build = bullets};
+}
+
+Threshold free_speed() {
+  return {.name = "free_speed",
+          .title = "the fastest that a body may fly",
+          .quantity = "largest speed that a body keeps in free flight",
+          .unit = "m/s",
+          .source = "none: nothing slows it",
+          .judged = "its speed or its way is off by more than 1e-3 within 60 steps",
+          .range = {.low = 1, .high = 1e8, .logarithmic = true},
+          .exact = no_exact_value,
+          .build = flight};
+}
+
+Threshold free_spin() {
+  return {.name = "free_spin",
+          .title = "the fastest that a body may spin",
+          .quantity = "largest rate of rotation that a body keeps",
+          .unit = "rad/s",
+          .source = "none: nothing slows it",
+          .judged = "its rate or its angle is off by more than 1e-3 within 60 steps",
+          .range = {.low = 1, .high = 1e6, .logarithmic = true},
+          .exact = no_exact_value,
+          .build = turning};
+}
+
+}  // namespace plumb::harness::thresholds
