@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/solve/contact_pair.h"
 
 namespace plumb {
 namespace {
-
-template <class Real>
-Real velocity_along_normal(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
-  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
-  return dot(c.normal, b.velocity - a.velocity) +
-         (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
-}
 
 // Impulses that make points which strike leave at `speeds`: Newton's law.
 template <class Real>
@@ -35,32 +29,43 @@ void leave_at(BodyMotion<Real>* motion, const Bounce<Real>& bounce, const Real (
   pair.store();
 }
 
-// What is still open when the substep ends, and closes fast enough to bounce in the next one, is not to be
-// slowed before: takes back what the sweeps gave it.
+// Exchanges the contact's masses with what is kept of them.
 template <class Real>
-void let_strike(BodyMotion<Real>* motion, const Bounce<Real>& bounce) {
+void swap_masses(Bounce<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
-  const bool open = c.now[0] > 0 && (c.count == 1 || c.now[1] > 0);
-  const Real pressed = c.normal_impulse[0] + c.normal_impulse[1];
-  if (!bounce.closes || !open || pressed == 0) return;
-  Pair<Real> pair(motion, c);
-  pair.push(-pressed, -(c.arm_a[0] * c.normal_impulse[0] + c.arm_a[1] * c.normal_impulse[1]),
-            -(c.arm_b[0] * c.normal_impulse[0] + c.arm_b[1] * c.normal_impulse[1]));
-  pair.rub(c, -c.tangent_impulse);
-  pair.roll(-c.rolling_impulse);
-  pair.store();
-  c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
-  c.peak_impulse[0] = c.peak_impulse[1] = 0;
+  std::swap(bounce.masses[0], c.mass[0]), std::swap(bounce.masses[1], c.mass[1]);
+  std::swap(bounce.masses[2], c.inverse_pp), std::swap(bounce.masses[3], c.inverse_pq);
+  std::swap(bounce.masses[4], c.inverse_qq);
+}
+
+// A contact without masses gives no impulses.
+template <class Real>
+void let_through(Bounce<Real>& bounce) {
+  bounce.passes = true;
+  for (Real& mass : bounce.masses) mass = 0;
+  swap_masses(bounce);
 }
 
 }  // namespace
 
 template <class Real>
-void find_bounces(ContactGraph<Real>& graph, std::vector<Bounce<Real>>& bounces) {
-  bounces.clear();
-  graph.for_each([&](ContactConstraint<Real>& c) {
-    if (c.restitution > 0) bounces.push_back({.contact = &c});
-  });
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h) {
+  ContactConstraint<Real>& c = *bounce.contact;
+  if (bounce.radii == 0 || c.normal_impulse[0] > 0) return;
+  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  const Vec2<Real> p = bounce.between + (b.moved - a.moved), v = b.velocity - a.velocity;
+  const Real vv = dot(v, v), pv = dot(p, v), open = dot(p, p) - bounce.radii * bounce.radii;
+  Real t = 0;
+  if (open > 0 && pv < 0) {
+    const Real d = pv * pv - vv * open;
+    t = std::min(d > 0 ? open / (std::sqrt(d) - pv) : -pv / vv, h);
+  }
+  const Vec2<Real> there = p + t * v;
+  const Real length = std::sqrt(dot(there, there));
+  if (!(length > 0)) return;
+  c.normal = (1 / length) * there;
+  c.separation[0] = dot(c.normal, bounce.between) - bounce.radii;
+  c.now[0] = dot(c.normal, p) - bounce.radii;
 }
 
 template <class Real>
@@ -68,7 +73,8 @@ void note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
                      const ContactStep<Real>& step) {
   for (Bounce<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
-    bool parts = true;
+    face(motion, bounce, step.h);
+    bool parts = c.restitution > 0;
     for (int i = 0; i < c.count; ++i) {
       bounce.before[i] = velocity_along_normal(motion, c, i);
       parts = parts && bounce.before[i] > Real(0.5) * c.restitution * step.bounce_threshold;
@@ -84,7 +90,7 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
   const Real h = step.h;
   bool any = false;
   for (Bounce<Real>& bounce : bounces) {
-    const ContactConstraint<Real>& c = *bounce.contact;
+    ContactConstraint<Real>& c = *bounce.contact;
     bounce.closes = false;
     for (int i = 0; i < c.count; ++i) {
       const Real closing = -velocity_along_normal(motion, c, i), s = std::max(c.now[i], Real(0));
@@ -95,6 +101,7 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
       bounce.strikes[i] = closing * h > Real(0.999) * s && strike > step.bounce_threshold;
       if (!bounce.strikes[i]) continue;
       any = true;
+      if (bounce.radii > 0) note_approach(c, i, -strike);
       const Real left = u + strike > 0 ? std::max(h - 2 * s / (u + strike), Real(0)) : Real(0);
       const Real rebound = c.restitution * strike;
       bounce.way[i] = std::max(left * (rebound - Real(0.5) * a * left), Real(0));
@@ -105,12 +112,30 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
 }
 
 template <class Real>
+void let_pass(std::vector<Bounce<Real>>& bounces) {
+  for (Bounce<Real>& bounce : bounces) {
+    const ContactConstraint<Real>& c = *bounce.contact;
+    bounce.passes = bounce.closes && !bounce.strikes[0] && !bounce.strikes[1] && c.normal_impulse[0] == 0 &&
+                    c.normal_impulse[1] == 0;
+    if (bounce.passes) let_through(bounce);
+  }
+}
+
+template <class Real>
 void bounce_positions(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                       const ContactStep<Real>& step) {
   for (Bounce<Real>& bounce : bounces) {
     const ContactConstraint<Real>& c = *bounce.contact;
-    // A point that another contact has held back in the meantime does not strike.
-    for (int i = 0; i < 2; ++i) bounce.strikes[i] = bounce.strikes[i] && c.normal_impulse[i] > 0;
+    if (!bounce.strikes[0] && !bounce.strikes[1]) continue;
+    // A point that another contact has held back in the meantime does not strike; what comes just too late
+    // does so in the next substep.
+    bool closes = false;
+    for (int i = 0; i < c.count; ++i) {
+      closes = closes || -velocity_along_normal(motion, c, i) > step.bounce_threshold;
+      bounce.strikes[i] = bounce.strikes[i] && c.normal_impulse[i] > 0;
+    }
+    const bool pressed = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    if (closes && !pressed) let_through(bounce);
     leave_at(motion, bounce,
              {(bounce.way[0] - std::max(c.now[0], Real(0))) * step.inverse_h,
               (bounce.way[1] - std::max(c.now[1], Real(0))) * step.inverse_h});
@@ -119,21 +144,21 @@ void bounce_positions(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounc
 
 template <class Real>
 void bounce_velocities(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces) {
-  for (const Bounce<Real>& bounce : bounces) {
-    if (bounce.strikes[0] || bounce.strikes[1]) {
-      leave_at(motion, bounce, bounce.speed);
-    } else {
-      let_strike(motion, bounce);
-    }
+  for (Bounce<Real>& bounce : bounces) {
+    leave_at(motion, bounce, bounce.speed);
+    if (!bounce.passes) continue;
+    bounce.passes = false;
+    swap_masses(bounce);
   }
 }
 
 #define PLUMB_FOR(Real)                                                                                    \
-  template void find_bounces(ContactGraph<Real>&, std::vector<Bounce<Real>>&);                             \
+  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                                        \
   template void note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                       \
                                 const ContactStep<Real>&);                                                 \
   template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                         \
                               const ContactStep<Real>&);                                                   \
+  template void let_pass(std::vector<Bounce<Real>>&);                                                      \
   template void bounce_positions(BodyMotion<Real>*, std::vector<Bounce<Real>>&, const ContactStep<Real>&); \
   template void bounce_velocities(BodyMotion<Real>*, std::vector<Bounce<Real>>&);
 PLUMB_FOR(float)

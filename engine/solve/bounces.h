@@ -1,12 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/solve/soft_contacts.h"
 
 namespace plumb {
 
-/// A contact whose restitution is not 0, and when and how it bounces in the substep.
+/// A contact whose restitution is not 0, or of discs that approach fast, and when and how it bounces in the
+/// substep.
 template <class Real>
 struct Bounce {
   ContactConstraint<Real>* contact = nullptr;
@@ -14,12 +16,33 @@ struct Bounce {
   Real way[2] = {};     ///< m, what its points are to be open at the substep's end
   Real speed[2] = {};   ///< m/s, and how fast they are to part then
   bool strikes[2] = {};
-  bool closes = false;  ///< fast enough to bounce
+  bool closes = false;   ///< fast enough to bounce
+  bool passes = false;   ///< through this substep, to strike in a later one
+  Real radii = 0;        ///< m, of two discs about their centres of mass that were apart; 0: of anything else
+  Real masses[5] = {};   ///< of the contact, while it passes
+  Vec2<Real> between{};  ///< m, from the one disc's centre to the other's, at the step's start
 };
 
-/// Lists the contacts that may bounce.
+/// m/s, of a point of the contact along its normal; negative: closing.
 template <class Real>
-void find_bounces(ContactGraph<Real>& graph, std::vector<Bounce<Real>>& bounces);
+Real velocity_along_normal(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
+  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  return dot(c.normal, b.velocity - a.velocity) +
+         (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
+}
+
+/// Notes how fast a point has been struck: the fastest time of a step.
+template <class Real>
+void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
+  const bool first = c.peak_impulse[i] == 0;
+  c.approach[i] = first ? rate : std::min(c.approach[i], rate);
+}
+
+/// Turns the normal of two discs that are apart to where it will be when they touch within `h`, or else are
+/// nearest to each other: with p from centre to centre and v its rate, |p + v t| = R. A normal of where they
+/// are now would throw them aside by the angle that it turns on the way.
+template <class Real>
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h);
 
 /// Notes how fast points approach before anything acts. What parts after a bounce is not to be warm started.
 template <class Real>
@@ -36,13 +59,17 @@ template <class Real>
 bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                    const ContactStep<Real>& step);
 
+/// Before any sweep. What closes fast enough to bounce, but will still be open when the substep ends, is to
+/// keep its speed: sweeps that slow it hand on what they take, and that cannot be taken back.
+template <class Real>
+void let_pass(std::vector<Bounce<Real>>& bounces);
+
 /// After solve_contacts: the velocities that carry the bodies to where they are at the substep's end.
 template <class Real>
 void bounce_positions(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                       const ContactStep<Real>& step);
 
-/// After relax_contacts: the velocities that they have there. What will strike in the next substep is let
-/// through to it with the speed it has.
+/// After relax_contacts: the velocities that they have there. What passes is held again.
 template <class Real>
 void bounce_velocities(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces);
 

@@ -42,14 +42,14 @@ struct ContactConstraint {
   ContactHardness hardness = ContactHardness::Soft;
   std::uint8_t count = 0;  ///< points in use
   bool touching = false;   ///< as events tell it
-  bool bounces = false;    ///< restitution > 0, or impacts are to be reported
+  bool watched = false;  ///< approach and peaks are noted: it may bounce, does not touch yet, or is reported
 
   // What passes of the solver do not need.
   Real restitution = 0;       ///< Newton's coefficient
   Real rolling_arm = 0;       ///< m: the torque that resists rolling is this times the normal force
   Real rolling_impulse = 0;   ///< N m s, of the last substep
   Real peak_impulse[2] = {};  ///< N s, the largest normal impulse of the step's substeps
-  Real approach[2] = {};      ///< m/s, velocity along n at the step's start
+  Real approach[2] = {};      ///< m/s, velocity along n at the step's start, or as it was struck
   Real travel_left = 0;       ///< m
   int contact = 0;            ///< its record
   std::uint16_t features[2] = {};

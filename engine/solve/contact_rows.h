@@ -86,7 +86,7 @@ struct ContactPair {
       roll(std::clamp(holding_torque(), -c.rolling_arm * pressure, c.rolling_arm * pressure));
   }
   void note_peaks() {
-    if (!c.bounces) return;
+    if (!c.watched) return;
     for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
   }
 

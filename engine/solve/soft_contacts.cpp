@@ -23,7 +23,7 @@ template <class Real>
   } else {
     press_one(pair, c, demand(c.now[0]));
   }
-  if (c.bounces) note_peaks(c);
+  if (c.watched) note_peaks(c);
   pair.store();
 }
 
@@ -45,7 +45,7 @@ template <class Real>
   } else {
     press_one(pair, c, demand(0));
   }
-  if (c.bounces) note_peaks(c);
+  if (c.watched) note_peaks(c);
   // Coulomb: |lambda_t| <= mu lambda_n.
   const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
   const Real before = c.tangent_impulse, most = c.friction * pressure;

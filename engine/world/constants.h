@@ -99,6 +99,8 @@ inline constexpr double kFastShare = 0.5;
 
 /// A shape's core, as a share of its size: a fast body is stopped when its core would get through something.
 inline constexpr double kCoreShare = 0.5;
+/// Two fast discs are stopped where they would overlap by more than this share of the smaller radius.
+inline constexpr double kGraze = 0.01;
 /// How near a fast body is brought to what it meets, as a share of the smaller extent.
 inline constexpr double kImpactTolerance = 1e-3;
 

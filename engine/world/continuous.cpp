@@ -16,16 +16,15 @@ namespace {
 // on the side that it came from; so a body is only stopped on its way when its core would get through.
 template <class Real>
 struct Core {
-  explicit Core(const Convex<Real>& shape) {
+  Core(const Convex<Real>& shape, Real share) {
     Vec2<Real> middle{};
     for (int i = 0; i < shape.count; ++i) middle += shape.corners[i].point;
     middle *= Real(1) / static_cast<Real>(shape.count);
     for (int i = 0; i < shape.count; ++i) {
       const Corner<Real>& from = shape.corners[i];
-      std::construct_at(corners + i,
-                        Corner<Real>{middle + Real(tuning::kCoreShare) * (from.point - middle), from.normal});
+      std::construct_at(corners + i, Corner<Real>{middle + share * (from.point - middle), from.normal});
     }
-    convex = {corners, shape.count, Real(tuning::kCoreShare) * shape.radius};
+    convex = {corners, shape.count, share * shape.radius};
   }
   Core(const Core&) = delete;
   Core& operator=(const Core&) = delete;
@@ -75,14 +74,22 @@ struct Way {
   Sweep<Real> sweep;
 };
 
+// How much of a shape is its core against another one. Two discs may not even graze each other unseen.
+template <class Real>
+Real core_share(const WorldData<Real>& w, int shape, int other) {
+  const ShapeForm<Real>&a = w.forms[shape], &b = w.forms[other];
+  if (a.count != 1 || b.count != 1) return Real(tuning::kCoreShare);
+  return 1 - Real(tuning::kGraze) * std::min(b.radius / a.radius, Real(1));
+}
+
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way<Real>& way, int shape, const Core<Real>& core,
-                          int other) {
+double fraction_of_impact(const WorldData<Real>& w, const Way<Real>& way, int shape, int other) {
   const Sweep<Real> other_sweep = sweep_of(w, w.shapes[other].body, way.origin);
   const Sweep<Real>& sweep = way.sweep;
   if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
+  const Core<Real> core(whole, core_share(w, shape, other));
   using State = typename ImpactResult<Real>::State;
   const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
   const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
@@ -126,7 +133,7 @@ double first_impact_of_pairs(const WorldData<Real>& w, const Way<Real>& way) {
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     if (w.forms[shape].chain || !pass_fast(w, body, w.shapes[other].body)) return;
-    first = std::min(first, fraction_of_impact(w, way, shape, Core<Real>(w.convex(shape)), other));
+    first = std::min(first, fraction_of_impact(w, way, shape, other));
   });
   return first;
 }
@@ -142,12 +149,11 @@ double first_impact(const WorldData<Real>& w, const FastBody& fast) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
-    const Core<Real> core(w.convex(shape));
     const auto visit = [&](int other, int) {
       if (!pass_fast(w, body, w.shapes[other].body) || !may_collide(w, shape, other) ||
           was_solved(w, body, shape, other))
         return true;
-      first = std::min(first, fraction_of_impact(w, way, shape, core, other));
+      first = std::min(first, fraction_of_impact(w, way, shape, other));
       return true;
     };
     w.still_tree.query(swept, mask, visit);

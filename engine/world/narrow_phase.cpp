@@ -133,6 +133,13 @@ double ask(CombineFunction rule, double a, double b, const char* what, double mo
       "must be in [0, " + std::to_string(most) + "] for " + std::to_string(a) + " and " + std::to_string(b));
 }
 
+// Whether the solver is to note how a contact approaches, and its largest impulses. What touches already, and
+// neither bounces nor is reported, needs neither.
+template <class Real>
+bool is_watched(const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  return !c.touching || c.restitution > 0 || contact.hit_events || contact.pre_solve;
+}
+
 // What follows from the shapes' materials.
 template <class Real>
 void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
@@ -149,7 +156,7 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
   c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
-  c.bounces = c.restitution > 0 || contact.hit_events || contact.pre_solve;
+  c.watched = is_watched(contact, c);
   c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
                                                                           : ContactHardness::Stiff;
 }
@@ -182,17 +189,30 @@ void expect_loads(ContactConstraint<Real>& c) {
 }
 
 template <class Real>
-void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c) {
+void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   expect_loads(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
-  if (!c.bounces) return;
-  w.scratch.may_bounce = w.scratch.may_bounce || c.restitution > 0;
+  if (!c.watched) return;
   c.peak_impulse[0] = c.peak_impulse[1] = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
+  // What approaches at one point by so much that its normal turns may be two discs.
+  const Real travel = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  if (c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel))
+    append(w.scratch.bouncing, c.contact);
+}
+
+// Whether it touches, as events tell it.
+template <class Real>
+void note_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching) {
+  const ContactRecord& contact = w.contacts[c.contact];
+  c.touching = touching;
+  c.watched = is_watched(contact, c);
+  if (!c.watched) c.approach[0] = c.approach[1] = 0;
+  set_touching(w, c.contact, touching);
 }
 
 template <class Real>
@@ -200,7 +220,7 @@ bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
   // What struck and bounced off within a step has touched as well.
   const auto touch = [&](int i) {
-    return c.separation[i] <= near_enough || c.normal_impulse[i] > 0 || (c.bounces && c.peak_impulse[i] > 0);
+    return c.separation[i] <= near_enough || c.normal_impulse[i] > 0 || (c.watched && c.peak_impulse[i] > 0);
   };
   return touch(0) || (c.count == 2 && touch(1));
 }
@@ -213,7 +233,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   &changed = w.scratch.touch_changes;
   lost.clear(), ended.clear(), changed.clear();
   w.scratch.begun_contacts.clear();
-  w.scratch.may_bounce = false;
+  w.scratch.bouncing.clear();
 
   const auto new_manifold = [&](const ContactRecord& contact) {
     const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -238,13 +258,17 @@ void update_contacts(WorldData<Real>& w, Real dt) {
     mix_materials(w, contact, c);
     rebuild(w, contact, manifold, c);
     if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
-    begin_step(w, c);
+    begin_step(w, c, dt);
     w.scratch.begun_contacts.push_back(c);
   }
 
   for (int nth = 0; nth <= ContactGraph<Real>::kColours; ++nth) {
     for (ContactConstraint<Real>& c : w.graph.colour(w.graph.order(nth))) {
-      const bool touching = touches(c);
+      // Also of what is gone again since.
+      if (const bool touching = touches(c); touching != c.touching) {
+        c.touching = touching;
+        changed.push_back(c.contact);
+      }
       if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
         if (stored_boxes_apart(w, w.contacts[c.contact])) {
           lost.push_back(c.contact);
@@ -260,41 +284,50 @@ void update_contacts(WorldData<Real>& w, Real dt) {
           continue;
         }
       }
-      if (touching != c.touching) {
-        c.touching = touching;
-        changed.push_back(c.contact);
-      }
-      begin_step(w, c);
+      begin_step(w, c, dt);
     }
   }
 
-  for (const int id : changed) set_touching(w, id, constraint_of(w, w.contacts[id]).touching);
+  for (const int id : changed) {
+    ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
+    note_touching(w, c, c.touching);
+  }
   for (const int id : lost) destroy_contact(w, id);
   for (const int id : ended) end_contact(w, id);
   for (ContactConstraint<Real>& c : w.scratch.begun_contacts) {
-    c.touching = touches(c);
     const int id = c.contact;
+    const bool touching = touches(c);
     begin_contact(w, id, c);
-    if (c.touching) set_touching(w, id, true);
+    if (touching) note_touching(w, constraint_of(w, w.contacts[id]), true);
   }
 }
 
 template <class Real>
-void report_hits(WorldData<Real>& w) {
-  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+void report_impacts(WorldData<Real>& w) {
+  const auto struck = [](const ContactConstraint<Real>& c) {
+    return c.peak_impulse[0] > 0 || (c.count == 2 && c.peak_impulse[1] > 0);
+  };
+  for (const int id : w.scratch.bouncing) {
+    if (w.contacts[id].home != ContactHome::Graph) continue;
+    ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
+    if (struck(c)) set_touching(w, id, c.touching = true);
+  }
+  if (!w.reports_hits) return;
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
     const ContactRecord& contact = w.contacts[c.contact];
     if (!contact.hit_events) return;
     const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
     const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
     if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least) return;
+    set_touching(w, c.contact, c.touching = true);
     const ContactReading reading = reading_of(w, contact, c);
     w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
                             -static_cast<double>(c.approach[hardest])});
   });
 }
 
-template void report_hits(WorldData<float>&);
-template void report_hits(WorldData<double>&);
+template void report_impacts(WorldData<float>&);
+template void report_impacts(WorldData<double>&);
 template void update_contacts(WorldData<float>&, float);
 template void update_contacts(WorldData<double>&, double);
 

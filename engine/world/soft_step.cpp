@@ -1,4 +1,5 @@
-#include "engine/solve/soft_contacts.h"
+#include "engine/solve/bounce_crowds.h"
+#include "engine/world/bouncing.h"
 #include "engine/world/constants.h"
 #include "engine/world/direct_islands.h"
 #include "engine/world/free_motion.h"
@@ -50,8 +51,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   prepare_kicks(w, h, substeps, FreeFlight::Exact);
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w, joints);
-  w.scratch.bounces.clear();
-  if (w.scratch.may_bounce) find_bounces(w.graph, w.scratch.bounces);
+  find_bounces(w);
   bool strikes = false;
   for (int substep = 0; substep < substeps; ++substep) {
     // Blows are not repeated.
@@ -61,6 +61,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.warm_start(bodies, joints);
     if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
     strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
+    if (strikes)
+      resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+    let_pass(w.scratch.bounces);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, joints, true);
     solve_contacts(bodies.motion, w.graph, contacts);

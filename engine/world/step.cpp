@@ -31,7 +31,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   find_pairs(w);
   update_contacts(w, static_cast<Real>(dt));
   solve_motion(w, h, substeps);
-  if (w.reports_hits) report_hits(w);
+  report_impacts(w);
   finish_motion(w, static_cast<Real>(dt));
   if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
   break_joints(w, h);

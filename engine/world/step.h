@@ -34,9 +34,9 @@ void stop_at_impacts(WorldData<Real>& w, Real dt);
 template <class Real>
 void update_sensors(WorldData<Real>& w);
 
-/// Reports hard impacts of shapes that want it.
+/// Reports what has struck in this step as touching, and hard impacts of shapes that want it.
 template <class Real>
-void report_hits(WorldData<Real>& w);
+void report_impacts(WorldData<Real>& w);
 
 /// Takes out joints whose force or torque is beyond what they bear.
 template <class Real>

@@ -10,7 +10,7 @@
 #include "engine/collide/pair_set.h"
 #include "engine/geometry/convex_mass.h"
 #include "engine/solve/body_motion.h"
-#include "engine/solve/bounces.h"
+#include "engine/solve/bounce_crowds.h"
 #include "engine/solve/contact_graph.h"
 #include "engine/solve/direct_rows.h"
 #include "engine/solve/joint_set.h"
@@ -201,8 +201,9 @@ struct Scratch {
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
-  bool may_bounce = false;  ///< some contact of the graph has restitution
+  std::vector<int> bouncing;  ///< contacts that have restitution, or may be of discs that approach fast
   std::vector<Bounce<Real>> bounces;
+  CrowdRoom<Real> crowds;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;
   std::vector<double> fractions;

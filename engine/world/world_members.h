@@ -43,7 +43,7 @@ PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, h
 PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
                    separation, now, normal_impulse, expected_impulse, tangent_impulse, mass, inverse_pp,
                    inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
-                   hardness, count, touching, bounces, restitution, rolling_arm, rolling_impulse,
+                   hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
                    peak_impulse, approach, travel_left, contact, features)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               user_data)

@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/world/support.h"
+
+// Impacts of discs: oblique ones, and those that are handed on. Truth is the closed form of two bodies
+// (Newton's law along the line of centres), and that energy and momentum are kept or lost, never gained.
+namespace plumb {
+namespace {
+
+constexpr double kRadius = 0.028575;  // m, of a pool ball
+
+// A number from 0 to 1 that is the same everywhere.
+double random(std::mt19937& from) { return static_cast<double>(from() % 10000) / 9999; }
+
+BodyId add_disc(World& world, Vec2d position, Vec2d velocity, double radius, Material material) {
+  return add_body(world, position, {.geometry = Circle{radius}, .material = material}, velocity);
+}
+
+struct Totals {
+  double energy = 0;  // J
+  Vec2d momentum{};   // kg m/s
+};
+
+Totals totals(const World& world) {
+  Totals sum;
+  for (const BodyId body : world.bodies()) {
+    if (world.type(body) != BodyType::Dynamic) continue;
+    const double spin = world.angular_velocity(body);
+    sum.energy += 0.5 * world.mass(body) * length_squared(world.velocity(body)) +
+                  0.5 * world.inertia(body) * spin * spin;
+    sum.momentum += world.mass(body) * world.velocity(body);
+  }
+  return sum;
+}
+
+// A rack of `count` discs with `gap` between them, and a cue ball on its way to it.
+void build_rack(World& world, std::mt19937& from, int count, double gap, Material material) {
+  const double apart = 2 * kRadius + gap, speed = 1 + 9 * random(from);
+  for (int row = 0, made = 0; made < count; ++row) {
+    for (int i = 0; i <= row && made < count; ++i, ++made)
+      add_disc(world, {row * apart * std::sqrt(0.75), (i - 0.5 * row) * apart}, {}, kRadius, material);
+  }
+  const double aside = 3 * (random(from) - 0.5) * kRadius, angle = 0.6 * (random(from) - 0.5);
+  add_disc(world, {-0.3 - 0.1 * random(from), aside - 0.3 * std::tan(angle)},
+           {speed * std::cos(angle), speed * std::sin(angle)}, kRadius, material);
+}
+
+// A break has some 100 impacts, each of which rounds the velocities of two discs to 2^-24 of themselves.
+constexpr double kRounding = 100 * 2 * 0x1p-24;
+
+TEST(Impacts, RacksGainNoEnergy) {
+  std::mt19937 from(1);
+  for (int i = 0; i < 120; ++i) {
+    const double restitution = i % 3 == 0 ? 1 : 0.5 + 0.5 * random(from), friction = i % 2 == 0 ? 0 : 0.6;
+    const double gap = i % 5 < 3 ? 0 : i % 5 == 3 ? 1e-4 : -1e-5;
+    World world({.gravity = {0, 0}, .sleeping = false});
+    build_rack(world, from, 3 + static_cast<int>(from() % 13), gap, {friction, restitution});
+    const Totals before = totals(world);
+    Totals last = before;
+    for (int step = 0; step < 60; ++step) {
+      world.step();
+      const Totals now = totals(world);
+      EXPECT_LE(now.energy, last.energy + kRounding * before.energy) << i << " " << step;
+      last = now;
+    }
+    EXPECT_LT(last.energy, before.energy * (1 + kRounding)) << i;
+    const bool keeps_it = restitution == 1 && friction == 0;
+    EXPECT_GT(last.energy, keeps_it ? before.energy * (1 - kRounding) : 0) << i;
+    EXPECT_LT(length_squared(last.momentum - before.momentum),
+              kRounding * kRounding * length_squared(before.momentum))
+        << i;
+  }
+}
+
+// Two equal smooth discs; the target is thrown along the line of centres at contact, from the one that comes
+// at v along x with its centre b beside it: sin(a) = b / 2 R, u = (1 + e)/2 v cos(a).
+TEST(Impacts, ObliqueOnesThrowAlongTheLineOfCentres) {
+  std::mt19937 from(2);
+  for (int i = 0; i < 400; ++i) {
+    const double radius = i % 2 == 0 ? 0.5 : kRadius, restitution = i % 4 < 2 ? 1 : 0.3;
+    const double speed = std::pow(40, random(from)), beside = 1.96 * radius * random(from);
+    const double away = 2 * radius + 0.3 + random(from);
+    World world({.gravity = {0, 0}, .sleeping = false});
+    const Material material{0, restitution};
+    const BodyId cue = add_disc(world, {-away, beside}, {speed, 0}, radius, material);
+    const BodyId target = add_disc(world, {0, 0}, {}, radius, material);
+    run(world, 3 + static_cast<int>(70 * away / speed));
+    const double sine = beside / (2 * radius), cosine = std::sqrt(1 - sine * sine);
+    const double thrown = 0.5 * (1 + restitution) * speed * cosine;
+    const Vec2d exact{thrown * cosine, -thrown * sine};
+    // The line of centres is that of positions which continuous collision finds to 0.1 % of the radius:
+    // turned by up to 0.001 tan(a).
+    const double bound = speed * (2e-6 + 1e-3 * sine / cosine);
+    EXPECT_LT(std::sqrt(length_squared(world.velocity(target) - exact)), bound) << i << " at " << speed;
+    EXPECT_LT(std::sqrt(length_squared(world.velocity(cue) - (Vec2d{speed, 0} - exact))), bound) << i;
+  }
+}
+
+TEST(Impacts, DiscsThatPassEachOtherDoNotTouch) {
+  std::mt19937 from(3);
+  for (int i = 0; i < 200; ++i) {
+    const double radius = i % 2 == 0 ? 0.5 : kRadius, speed = std::pow(100, random(from));
+    World world({.gravity = {0, 0}, .sleeping = false});
+    add_disc(world, {-1.5 - random(from), radius * (2.001 + 0.3 * random(from))}, {speed, 0}, radius, {0, 1});
+    const BodyId target = add_disc(world, {0, 0}, {}, radius, {0, 1});
+    run(world, 3 + static_cast<int>(200 / speed));
+    EXPECT_EQ(world.velocity(target), Vec2d{}) << i << " at " << speed;
+  }
+}
+
+// Sequential impacts of pairs: the speed runs through the row, whether its balls touch or not.
+TEST(Impacts, ACradleHandsTheSpeedOn) {
+  for (const double gap : {0.0, 1e-4, 0.01, 0.3}) {
+    World world({.gravity = {0, 0}, .sleeping = false});
+    std::vector<BodyId> balls;
+    for (int i = 0; i < 10; ++i) balls.push_back(add_disc(world, {i * (1 + gap), 0}, {}, 0.5, {0, 1}));
+    const BodyId first = add_disc(world, {-2, 0}, {5, 0}, 0.5, {0, 1});
+    run(world, 120);
+    EXPECT_NEAR(world.velocity(balls.back()).x, 5, 5 * kRounding) << gap;
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(world.velocity(balls[i]).x, 0, 5 * kRounding) << gap << " " << i;
+    EXPECT_NEAR(world.velocity(first).x, 0, 5 * kRounding) << gap;
+  }
+}
+
+// A ball that is gone again within the step of its impact has touched: told once, in that step, as it is that
+// it ceased to.
+TEST(Impacts, ThatLastNoStepAreReported) {
+  for (const double restitution : {0.0, 0.6, 1.0}) {
+    for (const double speed : {3.0, 20.0, 90.0}) {
+      for (const bool hits : {false, true}) {
+        World world({.gravity = {0, 0}, .sleeping = false});
+        const Material material{0, restitution};
+        add_disc(world, {0, 0}, {}, 0.5, material);
+        add_body(world, {-4.03, 0.6}, {.geometry = Circle{0.5}, .material = material, .hit_events = hits},
+                 {speed, 0});
+        int begun = 0, ended = 0, struck = 0;
+        for (int i = 0; i < 240; ++i) {
+          world.step();
+          const Events& events = world.events();
+          struck += static_cast<int>(events.hits.size());
+          begun += static_cast<int>(events.begin.size()), ended += static_cast<int>(events.end.size());
+          if (!events.hits.empty() || (restitution > 0 && !events.begin.empty())) {
+            EXPECT_EQ(events.begin.size(), 1u);
+            EXPECT_GT(world.velocity(world.bodies()[0]).x, 0);
+          }
+          // Along the line of centres: 0.8 of the speed, with 0.6 of two radii beside it.
+          for (const HitEvent& hit : events.hits) EXPECT_NEAR(hit.speed, 0.8 * speed, 2e-3 * speed);
+        }
+        EXPECT_EQ(begun, 1) << restitution << " " << speed;
+        EXPECT_EQ(ended, 1) << restitution << " " << speed;
+        EXPECT_EQ(struck, hits ? 1 : 0) << restitution << " " << speed;
+      }
+    }
+  }
+}
+
+// What comes at once is resolved at once: a rack that is hit in the middle parts evenly.
+TEST(Impacts, AnEvenBreakIsEven) {
+  World world({.gravity = {0, 0}, .sleeping = false});
+  std::vector<BodyId> row[5];
+  for (int r = 0; r < 5; ++r) {
+    for (int i = 0; i <= r; ++i)
+      row[r].push_back(add_disc(world, {2 * kRadius * r * std::sqrt(0.75), 2 * kRadius * (i - 0.5 * r)}, {},
+                                kRadius, {0, 0.95}));
+  }
+  add_disc(world, {-0.4, 0}, {8, 0}, kRadius, {0, 0.95});
+  run(world, 6);
+  for (int r = 0; r < 5; ++r) {
+    for (int i = 0; i <= r; ++i) {
+      const Vec2d one = world.velocity(row[r][i]), other = world.velocity(row[r][r - i]);
+      // Sweeps of a round end at 1e-6 of the speed; ten rounds and what follows multiply that.
+      EXPECT_NEAR(one.x, other.x, 8 * 1e-4) << r << " " << i;
+      EXPECT_NEAR(one.y, -other.y, 8 * 1e-4) << r << " " << i;
+    }
+  }
+}
+
+TEST(Impacts, HaveOneHashEverywhere) {
+  std::mt19937 from(4);
+  World world({.gravity = {0, -1}, .sleeping = false});
+  add_body(world, {0, -3}, {.geometry = Box{6, 0.5}, .density = 5, .material = {0.4, 0.7}});
+  for (int i = 0; i < 4; ++i) build_rack(world, from, 15, 1e-5 * i, {0.3, 0.9});
+  run(world, 300);
+  EXPECT_EQ(world.hash(), 0xdd38b7fa8a580b85u) << std::hex << world.hash();
+}
+
+// A heap of bouncing boxes and discs has no more energy, kinetic and potential, than it began with.
+TEST(Impacts, BouncingHeapsGainNoEnergy) {
+  for (const double restitution : {0.5, 1.0}) {
+    World world(without_sleep());
+    add_ground(world, {.restitution = restitution});
+    for (int i = 0; i < 30; ++i) {
+      const Vec2d at{1.1 * (i % 5) + 0.1 * (i % 3), 1 + 1.1 * (i / 5)};
+      const Material material{0.3, restitution};
+      if (i % 2 == 0) {
+        add_disc(world, at, {}, 0.5, material);
+      } else {
+        add_body(world, at, {.geometry = Box{1, 0.8}, .material = material});
+      }
+    }
+    const auto energy = [&] {
+      double sum = totals(world).energy;
+      for (const BodyId body : world.bodies()) {
+        if (world.type(body) == BodyType::Dynamic)
+          sum += world.mass(body) * kGravity * world.position(body).y;
+      }
+      return sum;
+    };
+    const double before = energy();
+    double most = before;
+    for (int i = 0; i < 600; ++i) world.step(), most = std::max(most, energy());
+    EXPECT_LT(most, before * 1.01) << restitution;
+  }
+}
+
+}  // namespace
+}  // namespace plumb
