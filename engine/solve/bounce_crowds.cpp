@@ -42,68 +42,83 @@ Real nearest_point(const ContactConstraint<Real>& c) {
   return c.count == 2 ? std::min(c.now[0], c.now[1]) : c.now[0];
 }
 
-// The crowd: bounces that are struck while a body of theirs may hand the impact on, and all that it may be
-// handed on to. Empty when every impact is for itself. Returns the fastest approach of what is struck, m/s.
 template <class Real>
-Real find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces, Real h,
-                CrowdRoom<Real>& room) {
-  room.crowd.clear();
+bool is_struck(const Bounce<Real>& bounce) {
+  return bounce.strikes[0] || bounce.strikes[1];
+}
+
+// The fastest approach of what is struck, m/s.
+template <class Real>
+Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<Bounce<Real>>& bounces) {
   Real fastest = 0;
-  int bodies = 0;
   for (const Bounce<Real>& bounce : bounces) {
-    const ContactConstraint<Real>& c = *bounce.contact;
-    bodies = std::max({bodies, c.body_a + 1, c.body_b + 1});
-    for (int i = 0; i < c.count; ++i) {
-      if (bounce.strikes[i]) fastest = std::max(fastest, -velocity_along_normal(motion, c, i));
+    for (int i = 0; i < bounce.contact->count; ++i) {
+      if (bounce.strikes[i]) fastest = std::max(fastest, -velocity_along_normal(motion, *bounce.contact, i));
     }
   }
+  return fastest;
+}
+
+template <class Real>
+void clear_room(const std::vector<Bounce<Real>>& bounces, CrowdRoom<Real>& room) {
+  int bodies = 0;
+  for (const Bounce<Real>& bounce : bounces)
+    bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
   if (static_cast<int>(room.near.size()) < bodies) {
     room.near.resize(bodies), room.reached.resize(bodies);
     room.earliest.resize(bodies), room.last.resize(bodies);
   }
-  const auto is_struck = [](const Bounce<Real>& bounce) { return bounce.strikes[0] || bounce.strikes[1]; };
-  const auto is_near = [&](const Bounce<Real>& bounce) {
-    return is_struck(bounce) || nearest_point(*bounce.contact) <= 2 * h * fastest;
-  };
   for (const Bounce<Real>& bounce : bounces) {
-    for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
+    for (const int body : {bounce.contact->body_a, bounce.contact->body_b})
       room.near[body] = 0, room.reached[body] = 0, room.last[body] = 0;
-    }
   }
-  for (const Bounce<Real>& bounce : bounces) {
-    if (!is_near(bounce)) continue;
-    ++room.near[bounce.contact->body_a], ++room.near[bounce.contact->body_b];
+  room.crowd.clear();
+}
+
+// Notes that impacts may be handed on to the contact's bodies; whether that is new of one of them.
+template <class Real>
+bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, CrowdRoom<Real>& room) {
+  bool more = false;
+  for (const int body : {c.body_a, c.body_b}) {
+    if (!gives_way(motion[body]) || room.reached[body]) continue;
+    room.reached[body] = 1;
+    more = true;
   }
-  const auto reach = [&](const ContactConstraint<Real>& c) {
-    bool more = false;
-    for (const int body : {c.body_a, c.body_b}) {
-      if (!gives_way(motion[body]) || room.reached[body]) continue;
-      room.reached[body] = 1;
-      more = true;
-    }
-    return more;
+  return more;
+}
+
+// The crowd: bounces that are struck while a body of theirs may hand the impact on, and all that it may be
+// handed on to. Empty when every impact is for itself.
+template <class Real>
+void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces, Real within,
+                CrowdRoom<Real>& room) {
+  clear_room(bounces, room);
+  const auto is_near = [&](const Bounce<Real>& bounce) {
+    return is_struck(bounce) || nearest_point(*bounce.contact) <= within;
   };
+  for (const Bounce<Real>& bounce : bounces) {
+    if (is_near(bounce)) ++room.near[bounce.contact->body_a], ++room.near[bounce.contact->body_b];
+  }
+  const auto has_others = [&](int body) { return gives_way(motion[body]) && room.near[body] > 1; };
   bool more = false;
   for (const Bounce<Real>& bounce : bounces) {
     const ContactConstraint<Real>& c = *bounce.contact;
-    const bool hands_on = (gives_way(motion[c.body_a]) && room.near[c.body_a] > 1) ||
-                          (gives_way(motion[c.body_b]) && room.near[c.body_b] > 1);
-    if (is_struck(bounce) && hands_on) more = reach(c) || more;
+    const bool hands_on = has_others(c.body_a) || has_others(c.body_b);
+    if (is_struck(bounce) && hands_on) more = reach(motion, c, room) || more;
   }
-  if (!more) return fastest;
-  const auto is_reached = [&](const ContactConstraint<Real>& c) {
-    return room.reached[c.body_a] || room.reached[c.body_b];
+  const auto is_reached = [&](const Bounce<Real>& bounce) {
+    return is_near(bounce) && (room.reached[bounce.contact->body_a] || room.reached[bounce.contact->body_b]);
   };
+  if (!more) return;
   while (more) {
     more = false;
     for (const Bounce<Real>& bounce : bounces) {
-      if (is_near(bounce) && is_reached(*bounce.contact)) more = reach(*bounce.contact) || more;
+      if (is_reached(bounce)) more = reach(motion, *bounce.contact, room) || more;
     }
   }
   for (Bounce<Real>& bounce : bounces) {
-    if (is_near(bounce) && is_reached(*bounce.contact)) room.crowd.push_back(&bounce);
+    if (is_reached(bounce)) room.crowd.push_back(&bounce);
   }
-  return fastest;
 }
 
 // The points that are struck next: of each body those of its earliest impact.
@@ -202,7 +217,8 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
 template <class Real>
 void resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
                     const ContactStep<Real>& step, CrowdRoom<Real>& room) {
-  const Real fastest = find_crowd(motion, bounces, step.h, room);
+  const Real fastest = fastest_strike(motion, bounces);
+  find_crowd(motion, bounces, 2 * step.h * fastest, room);
   if (room.crowd.empty()) return;
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
   const int rounds = std::max(kLooks / static_cast<int>(room.crowd.size()), 8);

@@ -92,13 +92,16 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
   for (Bounce<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
     bounce.closes = false;
+    bool arrives = false;
     for (int i = 0; i < c.count; ++i) {
       const Real closing = -velocity_along_normal(motion, c, i), s = std::max(c.now[i], Real(0));
       const Real u = -bounce.before[i], a = (closing - u) * step.inverse_h;
       const Real strike = std::sqrt(std::max(u * u + 2 * a * s, Real(0)));
       bounce.closes = bounce.closes || closing > step.bounce_threshold;
       // Sooner than not: whether it is pressed decides in the end, and must not be missed by rounding.
-      bounce.strikes[i] = closing * h > Real(0.999) * s && strike > step.bounce_threshold;
+      const bool in_time = closing * h > Real(0.999) * s;
+      bounce.strikes[i] = in_time && strike > step.bounce_threshold;
+      arrives = arrives || in_time;
       if (!bounce.strikes[i]) continue;
       any = true;
       if (bounce.radii > 0) note_approach(c, i, -strike);
@@ -107,6 +110,7 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
       bounce.way[i] = std::max(left * (rebound - Real(0.5) * a * left), Real(0));
       bounce.speed[i] = std::max(rebound - a * left, Real(0));
     }
+    bounce.closes = bounce.closes && !arrives;
   }
   return any;
 }

@@ -105,7 +105,7 @@ MUTATIONS = [
     Mutation("world: the normal of where discs are, not of where they meet", "engine/solve/bounces.cpp",
              "there = p + t * v;", "there = p;", "world"),
     Mutation("world: impacts are not handed on", "engine/solve/bounce_crowds.cpp",
-             "is_struck(bounce) && hands_on", "is_struck(bounce) && hands_on && h < 0", "world"),
+             "is_struck(bounce) && hands_on", "is_struck(bounce) && hands_on && within < 0", "world"),
     Mutation("world: an impact at its time moves bodies from the substep's start", "engine/solve/bounce_crowds.cpp",
              "way = -at.time * (", "way = Real(0) * (", "world"),
     Mutation("world: continuous collision slows what it stops", "engine/world/continuous.cpp",

@@ -112,6 +112,20 @@ TEST(Impacts, DiscsThatPassEachOtherDoNotTouch) {
   }
 }
 
+// A strong force presses a ball against the ground faster than a bounce starts; it stays.
+TEST(Impacts, APressIsNone) {
+  World world(without_sleep());
+  add_ground(world);
+  const BodyId ball = add_disc(world, {0, 0.5}, {}, 0.5, {0, 0.8});
+  for (int i = 0; i < 120; ++i) {
+    world.apply_force(ball, {0, -100 * kGravity * world.mass(ball)});
+    world.step();
+    // Let through in a substep it would be a h^2 = 17 mm deep; the contact's spring yields by 2 mm.
+    EXPECT_NEAR(world.position(ball).y, 0.5, 5e-3) << i;
+  }
+  EXPECT_NEAR(world.velocity(ball).y, 0, 1e-3);
+}
+
 // Sequential impacts of pairs: the speed runs through the row, whether its balls touch or not.
 TEST(Impacts, ACradleHandsTheSpeedOn) {
   for (const double gap : {0.0, 1e-4, 0.01, 0.3}) {
