@@ -111,7 +111,8 @@ std::vector<Engine> by_solver(const std::vector<const Engine*>& chosen,
 
 std::string list_text() {
   std::string out = "Scenes:\n";
-  for (const Scene& scene : scenes()) out += fmt::format("  {:<15} {}\n", scene.name, scene.summary);
+  for (const Scene& scene : scenes())
+    out += fmt::format("  {:<15} {}{}\n", scene.name, scene.summary, scene.on_request ? " (when named)" : "");
   out += "Engines:\n";
   for (const Engine& engine : engines())
     out += fmt::format("  {:<15} {}\n", engine.name,
@@ -215,6 +216,8 @@ int parse_and_run(int argc, char** argv) {
   }
   if (options.list) return print(list_text()), kOk;
   plan.scenes = select(std::span<const Scene>(scenes()), options.scenes, "scene");
+  if (options.scenes.empty())
+    std::erase_if(plan.scenes, [](const Scene* scene) { return scene->on_request; });
   const std::vector<Engine> engines = by_solver(select_engines(options.engines), options.solvers);
   for (const Engine& engine : engines) plan.engines.push_back(&engine);
   if (options.steps > 0) plan.steps = options.steps;

@@ -38,6 +38,7 @@ struct Scene {
   int warm_up = 1;        ///< steps before the clock starts
   Vec2d gravity{0, -10};  ///< m/s^2
   bool continuous = true;
+  bool on_request = false;  ///< takes long: run only where it is named
   Built (*build)(Builder& world, bool quick) = nullptr;
 };
 

@@ -54,6 +54,8 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
     set_motion(body, initial_state(scene.bodies[body]));
     if (dynamic_[body]) bodies_.acceleration[body].velocity = gravity_;
   }
+  remainder_.resize(bodies_.size());
+  last_remainder_ = remainder_;
   last_pose_ = bodies_.pose;
   last_angle_ = bodies_.angle;
   last_twist_ = bodies_.twist;
@@ -71,6 +73,7 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
 template <class Real>
 void RealtimeDriver<Real>::step() {
   last_pose_ = bodies_.pose, last_angle_ = bodies_.angle, last_twist_ = bodies_.twist;
+  last_remainder_ = remainder_;
   const double h = accuracy_.dt / accuracy_.substeps;
   const double start = time();
 
@@ -136,8 +139,13 @@ void RealtimeDriver<Real>::kick(Real duration) {
 template <class Real>
 void RealtimeDriver<Real>::drift(Real h) {
   stage(Drift, [&] {
-    for (std::size_t body = 0; body < bodies_.size(); ++body)
-      bodies_.pose[body].position += h * bodies_.twist[body].velocity;
+    // What a sum rounds off is kept for the next one (Kahan 1965): far from the origin it would add up.
+    for (std::size_t body = 0; body < bodies_.size(); ++body) {
+      const Vec2<Real> before = bodies_.pose[body].position;
+      const Vec2<Real> way = h * bodies_.twist[body].velocity + remainder_[body];
+      bodies_.pose[body].position = before + way;
+      remainder_[body] = way - (bodies_.pose[body].position - before);
+    }
   });
   stage(Turn, [&] {
     for (std::size_t body = 0; body < bodies_.size(); ++body) {

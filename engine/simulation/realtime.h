@@ -91,6 +91,8 @@ class RealtimeDriver final : public Driver {
   std::vector<Contact<Real>> contacts_;
   std::unique_ptr<ImpactStage<Real>> impacts_;
   std::unique_ptr<JointMethod<Real>> joints_;
+  std::vector<Vec2<Real>> remainder_;  // m, what rounding left out of the positions
+  std::vector<Vec2<Real>> last_remainder_;
   std::vector<Pose<Real>> last_pose_;  // at the step's start, to come back to when it fails
   std::vector<Real> last_angle_;
   std::vector<Twist<Real>> last_twist_;

@@ -10,7 +10,7 @@ namespace plumb {
 
 template <class Real>
 struct SavedMotion {
-  Vec2<Real> position{};
+  Vec2<Real> position{}, remainder{};
   Real angle = 0;
   Twist<Real> twist{};
 };
@@ -43,7 +43,7 @@ struct SavedRealtime {
     out.put(step);
     out.put(statistics);
     write_list(out, motions, [](SnapshotWriter& to, const SavedMotion<Real>& motion) {
-      to.put(motion.position), to.put(motion.angle);
+      to.put(motion.position), to.put(motion.remainder), to.put(motion.angle);
       to.put(motion.twist.velocity), to.put(motion.twist.angular_velocity);
     });
     write_list(out, memory, [](SnapshotWriter& to, Real impulse) { to.put(impulse); });
@@ -60,7 +60,8 @@ struct SavedRealtime {
     step = in.get<std::int64_t>();
     statistics = in.get<Statistics>();
     read_list(in, motions, [](SnapshotReader& from, SavedMotion<Real>& motion) {
-      motion.position = from.get<Vec2<Real>>(), motion.angle = from.get<Real>();
+      motion.position = from.get<Vec2<Real>>(), motion.remainder = from.get<Vec2<Real>>();
+      motion.angle = from.get<Real>();
       motion.twist.velocity = from.get<Vec2<Real>>(), motion.twist.angular_velocity = from.get<Real>();
     });
     read_list(in, memory, [](SnapshotReader& from, Real& impulse) { impulse = from.get<Real>(); });

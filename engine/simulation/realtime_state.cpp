@@ -36,6 +36,7 @@ void RealtimeDriver<Real>::set_motion(std::size_t body, const BodyState& state) 
 template <class Real>
 void RealtimeDriver<Real>::write(std::size_t body, const BodyState& state) {
   set_motion(body, state);
+  remainder_[body] = {};
   if (bodies_.twist[body].angular_velocity != 0 && !is_active(plan_, Turn)) {
     Stage& turn = plan_.stages[static_cast<std::size_t>(Turn)];
     turn.active = true;
@@ -78,6 +79,7 @@ void RealtimeDriver<Real>::roll_back() {
   bodies_.pose = last_pose_;
   bodies_.angle = last_angle_;
   bodies_.twist = last_twist_;
+  remainder_ = last_remainder_;
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     if (finder_) finder_->touch(static_cast<int>(body));
   for (Contact<Real>& contact : contacts_) {
@@ -93,7 +95,8 @@ std::vector<std::byte> RealtimeDriver<Real>::save() const {
   saved.step = step_;
   saved.statistics = statistics_;
   for (std::size_t body = 0; body < bodies_.size(); ++body)
-    saved.motions.push_back({bodies_.pose[body].position, bodies_.angle[body], bodies_.twist[body]});
+    saved.motions.push_back(
+        {bodies_.pose[body].position, remainder_[body], bodies_.angle[body], bodies_.twist[body]});
   if (joints_) saved.memory.assign(joints_->memory().begin(), joints_->memory().end());
   if (finder_) saved.boxes = finder_->boxes();
   for (const Contact<Real>& contact : contacts_) {
@@ -127,6 +130,7 @@ void RealtimeDriver<Real>::restore(std::span<const std::byte> snapshot) {
     bodies_.angle[body] = motion.angle;
     bodies_.pose[body] = {motion.position, rotation_of(motion.angle)};
     bodies_.twist[body] = motion.twist;
+    remainder_[body] = motion.remainder;
     if (motion.twist.angular_velocity != 0) plan_.stages[static_cast<std::size_t>(Turn)].active = true;
   }
   if (joints_) {

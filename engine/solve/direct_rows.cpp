@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/math/small_turn.h"
 
 namespace plumb {
 namespace {
 
-// What is added to the diagonal, as a share of it: rows that say the same thing twice share their load.
+// What is added to the diagonal, as a share of it: rows that say the same thing twice share their load. It is
+// less where masses are far apart, because there the least that a row does is a share 1 / ratio of the most.
 constexpr double kSharing = 1e-7;
 // Times that rows are taken out before giving up.
 constexpr int kTries = 4;
 // The most that an impulse may give by itself along its row, in the largest velocity that is asked for. Rows
 // that contradict each other (a body pushed out of two walls at once) answer with up to 1 / kSharing; a load
-// on something lighter answers with the ratio of the masses.
+// on something lighter answers with the ratio of the masses, and has more.
 constexpr double kContradiction = 1e5;
+// The ratio of masses beyond which the two follow it.
+constexpr double kFarApart = 1e3;
 
 template <class Real>
 bool gives_way(const BodyMotion<Real>& body) {
@@ -117,7 +121,21 @@ double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
 }
 
 template <class Real>
+void DirectRows<Real>::note_masses(const BodyMotion<Real>* motion) {
+  Real least = std::numeric_limits<Real>::max(), most = 0;
+  for (const DirectRow<Real>& row : rows) {
+    for (const int body : {row.a, row.b}) {
+      const Real inverse = motion[body].inverse_mass;
+      if (inverse > 0) least = std::min(least, inverse), most = std::max(most, inverse);
+    }
+  }
+  apart_ = most > 0 ? std::max(1.0, double(most) / double(least) / kFarApart) : 1;
+}
+
+template <class Real>
 void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
+  note_masses(motion);
+  const double sharing = kSharing / apart_;
   matrix_.reset(first_);
   for (int i = 0; i < matrix_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
@@ -129,7 +147,7 @@ void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
       const DirectRow<Real>& other = rows[sequence_[j]];
       if (other.active) matrix_.at(i, j) = coupling(motion, row, other);
     }
-    matrix_.at(i, i) *= 1 + kSharing;
+    matrix_.at(i, i) *= 1 + sharing;
   }
   matrix_.factorise();
 }
@@ -179,7 +197,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
 template <class Real>
 bool DirectRows<Real>::contradicts(double asked) const {
   for (int i = 0; i < matrix_.size(); ++i) {
-    if (std::abs(x_[i]) * matrix_.at(i, i) > kContradiction * asked) return true;
+    if (std::abs(x_[i]) * matrix_.at(i, i) > kContradiction * apart_ * asked) return true;
   }
   return false;
 }

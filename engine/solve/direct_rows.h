@@ -69,6 +69,7 @@ class DirectRows {
 
  private:
   bool contradicts(double asked) const;
+  void note_masses(const BodyMotion<Real>* motion);
 
   std::pmr::vector<int> sequence_;  // place -> row
   std::pmr::vector<int> place_;     // row -> place
@@ -78,6 +79,7 @@ class DirectRows {
   std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
+  double apart_ = 1;  // the ratio of the masses over what counts as far apart, 1 or more
   bool contradicted_ = false;
 };
 

@@ -19,7 +19,7 @@ void clear_place(WorldData<Real>& w, int body) {
   const int size = w.bodies.size();
   make_room(w.motion, size), make_room(w.rotation, size), make_room(w.position, size);
   make_room(w.extents, size), make_room(w.enlarged, size);
-  w.loads.renew(body, size), w.body_data.renew(body, size);
+  w.loads.renew(body, size), w.body_data.renew(body, size), w.remainders.renew(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 
@@ -186,6 +186,7 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
   w.rotation[body] = rounded<Real>(rotation_of(angle));
   w.position[body] = origin + (w.rotation[body] * record.centre).template as<double>();
   w.motion[body].moved = {}, w.motion[body].turned = 0;
+  w.remainders.renew(body, w.bodies.size());
   forget_manifolds(w, body);
   for_each_edge(w.joints, record.first_joint,
                 [&](int, JointRecord& joint) { w.joint_set.forget(joint.slot); });

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
@@ -22,10 +23,26 @@ void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Re
   record.still_for = is_still ? record.still_for + dt : Real(0);
 }
 
+// In double what a sum rounds off is kept for the next one (Kahan 1965): 1e7 m from the origin 600 steps
+// would lose 1e-6 m. In float the steps themselves are coarser than that.
+template <class Real>
+Vec2d* remainders_of(WorldData<Real>& w) {
+  if (!std::is_same_v<Real, double> || w.bodies.size() == 0) return nullptr;
+  w.remainders.at(0, w.bodies.size());
+  return w.remainders.data();
+}
+
 // Moves a body by what the solver found.
 template <class Real>
-void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion) {
-  w.position[body] += motion.moved.template as<double>();
+void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
+               [[maybe_unused]] Vec2d* remainders) {
+  if constexpr (std::is_same_v<Real, double>) {
+    const Vec2d way = motion.moved + remainders[body], before = w.position[body];
+    w.position[body] = before + way;
+    remainders[body] = way - (w.position[body] - before);
+  } else {
+    w.position[body] += motion.moved.template as<double>();
+  }
   record.angle += static_cast<double>(motion.turned);
   if (motion.turned == 0) return;
   // One Newton step towards |q| = 1.
@@ -104,6 +121,7 @@ template <class Real>
 void finish_motion(WorldData<Real>& w, Real dt) {
   w.scratch.fast_bodies.clear(), w.scratch.bad_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
+  Vec2d* const remainders = remainders_of(w);
   const bool sleeping = w.settings.sleeping;
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
@@ -116,7 +134,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       w.scratch.bad_bodies.push_back(body);
       continue;
     }
-    move_body(w, body, record, motion);
+    move_body(w, body, record, motion, remainders);
     if (loads != nullptr) loads[body] = {};
     if (sleeping) {
       time_stillness(record, motion, extent, dt);

@@ -88,8 +88,9 @@ class Check {
                   all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
                   all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
                   all_finite(corners) && all_finite(w_.parked) && all_finite(std::get<0>(w_.loads.parts())) &&
-                  all_finite_uncommon() && all_finite(std::get<0>(w_.bodies.parts())) &&
-                  all_finite(std::get<0>(w_.shapes.parts())) && all_finite(std::get<0>(w_.joints.parts()));
+                  all_finite(std::get<0>(w_.remainders.parts())) && all_finite_uncommon() &&
+                  all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
+                  all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
     require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
@@ -125,9 +126,9 @@ class Check {
       const auto& items = std::get<0>(list.parts());
       return items.empty() || is_by_body(items);
     };
-    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) && is_by_body(w_.motion) &&
-                is_by_body(w_.rotation) && is_by_body(w_.position) && is_by_body(w_.extents) &&
-                is_by_body(w_.enlarged),
+    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) && none_or_by_body(w_.remainders) &&
+                is_by_body(w_.motion) && is_by_body(w_.rotation) && is_by_body(w_.position) &&
+                is_by_body(w_.extents) && is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
     const std::size_t data = std::get<0>(w_.shape_data.parts()).size();

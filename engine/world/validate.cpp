@@ -104,7 +104,8 @@ void validate(const BodyDefinition& definition) {
   require_not_negative(subject, "linear_damping", definition.linear_damping);
   require_not_negative(subject, "angular_damping", definition.angular_damping);
   if (!definition.mass) return;
-  require_positive(subject, "mass", definition.mass->mass);
+  if (!(definition.mass->mass >= 1 / kLargestMass && definition.mass->mass <= kLargestMass))
+    refuse(subject, "mass", definition.mass->mass, "must be a positive number between 1e-18 and 1e18");
   require_finite(subject, "centre", definition.mass->centre);
   require_inertia(subject, definition.mass->inertia);
 }

@@ -28,5 +28,7 @@ inline constexpr double kSmallestNumber = 1e-12;
 /// size, are floats.
 inline constexpr double kSmallestInertia = 1e-30;
 inline constexpr double kLargestInertia = 1e30;
+/// kg: a body of 1e-6 m may have less than 1e-12.
+inline constexpr double kLargestMass = 1e18;
 
 }  // namespace plumb

@@ -226,6 +226,7 @@ struct WorldData {
   std::vector<BodyMotion<Real>> motion;
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;  ///< m, of the centres of mass
+  UsedList<Vec2d> remainders;   ///< m, what rounding left out of the positions; in double alone
   std::vector<Real> extents;    ///< m, from the centre of mass to the farthest point
   std::vector<char> enlarged;   ///< a shape of it left its stored box in the last step
   std::vector<int> awake;

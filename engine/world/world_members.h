@@ -62,13 +62,13 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains, moved_shapes,
-         still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set, sensors, breakable,
-         quarantine, events, pending, stepping, reports_hits, ties_changed, scratch, pre_solve, friction_rule,
-         restitution_rule] = w;
+         remainders, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
+         moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set,
+         sensors, breakable, quarantine, events, pending, stepping, reports_hits, ties_changed, scratch,
+         pre_solve, friction_rule, restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
-                  moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
+                  position, remainders, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data,
+                  chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
                   joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
 }
 

@@ -172,12 +172,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, JointSolver::Direct, 0.0, 16512422883231016919ull},
-      {Precision::Double, JointSolver::Direct, 0.5, 4949348981626266763ull},
-      {Precision::Double, JointSolver::Iterative, 0.5, 7631731150417151963ull},
-      {Precision::Float, JointSolver::Direct, 0.0, 11765370116998980918ull},
-      {Precision::Float, JointSolver::Direct, 0.5, 13432469594750313534ull},
-      {Precision::Float, JointSolver::Iterative, 0.5, 7694694421812519891ull},
+      {Precision::Double, JointSolver::Direct, 0.0, 12944351634759396478ull},
+      {Precision::Double, JointSolver::Direct, 0.5, 1226184181678490077ull},
+      {Precision::Double, JointSolver::Iterative, 0.5, 8406230972332405871ull},
+      {Precision::Float, JointSolver::Direct, 0.0, 14849349563343308285ull},
+      {Precision::Float, JointSolver::Direct, 0.5, 8221469498662559509ull},
+      {Precision::Float, JointSolver::Iterative, 0.5, 6573416957266962926ull},
   };
   for (const auto& row : table) {
     Simulation world =

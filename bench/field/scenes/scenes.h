@@ -24,4 +24,9 @@ Scene chain_10();
 Scene pyramid_10();
 Scene free_10000();
 
+// What a million bodies cost, beside ten thousand.
+Scene free_1000000();
+Scene stacks_10000();
+Scene stacks_1000000();
+
 }  // namespace plumb::field

@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"rain", 11001, 2505 + 13000, 10000, 400}, Expected{"junkyard", 8002, 8262, 0},
                     Expected{"compounds", 3001, 6282, 0}, Expected{"empty", 0, 0, 0},
                     Expected{"one_free_body", 1, 1, 0}, Expected{"chain_10", 11, 10, 10},
-                    Expected{"pyramid_10", 56, 56, 0}, Expected{"free_10000", 10000, 10000, 0}),
+                    Expected{"pyramid_10", 56, 56, 0}, Expected{"free_10000", 10000, 10000, 0},
+                    Expected{"stacks_10000", 10250, 10250, 0}),
     [](const auto& tested) {
       return std::string(tested.param.name) + "_" + std::to_string(tested.param.steps);
     });
