@@ -25,14 +25,6 @@ constexpr KnownLimit kLimits[] = {
     {"bullet|bullet-double", "pendulum_chain[100]", "position_error|velocity_error|angular_velocity_error",
      "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
      "a step; through a chain of 100 it comes steps too late, and the chain stretches."},
-    {"plumb-world", "elastic_collision/oblique", "velocity_error",
-     "The world finds the normal of a contact once a step, not in each of its substeps: discs that slide "
-     "past each other "
-     "part along a normal that is a step old."},
-    {"plumb-world-double", "elastic_collision/oblique", "position_error|velocity_error",
-     "The world finds the normal of a contact once a step, not in each of its substeps: discs that slide "
-     "past each other "
-     "part along a normal that is a step old."},
     {"plumb-world|plumb-world-double", "pendulum_chain[20]", "velocity_error|angular_velocity_error",
      "The world leaves chains of equal links to one sweep a substep: a chain of 20 needs more of them to "
      "feel its own "
@@ -62,9 +54,6 @@ constexpr KnownLimit kLimits[] = {
      "One sweep a substep, whatever the step: what it leaves undone falls more slowly than the error of the "
      "step.",
      true},
-    {"plumb-world|plumb-world-double", "elastic_collision/*",
-     "position_error|velocity_error|penetration|momentum_drift|energy_drift",
-     "The world finds the normal of a contact once a step, not in each of its substeps.", true},
 };
 
 bool matches_one(std::string_view pattern, std::string_view text) {

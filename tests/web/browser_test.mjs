@@ -247,8 +247,9 @@ test("a shot with the mouse breaks the rack", async () => {
   const shot = await page.ask('figure("momentum x")');
   assert.ok(shot > 0, "towards the rack");
   await page.until('figure("collisions") > 15');
-  const moved = await page.ask('where("1")');
-  assert.ok(distance(moved, first) > 5, "the balls scatter");
+  // The head ball hands on what it gets; those at the corners fly.
+  const corner = await page.ask('where("15")');
+  await page.until(`(() => { const at = where("15"); return !at || Math.hypot(at.x - ${corner.x}, at.y - ${corner.y}) > 20; })()`);
   await closed(page, "pool_break_shot");
 });
 
