@@ -66,14 +66,14 @@ int start(const Options& options) {
     throw UsageError(
         "give the command that starts your engine after `--`, or --engine with one that is built in; "
         "see `plumb check --help`");
+  const double seconds = parse_positive("--timeout", options.timeout);
   if (!options.engine.empty()) {
     const reference::Backend& engine = reference::find_backend(options.engine);
     if (const reference::Identity identity = engine.identity(); !identity.available)
       throw UsageError(fmt::format("engine '{}' is not available: {}", options.engine, identity.reason));
     return guarded(options.engine, [&] { return examine(options, engine); });
   }
-  const auto engine = reference::make_process_backend(
-      kOwnEngine, options.command, "", {.seconds = parse_positive("--timeout", options.timeout)});
+  const auto engine = reference::make_process_backend(kOwnEngine, options.command, "", {.seconds = seconds});
   if (const reference::Identity identity = engine->identity(); !identity.available)
     throw UsageError(identity.reason);
   return examine(options, *engine);

@@ -71,7 +71,15 @@ bool is_file(const std::string& text) {
 
 void add_file_duration(CLI::App& command, std::string& duration) {
   command.add_option("--duration", duration, "s that a file's scene runs (default: its scenario's, else 10)")
-      ->type_name("T");
+      ->type_name("T")
+      ->check([](const std::string& text) -> std::string {
+        try {
+          parse_positive("--duration", text);
+          return "";
+        } catch (const UsageError&) {
+          return fmt::format("'{}' is no time: give a number of seconds above 0", text);
+        }
+      });
 }
 
 scenarios::Instance file_instance(const std::string& path, const std::string& duration,

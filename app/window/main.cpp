@@ -74,6 +74,8 @@ window::Options options_of(const Given& given) {
                           .colours = given.colours,
                           .measured_frames = given.frames};
   if (!given.seconds.empty()) options.seconds = parse_number("--seconds", given.seconds);
+  if (!given.seconds.empty() && options.seconds < 0)
+    throw UsageError("--seconds: '" + given.seconds + "' is before the start");
   if (!given.script.empty()) options.script = window::parse_script(text_of(given.script), given.script);
   if (given.headless && given.seconds.empty() && given.frames == 0)
     throw UsageError("--headless needs an end: give --seconds T");

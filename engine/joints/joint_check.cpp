@@ -28,7 +28,7 @@ void JointCheck::not_negative(const char* field, double value) const {
 
 void JointCheck::positive(const char* field, double value) const {
   finite(field, value);
-  if (!(value > 0)) refuse(field, value, "must be positive");
+  if (!(value >= kSmallestJointNumber)) refuse(field, value, "must be positive, at least 1e-15");
 }
 
 void JointCheck::not_zero(const char* field, double value, double smallest) const {

@@ -9,6 +9,8 @@ namespace plumb {
 
 /// Numbers of a joint are at most this large: no product of two overflows in float.
 inline constexpr double kLargestJointNumber = 1e15;
+/// Those that must be positive are at least this large: their reciprocals are no larger.
+inline constexpr double kSmallestJointNumber = 1e-15;
 
 /// Looks at the fields of one joint; every complaint is an Error (Value) that names it.
 class JointCheck {

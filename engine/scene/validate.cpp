@@ -373,7 +373,7 @@ class Checker {
            "must differ from body: nothing attracts itself");
     vector("centre", law.centre, "m");
     number("strength", law.strength, Limits::Any, "m^(1 + exponent)/s^2");
-    if (std::abs(law.exponent) > kLargestExponent)
+    if (law.exponent < -kLargestExponent || law.exponent > kLargestExponent)
       fail(Error::Kind::Value, "exponent", std::to_string(law.exponent),
            "must be a whole number from -9 to 9");
   }

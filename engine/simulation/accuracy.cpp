@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/scene/check.h"
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
 
@@ -10,14 +11,18 @@ namespace plumb {
 namespace {
 
 void require_positive(double value, const char* driver, const char* field, const char* unit) {
-  if (std::isfinite(value) && value > 0) return;
+  if (value >= kSmallest && value <= kLargest) return;
   throw Error(Error::Kind::Value, driver, field, shortest(value),
-              std::string("must be a positive number") + unit);
+              std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
 }
 
+/// More would not end.
+constexpr int kMost = 1000000;
+
 void require_at_least_one(int value, const char* field) {
-  if (value >= 1) return;
-  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value), "must be at least 1");
+  if (value >= 1 && value <= kMost) return;
+  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value),
+              "must be a number from 1 to 1000000");
 }
 
 void require_known(int value, int last, const char* field, const char* driver = "realtime") {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "engine/scene/check.h"
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
 #include "engine/simulation/snapshot.h"
@@ -39,6 +40,13 @@ void require_body(std::size_t body, std::size_t count) {
               "there are " + std::to_string(count) + " bodies");
 }
 
+/// As a scene's own numbers.
+void require_number(const std::string& subject, const char* field, double value) {
+  if (std::abs(value) <= kLargest) return;
+  throw Error(Error::Kind::Value, subject, field, shortest(value),
+              "must be a number of at most " + shortest(kLargest) + " in magnitude");
+}
+
 /// What every snapshot starts with.
 struct SnapshotHeader {
   char magic[8] = {'p', 'l', 'u', 'm', 'b', 's', '0', '1'};
@@ -53,6 +61,8 @@ Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, s
     : driver_(std::move(driver)), body_count_(body_count), identity_(identity) {}
 
 void Simulation::step(int count) {
+  if (count < 0)
+    throw Error(Error::Kind::Value, "simulation", "count", std::to_string(count), "must not be negative");
   for (int i = 0; i < count; ++i) driver_->step();
 }
 
@@ -75,11 +85,13 @@ void Simulation::read(std::span<BodyState> out) const {
 
 void Simulation::set_state(std::size_t body, const BodyState& state) {
   require_body(body, body_count_);
-  for (const double value : {state.position.x, state.position.y, state.angle, state.velocity.x,
-                             state.velocity.y, state.angular_velocity})
-    if (!std::isfinite(value))
-      throw Error(Error::Kind::Value, "body " + std::to_string(body), "state", shortest(value),
-                  "must be finite");
+  const std::string subject = "body " + std::to_string(body);
+  require_number(subject, "position", state.position.x),
+      require_number(subject, "position", state.position.y);
+  require_number(subject, "angle", state.angle);
+  require_number(subject, "velocity", state.velocity.x),
+      require_number(subject, "velocity", state.velocity.y);
+  require_number(subject, "angular_velocity", state.angular_velocity);
   driver_->write(body, state);
 }
 

@@ -16,14 +16,14 @@ namespace plumb {
 /// A compiled scene that moves. Made by `compile`; movable, not copyable (use `save` and `restore`).
 class Simulation {
  public:
-  /// Advances by dt (Realtime) or max_dt (Precise), `count` times.
+  /// Advances by dt (Realtime) or max_dt (Precise), `count` times. Throws Error (Value) for a negative count.
   void step(int count = 1);
 
   double time() const;  ///< s since the start
   std::size_t body_count() const;
   BodyState state(std::size_t body) const;
   void read(std::span<BodyState> out) const;  ///< `out` has `body_count()` elements, in the scene's order
-  void set_state(std::size_t body, const BodyState& state);
+  void set_state(std::size_t body, const BodyState& state);  ///< Error (Value) beyond 1e100
 
   /// 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for the same
   /// run.

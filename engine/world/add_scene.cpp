@@ -92,15 +92,20 @@ JointDefinition definition_of(const Joint& joint) {
 }
 
 /// Error where the world would refuse a part: before any other part is in it.
+template <class Real>
 void check_parts(const Scene& scene) {
   validate(world_definition(scene));
   for (const Body& body : scene.bodies) {
     validate(definition_of(body));
     const Shapes shapes = shapes_of(body);
-    for (const ShapeDefinition& shape : shapes.solid) validate(shape);
+    for (const ShapeDefinition& shape : shapes.solid) {
+      validate(shape);
+      const bool weighs = body.type == BodyType::Dynamic && !definition_of(body).mass;
+      if (std::is_same_v<Real, float> && weighs) require_weight(shape);
+    }
     for (const ChainDefinition& chain : shapes.chains) validate(chain);
   }
-  for (const Joint& joint : scene.joints) validate(definition_of(joint).kind);
+  for (const Joint& joint : scene.joints) validate(definition_of(joint));
 }
 
 }  // namespace
@@ -125,7 +130,7 @@ SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
   validate(scene);
   if (const std::string reason = world_unsupported(scene); !reason.empty())
     throw Error(Error::Kind::Unsupported, scene_subject(scene.name), "", "", reason);
-  check_parts(scene);
+  check_parts<Real>(scene);
   SceneParts parts;
   std::map<std::string_view, BodyId> by_name;
   for (const Body& body : scene.bodies) {

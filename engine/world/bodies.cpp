@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "engine/geometry/convex_bounds.h"
 #include "engine/geometry/convex_mass.h"
@@ -10,6 +11,7 @@
 #include "engine/world/islands.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/step.h"
+#include "engine/world/validate.h"
 
 namespace plumb {
 namespace {
@@ -223,6 +225,15 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) enter_tree(w, shape);
 }
 
+template <class Real>
+void require_weights(const WorldData<Real>& w, int body) {
+  if (std::is_same_v<Real, double>) return;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const double density = static_cast<double>(w.shapes[shape].density);
+    if (!w.forms[shape].chain && density != 0) require_weight(density, mass_of(w, shape));
+  }
+}
+
 // A dynamic body whose shapes have no mass weighs 1 kg and does not turn: it could not be moved otherwise.
 template <class Real>
 void update_mass(WorldData<Real>& w, int body) {
@@ -262,6 +273,7 @@ void set_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   template void set_damping(WorldData<Real>&, int, double, double);                                 \
   template void place_body(WorldData<Real>&, int, Vec2d, double);                                   \
   template void set_type(WorldData<Real>&, int, BodyType);                                          \
+  template void require_weights(const WorldData<Real>&, int);                                       \
   template void update_mass(WorldData<Real>&, int);                                                 \
   template void set_mass(WorldData<Real>&, int, const MassProperties&);
 PLUMB_FOR(float)

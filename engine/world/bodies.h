@@ -28,6 +28,9 @@ template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
 
 /// Mass, centre and inertia from the shapes' densities, unless they were given.
+/// Error (Value) where the densities of a body's shapes give it a mass that `Real` does not hold.
+template <class Real>
+void require_weights(const WorldData<Real>& w, int body);
 template <class Real>
 void update_mass(WorldData<Real>& w, int body);
 template <class Real>

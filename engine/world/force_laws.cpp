@@ -46,6 +46,10 @@ Vec2d middle_of(const WorldData<Real>& w, int body, double dt) {
 
 void check(const Attraction& law, double dt) {
   require_finite("attraction", "strength", law.strength);
+  if (law.falloff != Attraction::Falloff::InverseSquare && law.falloff != Attraction::Falloff::Linear) {
+    throw Error(Error::Kind::Value, "attraction", "falloff", std::to_string(static_cast<int>(law.falloff)),
+                "is no member of its enumeration");
+  }
   require_positive("attraction", "softening", law.softening);
   require_positive("attraction", "dt", dt);
 }

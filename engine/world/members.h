@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@ namespace plumb {
 
 /// `Members<T>::of(value)` is a tuple of references to all members of `value`, in their order. The lists are
 /// structured bindings, which have to name every member: a list that misses a new one does not compile.
+/// `kNames` has their names, with commas between.
 template <class T>
 struct Members;
 
@@ -22,22 +24,24 @@ concept HasMembers = requires(T& value) {
   Members<T>::of(value);
 };
 
-#define PLUMB_MEMBERS(Struct, ...)       \
-  template <>                            \
-  struct Members<Struct> {               \
-    static constexpr auto of(auto& it) { \
-      auto& [__VA_ARGS__] = it;          \
-      return std::tie(__VA_ARGS__);      \
-    }                                    \
+#define PLUMB_MEMBERS(Struct, ...)                                              \
+  template <>                                                                   \
+  struct Members<Struct> {                                                      \
+    static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
+    static constexpr auto of(auto& it) {                                        \
+      auto& [__VA_ARGS__] = it;                                                 \
+      return std::tie(__VA_ARGS__);                                             \
+    }                                                                           \
   };
 
-#define PLUMB_REAL_MEMBERS(Struct, ...)  \
-  template <class Real>                  \
-  struct Members<Struct<Real>> {         \
-    static constexpr auto of(auto& it) { \
-      auto& [__VA_ARGS__] = it;          \
-      return std::tie(__VA_ARGS__);      \
-    }                                    \
+#define PLUMB_REAL_MEMBERS(Struct, ...)                                         \
+  template <class Real>                                                         \
+  struct Members<Struct<Real>> {                                                \
+    static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
+    static constexpr auto of(auto& it) {                                        \
+      auto& [__VA_ARGS__] = it;                                                 \
+      return std::tie(__VA_ARGS__);                                             \
+    }                                                                           \
   };
 
 PLUMB_REAL_MEMBERS(Vec2, x, y)

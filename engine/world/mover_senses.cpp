@@ -6,6 +6,8 @@
 
 #include "engine/collide/hull_distance.h"
 #include "engine/math/trigonometry.h"
+#include "engine/scene/error.h"
+#include "engine/scene/text.h"
 #include "engine/world/placed_shape.h"
 #include "engine/world/validate.h"
 
@@ -13,6 +15,7 @@ namespace plumb {
 namespace {
 
 constexpr double kSkinShare = 0.02;
+constexpr double kRightAngle = 0x1.921fb54442d18p+0;
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
@@ -24,6 +27,9 @@ Vec2d unit_up(Vec2d up) {
 
 double cosine_of(double slope) {
   require_not_negative("mover", "max_slope", slope);
+  if (slope > kRightAngle) {
+    throw Error(Error::Kind::Value, "mover", "max_slope", shortest(slope), "must be at most pi/2");
+  }
   return std::max(rotation_of(slope).c, 1e-3);
 }
 

@@ -3,8 +3,11 @@
 #include <cmath>
 
 #include "engine/geometry/convex_hull.h"
+#include "engine/joints/joint_check.h"
+#include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
+#include "engine/world/query_shape.h"
 
 namespace plumb {
 namespace {
@@ -16,9 +19,18 @@ namespace {
 
 std::string text_of(Vec2d v) { return "[" + shortest(v.x) + ", " + shortest(v.y) + "]"; }
 
+template <class Enum>
+void require_one_of(const std::string& subject, const std::string& field, Enum value, int count) {
+  const int number = static_cast<int>(value);
+  if (number >= 0 && number < count) return;
+  throw Error(Error::Kind::Value, subject, field, std::to_string(number), "is no member of its enumeration");
+}
+
 void require_share(const std::string& subject, const std::string& field, double value) {
   if (!(value >= 0 && value <= 1)) refuse(subject, field, value, "must be a number from 0 to 1");
 }
+
+constexpr int kCombineRules = 5, kBodyTypes = 3;
 
 void check(const std::string& subject, const Material& material) {
   require_not_negative(subject, "friction", material.friction);
@@ -66,6 +78,13 @@ void require_finite(const std::string& subject, const std::string& field, Vec2d 
   }
 }
 
+void require_place(const std::string& subject, const std::string& field, Vec2d value) {
+  if (!(std::abs(value.x) <= 1e100 && std::abs(value.y) <= 1e100)) {
+    throw Error(Error::Kind::Value, subject, field, text_of(value),
+                "must be numbers between -1e100 and 1e100");
+  }
+}
+
 void require_not_negative(const std::string& subject, const std::string& field, double value) {
   if (!(value >= 0 && value <= kLargestNumber))
     refuse(subject, field, value, "must be a number from 0 to 1e12");
@@ -84,10 +103,9 @@ void require_inertia(const std::string& subject, double value) {
 
 void validate(const WorldDefinition& definition) {
   require_finite("world", "gravity", definition.gravity);
-  if (static_cast<int>(definition.solver) >= static_cast<int>(std::size(kSolverNames))) {
-    throw Error(Error::Kind::Value, "world", "solver", std::to_string(static_cast<int>(definition.solver)),
-                "is no solver");
-  }
+  require_one_of("world", "combine_friction", definition.combine_friction, kCombineRules);
+  require_one_of("world", "combine_restitution", definition.combine_restitution, kCombineRules);
+  require_one_of("world", "solver", definition.solver, static_cast<int>(std::size(kSolverNames)));
   if (definition.iterations < 1 || definition.iterations > 1000) {
     throw Error(Error::Kind::Value, "world", "iterations", std::to_string(definition.iterations),
                 "must be a number from 1 to 1000");
@@ -96,6 +114,7 @@ void validate(const WorldDefinition& definition) {
 
 void validate(const BodyDefinition& definition) {
   const std::string subject = definition.name.empty() ? "body" : "body " + quoted(definition.name);
+  require_one_of(subject, "type", definition.type, kBodyTypes);
   require_finite(subject, "position", definition.position);
   require_finite(subject, "angle", definition.angle);
   require_finite(subject, "velocity", definition.velocity);
@@ -115,7 +134,9 @@ void validate(const ShapeDefinition& definition) {
   std::visit(CheckGeometry{}, definition.geometry);
   require_finite(subject, "position", definition.position);
   require_finite(subject, "angle", definition.angle);
-  require_not_negative(subject, "density", definition.density);
+  if (definition.density != 0 &&
+      !(definition.density >= kSmallestNumber && definition.density <= kLargestNumber))
+    refuse(subject, "density", definition.density, "must be 0 or a number from 1e-12 to 1e12");
   check(subject, definition.material);
 }
 
@@ -137,6 +158,33 @@ void validate(const ChainDefinition& definition) {
     }
   }
   check(subject, definition.material);
+}
+
+void validate(const JointDefinition& definition) {
+  validate(definition.kind);
+  require_not_negative("joint", "break_force", definition.break_force);
+  require_not_negative("joint", "break_torque", definition.break_torque);
+}
+
+void validate(BodyType type) { require_one_of("body", "type", type, kBodyTypes); }
+
+void require_weight(const ShapeDefinition& definition) {
+  if (definition.density == 0) return;
+  ConvexMass part = convex_mass(QueryShape(definition.geometry).convex(), definition.density);
+  part.centroid = definition.position + rotation_of(definition.angle) * part.centroid;
+  require_weight(definition.density, part);
+}
+
+// The inertia about any point of the body bounds that about the centre of mass from above.
+void require_weight(double density, const ConvexMass& part) {
+  if (part.mass == 0) return;
+  const double whole = part.inertia + part.mass * length_squared(part.centroid);
+  const bool holds = part.mass >= kSmallestWeight && part.mass <= kLargestWeight &&
+                     part.inertia >= kSmallestWeight && whole <= kLargestWeight;
+  if (holds) return;
+  refuse("shape", "density", density,
+         "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
+             " kg m^2, of which single precision holds 1e-36 to 1e36");
 }
 
 }  // namespace plumb

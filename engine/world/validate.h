@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "engine/geometry/convex_mass.h"
 #include "engine/world/definitions.h"
 
 /// Bad input is refused before anything changes: each function throws Error (Value) that names the thing, its
@@ -12,6 +13,14 @@ void validate(const WorldDefinition& definition);
 void validate(const BodyDefinition& definition);
 void validate(const ShapeDefinition& definition);
 void validate(const ChainDefinition& definition);
+void validate(const JointDefinition& definition);
+void validate(BodyType type);
+
+/// A shape that gives a dynamic body mass by its density: Error (Value) where a float would not hold mass,
+/// inertia and their reciprocals. A double holds them for whatever is valid.
+void require_weight(const ShapeDefinition& definition);
+/// `part` is seen from the body's origin or its centre of mass.
+void require_weight(double density, const ConvexMass& part);
 
 /// A single number or vector of a call: finite and, in size, at most kLargestNumber.
 void require_finite(const std::string& subject, const std::string& field, double value);
@@ -20,6 +29,9 @@ void require_not_negative(const std::string& subject, const std::string& field, 
 void require_positive(const std::string& subject, const std::string& field, double value);
 /// kg m^2: from kSmallestInertia to its inverse.
 void require_inertia(const std::string& subject, double value);
+
+/// A place that is only read at: finite, and so is what follows from it.
+void require_place(const std::string& subject, const std::string& field, Vec2d value);
 
 /// Beyond this, squares and cubes of a float would not be finite.
 inline constexpr double kLargestNumber = 1e12;
@@ -30,5 +42,8 @@ inline constexpr double kSmallestInertia = 1e-30;
 inline constexpr double kLargestInertia = 1e30;
 /// kg: a body of 1e-6 m may have less than 1e-12.
 inline constexpr double kLargestMass = 1e18;
+/// Masses and inertias of float worlds: a float's reciprocal of the smallest is finite, and hundreds of the
+/// largest are.
+inline constexpr double kSmallestWeight = 1e-36, kLargestWeight = 1e36;
 
 }  // namespace plumb

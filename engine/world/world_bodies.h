@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "engine/world/bodies.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
@@ -16,6 +18,9 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {
   validate(definition);
   for (const ShapeDefinition& shape : shapes) validate(shape);
+  if (std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass) {
+    for (const ShapeDefinition& shape : shapes) require_weight(shape);
+  }
   const int body = add_body(*data_, definition, shapes);
   return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
 }
@@ -62,16 +67,19 @@ double BasicWorld<Real>::angular_velocity(BodyId body) const {
 }
 template <class Real>
 Vec2d BasicWorld<Real>::velocity_at(BodyId body, Vec2d point) const {
+  require_place("body", "point", point);
   return velocity(body) + cross(angular_velocity(body), point - centre(body));
 }
 template <class Real>
 Vec2d BasicWorld<Real>::world_point(BodyId body, Vec2d local) const {
   const Rotation<Real> q = data_->rotation[place(body)];
+  require_place("body", "local", local);
   return position(body) + Rotation<double>{q.c, q.s} * local;
 }
 template <class Real>
 Vec2d BasicWorld<Real>::local_point(BodyId body, Vec2d world) const {
   const Rotation<Real> q = data_->rotation[place(body)];
+  require_place("body", "world", world);
   return Rotation<double>{q.c, -q.s} * (world - position(body));
 }
 template <class Real>
@@ -110,8 +118,12 @@ void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, d
   require_positive("body", "dt", dt);
   const Rotation<double> q = rotation_of(angle);
   const Vec2d target = position + q * data_->bodies[index].centre.template as<double>();
-  set_velocity(body, (1 / dt) * (target - centre(body)));
-  set_angular_velocity(body, (angle - this->angle(body)) / dt);
+  const Vec2d velocity = (1 / dt) * (target - centre(body));
+  const double angular_velocity = (angle - this->angle(body)) / dt;
+  require_finite("body", "velocity", velocity);
+  require_finite("body", "angular_velocity", angular_velocity);
+  set_velocity(body, velocity);
+  set_angular_velocity(body, angular_velocity);
 }
 
 template <class Real>
@@ -165,7 +177,10 @@ BodyType BasicWorld<Real>::type(BodyId body) const {
 }
 template <class Real>
 void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
-  plumb::set_type(*data_, place(body), type);
+  const int index = place(body);
+  validate(type);
+  if (type == BodyType::Dynamic && !data_->bodies[index].mass_given) require_weights(*data_, index);
+  plumb::set_type(*data_, index, type);
 }
 template <class Real>
 double BasicWorld<Real>::mass(BodyId body) const {
@@ -187,6 +202,7 @@ void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
 template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
   const int index = place(body);
+  if (data_->gives_way(index)) require_weights(*data_, index);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);
   wake(index);

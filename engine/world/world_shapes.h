@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "engine/world/bodies.h"
 #include "engine/world/islands.h"
 #include "engine/world/shape_reading.h"
@@ -13,6 +15,8 @@ template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   const int index = place(body);
   validate(definition);
+  const bool weighs = data_->gives_way(index) && !data_->bodies[index].mass_given;
+  if (std::is_same_v<Real, float> && weighs) require_weight(definition);
   const int shape = add_shape(*data_, index, definition);
   return {static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)};
 }
@@ -118,8 +122,7 @@ ChainDefinition BasicWorld<Real>::definition(ChainId chain) const {
 template <class Real>
 JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition& definition) {
   const int body_a = place(a), body_b = place(b);
-  require_not_negative("joint", "break_force", definition.break_force);
-  require_not_negative("joint", "break_torque", definition.break_torque);
+  validate(definition);
   const int joint = add_joint(*data_, body_a, body_b, definition);
   return {static_cast<std::uint32_t>(joint), data_->joints.generation(joint)};
 }

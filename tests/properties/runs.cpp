@@ -1,0 +1,104 @@
+#include "tests/properties/runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "engine/simulation/simulation.h"
+#include "engine/world/scene_forces.h"
+
+namespace plumb::properties {
+namespace {
+
+template <class Real>
+States run_world(const Scene& scene, const Steps& steps) {
+  WorldDefinition definition = world_definition(scene);
+  // Sleep asks for speeds relative to the world's frame.
+  definition.sleeping = false;
+  BasicWorld<Real> world(definition);
+  const SceneParts parts = add_scene(world, scene);
+  SceneForces<Real> forces(scene, parts);
+  for (int i = 0; i < steps.count; ++i) {
+    forces.apply(world, steps.dt);
+    world.step(steps.dt);
+  }
+  States states;
+  for (const BodyId body : parts.bodies) states.push_back(world.state(body));
+  return states;
+}
+
+States run_simulation(const Scene& scene, const Accuracy& accuracy, int count) {
+  Simulation simulation = compile(scene, accuracy);
+  simulation.step(count);
+  States states(scene.bodies.size());
+  simulation.read(states);
+  return states;
+}
+
+}  // namespace
+
+std::string name_of(Engine engine) {
+  switch (engine) {
+    case Engine::Realtime:
+      return "Realtime";
+    case Engine::Precise:
+      return "Precise";
+    case Engine::World:
+      return "World";
+    case Engine::DoubleWorld:
+      return "DoubleWorld";
+  }
+  return "";
+}
+
+States run(Engine engine, const Scene& scene, const Steps& steps) {
+  switch (engine) {
+    case Engine::Realtime:
+      return run_simulation(scene, Realtime{.dt = steps.dt}, steps.count);
+    case Engine::Precise:
+      return run_simulation(scene, Precise{.tolerance = 1e-10, .max_dt = steps.dt}, steps.count);
+    case Engine::World:
+      return run_world<float>(scene, steps);
+    case Engine::DoubleWorld:
+      return run_world<double>(scene, steps);
+  }
+  return {};
+}
+
+double difference(const States& a, const States& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const double each :
+         {a[i].position.x - b[i].position.x, a[i].position.y - b[i].position.y, a[i].angle - b[i].angle,
+          a[i].velocity.x - b[i].velocity.x, a[i].velocity.y - b[i].velocity.y,
+          a[i].angular_velocity - b[i].angular_velocity})
+      most = std::max(most, std::abs(each));
+  }
+  return most;
+}
+
+double disturbance(Engine engine) {
+  if (engine == Engine::Precise) return 1e-9;
+  return engine == Engine::World ? 1e3 * 0x1p-24 : 1e4 * 0x1p-53;
+}
+
+double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps) {
+  double most = by;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    std::mt19937 random(seed);
+    const auto push = [&](double& number) {
+      number += by * (2 * (static_cast<double>(random()) / 4294967295.0) - 1);
+    };
+    Scene disturbed = scene;
+    for (Body& body : disturbed.bodies) {
+      if (body.type == BodyType::Static) continue;
+      for (double* number : {&body.position.x, &body.position.y, &body.angle, &body.velocity.x,
+                             &body.velocity.y, &body.angular_velocity})
+        push(*number);
+    }
+    most = std::max(most, difference(run(engine, disturbed, steps), end));
+  }
+  return most;
+}
+
+}  // namespace plumb::properties

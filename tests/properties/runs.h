@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+/// Runs of a scene, and how far apart their ends are.
+namespace plumb::properties {
+
+enum class Engine { Realtime, Precise, World, DoubleWorld };
+inline constexpr Engine kEngines[] = {Engine::Realtime, Engine::Precise, Engine::World, Engine::DoubleWorld};
+std::string name_of(Engine engine);
+
+using States = std::vector<BodyState>;
+
+struct Steps {
+  double dt = 1.0 / 64;
+  int count = 48;
+};
+
+/// The states after the steps, in the scene's order. Throws Error as the engine does.
+States run(Engine engine, const Scene& scene, const Steps& steps = {});
+
+/// The largest difference of any number of any body, in SI units.
+double difference(const States& a, const States& b);
+
+/// A thousand roundings of this engine, of the numbers that scenes have (10 m, 10 m/s); of Precise its
+/// tolerance a second.
+double disturbance(Engine engine);
+
+/// How far runs end from the undisturbed one when every number that moves is disturbed by up to `by`: the
+/// bound for what is only rounded otherwise. Where the motion comes to a fork within that distance it is
+/// large.
+double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps = {});
+
+}  // namespace plumb::properties
