@@ -24,24 +24,24 @@ concept HasMembers = requires(T& value) {
   Members<T>::of(value);
 };
 
-#define PLUMB_MEMBERS(Struct, ...)                                              \
-  template <>                                                                   \
-  struct Members<Struct> {                                                      \
-    static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
-    static constexpr auto of(auto& it) {                                        \
-      auto& [__VA_ARGS__] = it;                                                 \
-      return std::tie(__VA_ARGS__);                                             \
-    }                                                                           \
+#define PLUMB_MEMBERS(Struct, ...)                                                               \
+  template <>                                                                                    \
+  struct Members<Struct> {                                                                       \
+    [[maybe_unused]] static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
+    static constexpr auto of(auto& it) {                                                         \
+      auto& [__VA_ARGS__] = it;                                                                  \
+      return std::tie(__VA_ARGS__);                                                              \
+    }                                                                                            \
   };
 
-#define PLUMB_REAL_MEMBERS(Struct, ...)                                         \
-  template <class Real>                                                         \
-  struct Members<Struct<Real>> {                                                \
-    static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
-    static constexpr auto of(auto& it) {                                        \
-      auto& [__VA_ARGS__] = it;                                                 \
-      return std::tie(__VA_ARGS__);                                             \
-    }                                                                           \
+#define PLUMB_REAL_MEMBERS(Struct, ...)                                                          \
+  template <class Real>                                                                          \
+  struct Members<Struct<Real>> {                                                                 \
+    [[maybe_unused]] static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
+    static constexpr auto of(auto& it) {                                                         \
+      auto& [__VA_ARGS__] = it;                                                                  \
+      return std::tie(__VA_ARGS__);                                                              \
+    }                                                                                            \
   };
 
 PLUMB_REAL_MEMBERS(Vec2, x, y)
