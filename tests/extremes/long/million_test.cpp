@@ -1,4 +1,4 @@
-// A million bodies. They take seconds and 2 GB: run with --gtest_also_run_disabled_tests.
+// A million bodies. They take seconds and 2 GB.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -39,7 +39,7 @@ Cost fall(int count) {
   return {(heap_bytes() - before) / count, time / 15 / count};
 }
 
-TEST(MillionBodies, DISABLED_FallForTheMemoryThatTenThousandTake) {
+TEST(MillionBodies, FallForTheMemoryThatTenThousandTake) {
   const Cost few = fall(10'000), many = fall(1'000'000);
   std::printf("  10,000: %.0f B, %.0f ns a body and step; 1,000,000: %.0f B, %.0f ns\n", few.bytes,
               few.nanoseconds, many.bytes, many.nanoseconds);
@@ -48,7 +48,7 @@ TEST(MillionBodies, DISABLED_FallForTheMemoryThatTenThousandTake) {
 }
 
 // Stacks of four on grounds one above the other: they stand, and fall asleep.
-TEST(MillionBodies, DISABLED_StandInStacksAndSleep) {
+TEST(MillionBodies, StandInStacksAndSleep) {
   constexpr int kStoreys = 500, kColumns = 500, kHigh = 4;
   const double before = heap_bytes();
   World world;
