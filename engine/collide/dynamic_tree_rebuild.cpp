@@ -8,6 +8,8 @@ namespace {
 /// Inner boxes whose perimeters are on average this much larger than after building are not worth a query's
 /// time.
 constexpr double kWorn = 1.1;
+/// So many pairs, 1 MB in float, are near enough wherever they lie.
+constexpr std::size_t kCachedPairs = 1 << 14;
 
 /// Half the centre: it does not overflow, and neither do differences of two. 0 where there is none, between
 /// infinite sides: everything here can be put in order.
@@ -74,16 +76,18 @@ int split(Item* items, int count, int budget) {
 template <class Real>
 bool DynamicTree<Real>::refit() {
   if (2 * marks_ < size_ || !(usual_ > 0)) return false;
-  std::vector<int>& marked = loose_pairs_;  // slots, those above first
+  std::vector<int>& marked = loose_pairs_;  // slots, those above first, in the order in which nodes lie
   marked.clear();
   marked.reserve(pairs_.capacity());
-  const auto take = [&](int slot) {
-    if (node(slot).marked()) marked.push_back(slot);
-  };
-  take(kRoot);
-  for (std::size_t i = 0; i < marked.size(); ++i) {
-    const int below = first(node(marked[i]).link);
-    take(below), take(below + 1);
+  // Down the marked nodes, the first child first, along the parents.
+  for (int slot = kRoot; slot != kNone;) {
+    if (node(slot).marked()) {
+      marked.push_back(slot);
+      slot = first(node(slot).link);
+      continue;
+    }
+    while ((slot & 1) != 0) slot = node(slot).parent;
+    slot = slot == kRoot ? kNone : slot + 1;
   }
   double sum = 0;
   for (std::size_t i = marked.size(); i-- > 0;) {
@@ -114,6 +118,8 @@ void DynamicTree<Real>::gather(bool everything) {
   take(node(kRoot));
   for (std::size_t i = 0; i < loose_pairs_.size(); ++i)
     for (const Node& child : pairs_[loose_pairs_[i]].children) take(child);
+  // Nodes that no cache holds are to lie in the order in which they are built: that of a query.
+  if (loose_pairs_.size() > kCachedPairs) std::sort(loose_pairs_.begin(), loose_pairs_.end());
 }
 
 template <class Real>

@@ -3,6 +3,7 @@
 agreement for what scenes show, the engine's own for Precise and for its real-time world.
 
     mutate.py [--work DIR] [--only NAME]... [--compiler CXX] [-j N]
+    mutate.py --features     plants those of features.py instead: one for each feature of the world
     mutate.py --list         names the bugs
     mutate.py --match        checks only that each bug still has its place in the sources
     mutate.py --self-test    tries the machinery on a project of one file
@@ -39,6 +40,7 @@ class Mutation:
     old: str
     new: str
     suite: str = "agreement"
+    tests: tuple = ()  # files that must notice, as "world/shapes"; all of the suite when there are none
 
     def apply(self, text):
         place = re.compile(r"\s+".join(re.escape(word) for word in self.old.split()))
@@ -70,30 +72,49 @@ SUITES = {
     "precise": (["test_simulation"], ["-L", "unit", "-R", "^simulation/Precise"]),
     "world": (["test_collide", "test_joints", "test_solve", "test_world"],
               ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
+    "features": (["test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
 }
+
+
+def names_of(root, files):
+    """A pattern of the tests in these files, for ctest."""
+    names = set()
+    for file in files:
+        text = (root / "tests" / f"{file}_test.cpp").read_text(encoding="utf-8")
+        found = re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),", text, re.MULTILINE)
+        names |= {f"^{file.split('/')[0]}/{prefix}{name}[./]" for name in found for prefix in ("", ".*/")}
+    return "|".join(sorted(names))  # without groups: ctest bears few
 
 
 class Tests:
     """The tests of a suite of a tree."""
 
     def __init__(self, tree, arguments, targets, select, jobs):
-        self.build = checkout_copy.configure(tree, arguments)
+        self.tree, self.build = tree, checkout_copy.configure(tree, arguments)
         self.targets, self.select, self.jobs = targets, select, jobs
 
     def compile(self):
         return checkout_copy.run(["ninja", "-C", self.build, f"-j{self.jobs}", *self.targets], check=False)
 
-    def failures(self):
-        """Names of the tests that fail, and how many ran."""
+    def failures(self, files=()):
+        """Names of the tests that fail, and how many ran: of the suite, or of some of its files."""
+        select = [*self.select, "-R", names_of(self.tree, files)] if files else self.select
         report = self.build / "mutation.xml"
         report.unlink(missing_ok=True)
         _, output = checkout_copy.run(["ctest", "--test-dir", self.build, f"-j{self.jobs}", "--timeout", "120",
-                                       "--output-junit", report, *self.select], check=False)
+                                       "--output-junit", report, *select], check=False)
         if not report.exists():
             raise SystemExit(f"{output}\nctest wrote no report")
         cases = xml.etree.ElementTree.parse(report).getroot().findall("testcase")
         failing = [case.get("name") for case in cases if case.get("status") == "fail"]
         return failing, len(failing) + sum(case.get("status") == "run" for case in cases)
+
+
+def unplanted(root, mutations):
+    """Features of the guide's table that no mutation takes away."""
+    table = (root / "docs" / "guide" / "README.md").read_text(encoding="utf-8").split("## Features")[1]
+    rows = re.findall(r"^\| ([^|*]+?) \| (?!how|---|not yet)", table, re.MULTILINE)
+    return sorted(set(rows) - {mutation.name for mutation in mutations})
 
 
 def describe(names):
@@ -110,7 +131,7 @@ def plant(root, work, mutations, tests_of, say=print):
     status, output = tests.compile()
     if status != 0:
         raise SystemExit(f"{output}\nthe copy does not build without a mutation")
-    failing, count = tests.failures()
+    failing, count = tests.failures({file for mutation in mutations for file in mutation.tests})
     if failing or count == 0:
         raise SystemExit(f"without a mutation {len(failing)} of {count} tests fail: {describe(failing)}")
     say(f"without a mutation all {count} tests pass", flush=True)
@@ -126,7 +147,7 @@ def plant(root, work, mutations, tests_of, say=print):
             status, output = tests.compile()
             if status != 0:
                 raise SystemExit(f"{output}\n{mutation.name}: does not compile")
-            caught, count = tests.failures()
+            caught, count = tests.failures(mutation.tests)
         finally:
             file.write_text(text, encoding="utf-8")
         verdict = f"caught by {len(caught)} of {count}: {describe(caught)}" if caught else "SURVIVED"
@@ -176,6 +197,7 @@ def main():
     parser.add_argument("--only", action="append", metavar="NAME")
     parser.add_argument("--compiler", default=os.environ.get("CXX", "c++"))
     parser.add_argument("-j", dest="jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--features", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--match", action="store_true")
     parser.add_argument("--self-test", action="store_true")
@@ -183,25 +205,28 @@ def main():
     if options.self_test:
         return self_test()
 
-    from bugs import MUTATIONS
+    from bugs import MUTATIONS as bugs
+    from features import FEATURES
 
     root = HERE.parent.parent
+    mutations = FEATURES if options.features else bugs
     if options.list:
-        for mutation in MUTATIONS:
+        for mutation in mutations:
             print(f"{mutation.name:48}  {mutation.file}")
         return 0
-    problems = mismatches(root, MUTATIONS)
+    problems = mismatches(root, bugs) + mismatches(root, FEATURES)
+    problems += [f"{row}: features.py plants nothing for it" for row in unplanted(root, FEATURES)]
     if problems:
         print("\n".join(problems), file=sys.stderr)
         return 2
     if options.match:
-        print(f"{len(MUTATIONS)} mutations have their place")
+        print(f"{len(bugs) + len(FEATURES)} mutations have their place")
         return 0
-    unknown = set(options.only or []) - {mutation.name for mutation in MUTATIONS}
+    unknown = set(options.only or []) - {mutation.name for mutation in mutations}
     if unknown:
         print(f"no mutation is called {' or '.join(sorted(unknown))}; see --list", file=sys.stderr)
         return 2
-    chosen = [mutation for mutation in MUTATIONS if not options.only or mutation.name in options.only]
+    chosen = [mutation for mutation in mutations if not options.only or mutation.name in options.only]
 
     # The flags of the checkout's own build: what a compiler cache has seen there is not compiled again.
     arguments = [f"-DCMAKE_CXX_COMPILER={options.compiler}", "-DPLUMB_BENCHES=OFF",
