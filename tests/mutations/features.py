@@ -60,7 +60,8 @@ FEATURES = [
     feature("Combine rules of your own", WORLD + "world.cpp",
             "data_->friction_rule = friction, data_->restitution_rule = restitution;",
             "data_->restitution_rule = friction, data_->friction_rule = restitution;", "world/readers"),
-    feature("Change of material", WORLD + "shapes.cpp", "put_material(w.shapes[shape], material);", "",
+    feature("Change of material", WORLD + "shapes.cpp", "put_material(w.shapes[shape], material);",
+            "put_material(w.shapes[shape], material.friction > 0 ? material : Material{});",
             "world/contacts"),
 
     # Joints.
@@ -96,9 +97,9 @@ FEATURES = [
     feature("Change and reading", SOLVE + "joint_set.cpp",
             "hinge_impulse(p, joint, [&](Vec2<Real>& now) { now = impulse; });", "", "solve/joint_set",
             "solve/joint_state"),
-    feature("Ragdolls", SOLVE + "joint_rule.h", "if (c > 0) {", "if (c > -0.2) {", "world/ragdoll"),
+    feature("Ragdolls", WORLD + "soft_step.cpp", "sweep < tuning::kLimitSweeps", "sweep < 0", "world/ragdoll"),
     feature("The same joints in `Simulation`", JOINTS + "kind_of.cpp",
-            "j.length, j.spring, j.range, j.motor};", "j.length, j.spring, {}, j.motor};", "simulation/joints",
+            "GearDefinition{j.ratio, j.phase}", "GearDefinition{1, j.phase}", "simulation/joints",
             "simulation/precise_joints"),
 
     # Forces.
@@ -110,7 +111,7 @@ FEATURES = [
             "} template <class Real> Vec2d BasicWorld<Real>::gravity() const {", "world/motion", "world/resting"),
     feature("Point attraction", WORLD + "force_laws.cpp", "reaction -= force;", "reaction += force;", "world/forces"),
     feature("Linear, quadratic drag", FORCES + "fluid_drag.h", "const double factor = coefficient * std::sqrt("
-            "length_squared(middle));", "const double factor = first;", "world/forces"),
+            "length_squared(middle));", "const double factor = first + 0 * middle.x;", "world/forces"),
     feature("Wind on edges", FORCES + "wind.cpp", "if (into <= 0) return;", "", "world/forces"),
     feature("Buoyancy in water", FORCES + "submerged.cpp", "if (p.y >= 0 && q.y >= 0) return;",
             "if (p.y >= 0 || q.y >= 0) return;", "world/fluids"),

@@ -145,12 +145,12 @@ def plant(root, work, mutations, tests_of, say=print):
         try:
             file.write_text(mutation.apply(text), encoding="utf-8")
             status, output = tests.compile()
-            if status != 0:
-                raise SystemExit(f"{output}\n{mutation.name}: does not compile")
-            caught, count = tests.failures(mutation.tests)
+            caught, count = tests.failures(mutation.tests) if status == 0 else ([], 0)
         finally:
             file.write_text(text, encoding="utf-8")
         verdict = f"caught by {len(caught)} of {count}: {describe(caught)}" if caught else "SURVIVED"
+        if status != 0:
+            verdict = f"DOES NOT COMPILE: {output[-2000:]}"
         say(f"{mutation.name:{width}}  {verdict}  [{time.monotonic() - begin:.0f} s]", flush=True)
         if not caught:
             survivors.append(mutation.name)

@@ -84,6 +84,17 @@ TEST(Materials, ConveyorsCarry) {
   EXPECT_NEAR(world.velocity(box).x, 2, 0x1p-22);
 }
 
+// A tracked vehicle: what its shape's surface does to the ground is what a belt does to a box, whichever came first.
+TEST(Materials, TracksDriveOnGroundAndBelt) {
+  for (const double belt : {0.0, 3.0}) {
+    World world(without_sleep());
+    add_ground(world, {.surface_speed = belt});
+    const BodyId box = add_body(world, {0, 0.5}, {.geometry = Box{1, 1}, .material = {.surface_speed = 2}});
+    run(world, 240);
+    EXPECT_NEAR(world.velocity(box).x, 2 + belt, 2 * 0x1p-22) << "belt at " << belt;
+  }
+}
+
 TEST(Materials, CanChangeWhileTheWorldRuns) {
   World world(without_sleep());
   add_ground(world, {.friction = 1});

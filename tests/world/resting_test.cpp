@@ -161,6 +161,17 @@ TEST(Sleeping, MovingPlatformsKeepTheirLoadAwake) {
   EXPECT_NEAR(world.velocity(box).x, 0.2, 5e-5);  // measured 1.7e-5
 }
 
+TEST(Sleeping, EndsWhenGravityChanges) {
+  World world;
+  add_ground(world);
+  const BodyId box = add_box(world, {0, 0.5});
+  run(world, 90);
+  ASSERT_FALSE(world.awake(box));
+  world.set_gravity({0, kGravity});
+  run(world, 30);
+  EXPECT_NEAR(world.velocity(box).y, kGravity / 2, 30 * 0x1p-22);  // it falls upwards
+}
+
 TEST(Sleeping, CanBeForbidden) {
   World world;
   add_ground(world);
