@@ -74,6 +74,7 @@ TEST(AddScene, EveryShapeAndJointArrives) {
   const SceneParts parts = add_scene(world, scene);
   ASSERT_EQ(parts.joints.size(), 11u);
   EXPECT_EQ(std::get<RevoluteDefinition>(world.kind(parts.joints[0])).limits->upper, 1);
+  EXPECT_EQ(world.definition(parts.joints[0]).break_force, 7);
   EXPECT_EQ(std::get<DistanceDefinition>(world.kind(parts.joints[1])).spring->hertz, 2);
   EXPECT_EQ(std::get<PrismaticDefinition>(world.kind(parts.joints[2])).motor->max_force, 2);
   EXPECT_EQ(std::get<WeldDefinition>(world.kind(parts.joints[3])).reference_angle, 0.5);

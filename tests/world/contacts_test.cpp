@@ -84,7 +84,8 @@ TEST(Materials, ConveyorsCarry) {
   EXPECT_NEAR(world.velocity(box).x, 2, 0x1p-22);
 }
 
-// A tracked vehicle: what its shape's surface does to the ground is what a belt does to a box, whichever came first.
+// A tracked vehicle: what its shape's surface does to the ground is what a belt does to a box, whichever came
+// first.
 TEST(Materials, TracksDriveOnGroundAndBelt) {
   for (const double belt : {0.0, 3.0}) {
     World world(without_sleep());
@@ -250,6 +251,22 @@ TEST(Events, PreSolveMakesOneWayPlatforms) {
   }
   EXPECT_NEAR(highest, -2 + 81 / (2 * kGravity), 1e-2);
   EXPECT_NEAR(world.position(ball).y, 0.35, 1e-3);
+}
+
+// As a game lets a character drop through a platform: the answer changes while they touch.
+TEST(Events, PreSolveLetsGoOfWhatRests) {
+  World world(without_sleep());
+  const ShapeId platform = world.create_shape(world.create_body({.type = BodyType::Static}),
+                                              {.geometry = Box{4, 0.2}, .pre_solve = true});
+  ASSERT_TRUE(world.valid(platform));
+  const BodyId ball = add_body(world, {0, 0.4}, {.geometry = Circle{0.25}});
+  bool holds = true;
+  world.on_pre_solve([&](const ContactReading&) { return holds; });
+  run(world, 60);
+  ASSERT_NEAR(world.position(ball).y, 0.35, 1e-3);
+  holds = false;
+  run(world, 60);
+  EXPECT_NEAR(world.position(ball).y, 0.35 - kGravity / 2, 1e-2);
 }
 
 TEST(Contacts, AreReadWithTheirForces) {

@@ -334,6 +334,31 @@ TYPED_TEST(ForceLaws, ALawOfOnesOwnActsOnAwakeBodiesAlone) {
   EXPECT_NEAR(world.velocity(asleep).x, 1.5, 1e-6);
 }
 
+TYPED_TEST(ForceLaws, ALawOfOnesOwnKnowsTheBody) {
+  typename TestFixture::World world(weightless());
+  const BodyId body = world.create_body({.position = {1, 2},
+                                         .angle = 0.5,
+                                         .velocity = {3, 4},
+                                         .angular_velocity = -2,
+                                         .mass = MassProperties{5, {}, 6},
+                                         .user_data = 7},
+                                        kDisc);
+  int asked = 0;
+  apply_law(world, [&](const LawBody& seen) -> Wrench<double> {
+    ++asked;
+    EXPECT_EQ(seen.id, body);
+    EXPECT_EQ(seen.centre, (Vec2d{1, 2}));
+    EXPECT_EQ(seen.angle, 0.5);
+    EXPECT_EQ(seen.velocity, (Vec2d{3, 4}));
+    EXPECT_EQ(seen.angular_velocity, -2);
+    EXPECT_EQ(seen.mass, 5);
+    EXPECT_EQ(seen.inertia, 6);
+    EXPECT_EQ(seen.user_data, 7u);
+    return {};
+  });
+  EXPECT_EQ(asked, 1);
+}
+
 TYPED_TEST(ForceLaws, ALawThatFailsNamesTheBodyAndChangesNothing) {
   typename TestFixture::World world(weightless());
   world.set_quarantine(false);

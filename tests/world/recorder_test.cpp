@@ -196,6 +196,25 @@ TYPED_TEST(Recorder, FindsTheFirstStepThatDiffers) {
   EXPECT_NE(replay<TypeParam>(file).message.find("pre-solve hook"), std::string::npos);
 }
 
+// The hook that was recorded always held the box; the replay's lets go of it in step 40, and not before.
+TEST(RecordingFile, TheFirstStepThatDiffersIsNamed) {
+  const RecordedFile file;
+  {
+    RecordedWorld<float> world(file, {.sleeping = false});
+    world.on_pre_solve([](const ContactReading&) { return true; });
+    world.create_body({.type = BodyType::Static},
+                      {.geometry = Box{20, 1}, .position = {0, -0.5}, .pre_solve = true});
+    world.create_body({.position = {0, 0.5}}, {.geometry = Box{1, 1}});
+    for (int i = 0; i < 60; ++i) world.step();
+  }
+  Replay<float>* playing = nullptr;
+  Replay<float> again(file, [&](const ContactReading&) { return playing->world().step_count() < 39; });
+  playing = &again;
+  while (again.step()) {
+  }
+  EXPECT_EQ(again.report().first_difference, 40);
+}
+
 // The file of a program that was killed: cut anywhere, it gives all steps that it has whole, and says so.
 TEST(RecordingFile, ACutEndIsTolerated) {
   const RecordedFile file;

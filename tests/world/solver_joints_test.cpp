@@ -111,6 +111,21 @@ TEST_P(SolverJoints, WheelsSagByTheirSpring) {
   EXPECT_LT(world.read(joint).linear_error, 1e-9);
 }
 
+TEST_P(SolverJoints, WheelsKeepToTheirAxis) {
+  DoubleWorld world(with(GetParam()));
+  const BodyId wheel = add_mass(world, {0, 0}, 3, 1);
+  const JointId joint =
+      world.create_joint(add_hook(world), wheel, {.kind = WheelDefinition{.spring = Spring{2, 0.7}}});
+  for (int i = 0; i < 600; ++i) {
+    world.apply_force(wheel, {30, 0});
+    world.step();
+  }
+  // Soft steps hold it by a spring of a quarter of the substep's rate, 60 Hz.
+  const double soft = 30 / (3 * std::pow(2 * test::kPi * 60, 2));
+  EXPECT_NEAR(world.position(wheel).x, 0, GetParam() == Solver::SoftSteps ? 1.001 * soft : 1e-9);
+  EXPECT_NEAR(world.read(joint).force, std::hypot(30, 3 * kGravity), 1e-6);
+}
+
 TEST_P(SolverJoints, MotorJointsReachTheirTarget) {
   DoubleWorld world(test::weightless(GetParam()));
   const BodyId body = add_mass(world, {0, 0}, 3, 1);

@@ -107,6 +107,18 @@ TEST(World, JointsBreakAtTheirForce) {
   }
 }
 
+TEST(World, JointsBreakAtTheirTorque) {
+  for (const double strength : {50.0, 200.0}) {
+    World world;
+    const BodyId wall = world.create_body({.type = BodyType::Static});
+    const BodyId beam = add_box(world, {1, 0}, 10, 2, 0.5);  // 98.1 N at an arm of 1 m
+    const JointId weld = world.create_joint(
+        wall, beam, {.kind = WeldDefinition{.anchor_b = {-1, 0}}, .break_torque = strength});
+    for (int i = 0; i < 120; ++i) world.step();
+    EXPECT_EQ(world.valid(weld), strength > 98.1) << strength << " N m";
+  }
+}
+
 TEST(World, JoinedBodiesTouchOnlyIfAsked) {
   for (const bool collide : {false, true}) {
     World world(weightless());
