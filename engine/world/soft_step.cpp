@@ -53,16 +53,22 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   prepare_direct_islands(w, joints);
   find_bounces(w);
   bool strikes = false;
+  const auto place = [&] {
+    strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
+    if (strikes)
+      resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+  };
   for (int substep = 0; substep < substeps; ++substep) {
     // Blows are not repeated.
     const bool repeat = substep > 0 && !jointed && !strikes;
     note_approaches(bodies.motion, w.scratch.bounces, contacts);
     repeat ? repeat_velocities(w) : integrate_velocities(w);
+    // What joints and contacts of a mechanism did last cancels only when they are solved: until then their
+    // impulses make no approach.
+    if (jointed) place();
     if (jointed) w.joint_set.warm_start(bodies, joints);
     if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
-    strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
-    if (strikes)
-      resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+    if (!jointed) place();
     let_pass(w.scratch.bounces);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, joints, true);

@@ -126,6 +126,28 @@ TEST(Impacts, APressIsNone) {
   EXPECT_NEAR(world.velocity(ball).y, 0, 1e-3);
 }
 
+// A carriage on a guide is stopped by the ground in one substep, and a ball that comes after it meets it in a
+// later one: it is at rest then, and the ball leaves at e times its speed. What stopped the carriage is as an
+// impulse still there when the next substep begins, and must not throw it at the ball.
+TEST(Impacts, AStopIsNoThrowAtTheNext) {
+  constexpr double kSpeed = 6, kBounce = 0.8;
+  for (int i = 8; i <= 40; ++i) {
+    World world(weightless());
+    const BodyId ground = add_ground(world);
+    const double below = 0.004 * i, above = 0.002 * i;  // m; a substep is 0.025 m
+    const BodyId carriage = add_body(world, {0, 0.5 + below}, {.geometry = Box{1, 1}}, {0, -kSpeed});
+    world.create_joint(
+        ground, carriage,
+        {.kind = PrismaticDefinition{.anchor_a = {0, 0.5 + below}, .axis = {0, 1}}, .collide = true});
+    const BodyId ball = add_body(
+        world, {0, 1.2 + below + above},
+        {.geometry = Circle{0.2}, .density = 1e-5, .material = {.restitution = kBounce}}, {0, -kSpeed});
+    run(world, 12);
+    EXPECT_NEAR(world.velocity(ball).y, kBounce * kSpeed, 1e-5 * kSpeed) << below << " " << above;
+    EXPECT_NEAR(world.velocity(carriage).y, 0, 1e-5 * kSpeed) << below << " " << above;
+  }
+}
+
 // Sequential impacts of pairs: the speed runs through the row, whether its balls touch or not.
 TEST(Impacts, ACradleHandsTheSpeedOn) {
   for (const double gap : {0.0, 1e-4, 0.01, 0.3}) {
