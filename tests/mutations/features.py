@@ -184,7 +184,7 @@ FEATURES = [
     feature("Scenes are one way in", WORLD + "add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",
             "world/add_scene"),
     feature("Constants in one place", WORLD + "narrow_phase.cpp",
-            "Real(tuning::kContactReach) * smaller", "Real(tuning::kContactReach)", "world/world"),
+            "Real(tuning::kContactReach) * smaller", "Real(tuning::kContactReach)", "extremes/figures"),
     feature("Handles that know what is gone", WORLD + "slots.h", "generations_[index] == generation && ", "",
             "world/world"),
     feature("Typed errors", WORLD + "world.cpp", "if (substeps < 1 || substeps > 1000) {", "if (substeps < 1) {",

@@ -72,7 +72,7 @@ SUITES = {
     "precise": (["test_simulation"], ["-L", "unit", "-R", "^simulation/Precise"]),
     "world": (["test_collide", "test_joints", "test_solve", "test_world"],
               ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
-    "features": (["test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
+    "features": (["test_extremes", "test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
 }
 
 
