@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/integrate/dop853_coefficients.h"
 
@@ -12,13 +13,18 @@ namespace plumb {
 using namespace dop853;
 
 Dop853::Dop853(std::size_t dimension)
-    : rates_(kAllStages, std::vector<double>(dimension)), at_stage_(dimension), increment_(dimension) {}
+    : rates_(kAllStages, std::vector<double>(dimension)),
+      dimension_(dimension),
+      at_stage_(dimension),
+      increment_(dimension) {}
 
 std::span<double> Dop853::last_rate() { return rates_[kStages]; }
 std::span<const double> Dop853::last_rate() const { return rates_[kStages]; }
 void Dop853::advance() { std::swap(rates_.front(), rates_[kStages]); }
 
-void Dop853::weighted_sum(const double* weights, int stages, std::span<double> out) const {
+/// Hands each component's sum to `store`.
+template <class Store>
+void Dop853::weighted_sum(const double* weights, int stages, const Store& store) const {
   const double* rate[kAllStages];
   double weight[kAllStages];
   int count = 0;
@@ -28,31 +34,30 @@ void Dop853::weighted_sum(const double* weights, int stages, std::span<double> o
     weight[count++] = weights[j];
   }
   // A part at a time, such that its sums stay in registers; stages are added in their order.
-  constexpr std::size_t kPart = 4;
-  const std::size_t whole = out.size() - out.size() % kPart;
-  for (std::size_t i = 0; i < whole; i += kPart) {
-    double sum[kPart] = {};
-    for (int j = 0; j < count; ++j) {
-      for (std::size_t k = 0; k < kPart; ++k) sum[k] += weight[j] * rate[j][i + k];
+  std::size_t first = 0;
+  const auto go_by = [&]<std::size_t kPart>(std::integral_constant<std::size_t, kPart>) {
+    for (; first + kPart <= dimension_; first += kPart) {
+      double sum[kPart] = {};
+      for (int j = 0; j < count; ++j) {
+        const double w = weight[j], *part = rate[j] + first;
+        for (std::size_t k = 0; k < kPart; ++k) sum[k] += w * part[k];
+      }
+      for (std::size_t k = 0; k < kPart; ++k) store(first + k, sum[k]);
     }
-    std::copy(sum, sum + kPart, out.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  for (std::size_t i = whole; i < out.size(); ++i) {
-    double sum = 0;
-    for (int j = 0; j < count; ++j) sum += weight[j] * rate[j][i];
-    out[i] = sum;
-  }
+  };
+  go_by(std::integral_constant<std::size_t, 8>{});
+  go_by(std::integral_constant<std::size_t, 4>{});
+  go_by(std::integral_constant<std::size_t, 2>{});
+  go_by(std::integral_constant<std::size_t, 1>{});
 }
 
 // k_s = f(t + c_s h, y + h sum_{j < s} a_sj k_j),   increment = h sum b_s k_s
 void Dop853::step(Flow& flow, double time, double h, std::span<const double> y) {
   for (int s = 1; s < kStages; ++s) {
-    weighted_sum(kA[s], s, at_stage_);
-    for (std::size_t i = 0; i < y.size(); ++i) at_stage_[i] = y[i] + h * at_stage_[i];
+    weighted_sum(kA[s], s, [&](std::size_t i, double sum) { at_stage_[i] = y[i] + h * sum; });
     flow.rate(time + kC[s] * h, at_stage_, rates_[s]);
   }
-  weighted_sum(kB, kStages, increment_);
-  for (double& x : increment_) x *= h;
+  weighted_sum(kB, kStages, [&](std::size_t i, double sum) { increment_[i] = sum * h; });
 }
 
 double Dop853::error(double h, std::span<const double> scale) const {
@@ -83,8 +88,7 @@ double Dop853::stiffness(double h, std::span<const double> y_end, std::span<cons
 void Dop853::polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out) {
   for (int s = 0; s < kDenseStages; ++s) {
     const int stage = kStages + 1 + s;
-    weighted_sum(kDenseA[s], stage, at_stage_);
-    for (std::size_t i = 0; i < y.size(); ++i) at_stage_[i] = y[i] + h * at_stage_[i];
+    weighted_sum(kDenseA[s], stage, [&](std::size_t i, double sum) { at_stage_[i] = y[i] + h * sum; });
     flow.rate(time + kDenseC[s] * h, at_stage_, rates_[stage]);
   }
   // The publication's terms are products of s and 1 - s in turn; here 1 - s is -(s - 1).
@@ -98,8 +102,7 @@ void Dop853::polynomial(Flow& flow, double time, double h, std::span<const doubl
   constexpr double kSign[kDenseTerms] = {1, 1, -1, -1};
   for (int k = 0; k < kDenseTerms; ++k) {
     const std::span<double> term = out.term(4 + k);
-    weighted_sum(kDenseD[k], kAllStages, term);
-    for (double& x : term) x *= kSign[k] * h;
+    weighted_sum(kDenseD[k], kAllStages, [&](std::size_t i, double sum) { term[i] = sum * (kSign[k] * h); });
   }
 }
 

@@ -47,9 +47,11 @@ class Dop853 {
   void advance();
 
  private:
-  void weighted_sum(const double* weights, int stages, std::span<double> out) const;
+  template <class Store>
+  void weighted_sum(const double* weights, int stages, const Store& store) const;
 
   std::vector<std::vector<double>> rates_;  // by stage; the last one of the step; the polynomial's stages
+  std::size_t dimension_;
   std::vector<double> at_stage_, increment_;
 };
 

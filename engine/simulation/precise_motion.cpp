@@ -192,6 +192,11 @@ std::vector<std::string> EquationsOfMotion::redundant_joints(double time, std::s
   return names;
 }
 
+bool EquationsOfMotion::has_hinges_alone() const {
+  return forces_.empty() && !kind_joints_.has_springs() && kind_joints_.stops().empty() &&
+         joints_.distance.empty() && kind_joints_.row_count() == 0 && !wide_mass_ratio_;
+}
+
 /// multipliers = A^-1 right_side.
 void EquationsOfMotion::solve_joints() {
   std::copy(right_side_.begin(), right_side_.end(), multipliers_.begin());

@@ -37,11 +37,15 @@ class EquationsOfMotion final : public Flow {
   /// Switched forces act with their share of this time in all that follows.
   void set_window(double start, double end) { window_start_ = start, window_end_ = end; }
 
+  /// Puts `poses` and `twists` where bodies are in state y.
+  void place(double time, std::span<const double> y);
+
   /// dy/dt. Counts as one evaluation.
   void rate(double time, std::span<const double> y, std::span<double> out) override;
   /// The same, and `rows` and `multipliers` are those of this state then.
   void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
+  void count_evaluation() { ++evaluations_; }
   void set_evaluations(std::int64_t count) { evaluations_ = count; }
 
   /// Moves positions and angles by the least mass-weighted amount that closes all joints and held contacts,
@@ -103,6 +107,9 @@ class EquationsOfMotion final : public Flow {
   /// Adds `scale` times `response` to the velocities in `y`.
   void kick(std::span<const Twist<double>> response, double scale, Compensated& y) const;
 
+  /// Whether gravity and hinges, of masses not far apart, are all that acts but for contacts.
+  bool has_hinges_alone() const;
+
   double inverse_mass(std::size_t body) const { return inverse_mass_[body]; }
   double inverse_inertia(std::size_t body) const { return inverse_inertia_[body]; }
 
@@ -129,7 +136,6 @@ class EquationsOfMotion final : public Flow {
   Cost cost;
 
  private:
-  void place(double time, std::span<const double> y);
   void find_rows(std::span<Row<double>> out) const;
   void linearise();
   bool only_hinges() const { return !hinges_.empty() && !holds_anything(); }

@@ -53,16 +53,17 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       equations_(equations),
       method_(precise.method),
       ballistic_(parts.ballistic),
-      explicit_(equations.dimension()),
+      hanging_(scene, parts, equations, precise.method != MotionMethod::Symplectic),
+      all_(equations, equations.dimension()),
+      angles_(hanging_, hanging_.dimension()),
       implicit_(equations.dimension()),
       stiff_motion_(scene, parts, equations),
       symplectic_(equations),
+      control_(hanging_.empty() ? StepControl::kUsual : StepControl::kCareful),
       stiff_(precise.method == MotionMethod::Implicit),
       y0_(equations.dimension()),
       y_(equations.dimension()),
-      y_before_(equations.dimension()),
-      polynomial_(equations.dimension()),
-      error_scale_(equations.dimension()) {
+      y_before_(equations.dimension()) {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Body& body = scene.bodies[bodies_[slot]];
     names_.push_back(body.name);
@@ -77,10 +78,10 @@ void SmoothMotion::begin() {
   equations_.set_window(time_, time_);  // what is switched on now stays on to the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
-    explicit_.advance();
+    now().method.advance();
   } else {
     equations_.forget_rank();
-    equations_.rate(time_, y_.value(), explicit_.first_rate());
+    now().flow.rate(time_, seen(y_), now().method.first_rate());
     rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   }
   before_ = last_implicit_ ? time_ : start_;
@@ -147,7 +148,7 @@ double SmoothMotion::step(double limit) {
     }
     first_length = 0;
     if (singular && !stiff_ && leap(limit)) return time_;
-    proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : StepControl::after_rejection(error));
+    proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : control_.after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
 }
@@ -156,9 +157,9 @@ double SmoothMotion::step(double limit) {
 void SmoothMotion::fly(double end) {
   const double h = end - start_;
   const std::span<const double> rate = rate_at_start();
-  const std::span<double> last = explicit_.last_rate();
-  polynomial_.set_nodes(std::array{0.0, 1.0});
-  const std::span<double> whole = polynomial_.term(1), bend = polynomial_.term(2);
+  const std::span<double> last = all_.method.last_rate();
+  all_.polynomial.set_nodes(std::array{0.0, 1.0});
+  const std::span<double> whole = all_.polynomial.term(1), bend = all_.polynomial.term(2);
   y_ = y0_;
   for (std::size_t i = 0; i < y_.size(); ++i) {
     const bool place = i % kPerBody < 3;
@@ -181,24 +182,24 @@ bool SmoothMotion::leap(double limit) {
   const double h = start_ - before_;
   if (!(h > kShortestLeap * scales_.length / scales_.speed)) return false;
   std::vector<double> rate(rate_at_start().begin(), rate_at_start().end());
-  equations_.rate(before_, y_before_.value(), explicit_.first_rate());
-  explicit_.step(equations_, before_, h, y_before_.value());
-  std::copy(rate.begin(), rate.end(), explicit_.last_rate().begin());
+  equations_.rate(before_, y_before_.value(), all_.method.first_rate());
+  all_.method.step(equations_, before_, h, y_before_.value());
+  std::copy(rate.begin(), rate.end(), all_.method.last_rate().begin());
   StepPolynomial path(y_.size());
-  explicit_.polynomial(equations_, before_, h, y_before_.value(), path);
-  std::copy(rate.begin(), rate.end(), explicit_.first_rate().begin());
+  all_.method.polynomial(equations_, before_, h, y_before_.value(), path);
+  std::copy(rate.begin(), rate.end(), all_.method.first_rate().begin());
   for (const double share : kShares) {
     const double end = start_ + share * h;
     if (end > limit) continue;
     double error = 0, product = 1;
     for (const double node : path.nodes()) product *= 1 + share - node;
     for (std::size_t i = 0; i < y_.size(); ++i) {
-      error = std::max(error, std::abs(product * path.term(path.degree())[i]) / error_scale_[i]);
+      error = std::max(error, std::abs(product * path.term(path.degree())[i]) / all_.error_scale[i]);
     }
     if (!(error * kLocalShare <= 1)) continue;
-    polynomial_.carry_on(path, share);
+    all_.polynomial.carry_on(path, share);
     y_ = y0_;
-    for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, polynomial_.at(1, i));
+    for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, all_.polynomial.at(1, i));
     equations_.forget_rank();
     try {
       project(end, y_);
@@ -226,13 +227,14 @@ bool SmoothMotion::leap(double limit) {
 double SmoothMotion::try_step(double end, bool again) {
   const double h = end - start_;
   if (!stiff_) {
-    explicit_.step(equations_, start_, h, y0_.value());
-    return explicit_.error(h, error_scale_);
+    now().method.step(now().flow, start_, h, seen(y0_));
+    return now().method.error(h, now().error_scale);
   }
   if (again) implicit_.forget();
-  const bool found = implicit_.step(stiff_motion_, start_, h, y0_.value(), rate_at_start(), error_scale_);
+  const std::span<const double> scale = all_.error_scale;
+  const bool found = implicit_.step(stiff_motion_, start_, h, y0_.value(), rate_at_start(), scale);
   if (!found) return kNotFound;
-  return implicit_.error(stiff_motion_, start_, h, y0_.value(), rate_at_start(), error_scale_, again);
+  return implicit_.error(stiff_motion_, start_, h, y0_.value(), rate_at_start(), scale, again);
 }
 
 /// The step just taken, of length h.
@@ -256,35 +258,48 @@ double SmoothMotion::end_of_step(double limit) const {
 /// y = y0 + increment, with joints closed.
 void SmoothMotion::take_increment(double end) {
   y_ = y0_;
-  const std::span<const double> increment = last_implicit_ ? implicit_.increment() : explicit_.increment();
-  for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, increment[i]);
+  const std::span<const double> increment =
+      last_implicit_ ? implicit_.increment() : last().method.increment();
+  if (was_in_angles()) {
+    hanging_.add([&](std::size_t i) { return increment[i]; }, y_);
+  } else {
+    for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, increment[i]);
+  }
   project(end, y_);
   time_ = end;
   polynomial_known_ = rate_known_ = false;
 }
 
+std::span<const double> SmoothMotion::seen(const Compensated& y) {
+  return in_angles() ? hanging_.taken_from(y.value()) : y.value();
+}
+
 void SmoothMotion::project(double time, Compensated& y) {
   const Clock clock(equations_.cost.on, projection_nanoseconds);
-  equations_.project(time, y);
+  if (hanging_.empty()) {
+    equations_.project(time, y);
+  } else {
+    hanging_.hang(time, y);
+  }
 }
 
 std::span<const double> SmoothMotion::rate_at_end() {
-  if (!rate_known_) equations_.rate(time_, y_.value(), explicit_.last_rate());
+  if (!rate_known_) now().flow.rate(time_, seen(y_), now().method.last_rate());
   rate_known_ = true;
-  return explicit_.last_rate();
+  return now().method.last_rate();
 }
 
 const StepPolynomial& SmoothMotion::polynomial() {
   if (!polynomial_known_) {
     if (last_implicit_) {
-      implicit_.polynomial(polynomial_);
+      implicit_.polynomial(all_.polynomial);
     } else {
       rate_at_end();
-      explicit_.polynomial(equations_, start_, time_ - start_, y0_.value(), polynomial_);
+      now().method.polynomial(now().flow, start_, time_ - start_, seen(y0_), now().polynomial);
     }
     polynomial_known_ = true;
   }
-  return polynomial_;
+  return last().polynomial;
 }
 
 void SmoothMotion::at(double time, bool project_too, Compensated& out) {
@@ -300,8 +315,12 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
   }
   const StepPolynomial& path = polynomial();
   const double s = (time - start_) / (time_ - start_);
-  for (std::size_t i = 0; i < out.size(); ++i) out.add(i, path.at(s, i));
-  if (project_too) project(time, out);
+  if (was_in_angles()) {
+    hanging_.add([&](std::size_t i) { return path.at(s, i); }, out);
+  } else {
+    for (std::size_t i = 0; i < out.size(); ++i) out.add(i, path.at(s, i));
+  }
+  if (project_too || was_in_angles()) project(time, out);
 }
 
 void SmoothMotion::cut(double time) {
@@ -310,11 +329,11 @@ void SmoothMotion::cut(double time) {
   } else if (y_.size() > 0 && last_implicit_) {
     implicit_.forget();
     const bool found =
-        implicit_.step(stiff_motion_, start_, time - start_, y0_.value(), rate_at_start(), error_scale_);
+        implicit_.step(stiff_motion_, start_, time - start_, y0_.value(), rate_at_start(), all_.error_scale);
     if (!found) blame_fastest();
     take_increment(time);
   } else if (y_.size() > 0) {
-    explicit_.step(equations_, start_, time - start_, y0_.value());
+    now().method.step(now().flow, start_, time - start_, seen(y0_));
     take_increment(time);
   }
   time_ = time;
@@ -354,44 +373,6 @@ void SmoothMotion::start_anew() {
 double SmoothMotion::next_switch() const {
   const auto next = std::upper_bound(switches_.begin(), switches_.end(), time_);
   return next == switches_.end() ? std::numeric_limits<double>::infinity() : *next;
-}
-
-/// What an error of 1 is, by component: the tolerance times the scene's length and speed, a body's own speed
-/// where that is more, and one radian.
-void SmoothMotion::set_error_scale() {
-  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
-    const BodyState now = EquationsOfMotion::state(y_.value(), slot);
-    const double speed = std::max(scales_.speed, std::sqrt(length_squared(now.velocity)));
-    const double spin = std::max(scales_.speed / scales_.length, std::abs(now.angular_velocity));
-    const double scale[kPerBody] = {scales_.length, scales_.length, 1, speed, speed, spin};
-    for (std::size_t i = 0; i < kPerBody; ++i) error_scale_[kPerBody * slot + i] = tolerance_ * scale[i];
-  }
-}
-
-/// A tenth of the time in which anything changes by its scale.
-double SmoothMotion::first_step() const {
-  double fastest = 0;
-  for (std::size_t i = 0; i < y_.size(); ++i) {
-    fastest = std::max(fastest, std::abs(explicit_.first_rate()[i]) * (tolerance_ / error_scale_[i]));
-  }
-  const double eighth = std::sqrt(std::sqrt(std::sqrt(tolerance_)));  // the method's error goes with h^8
-  return fastest > 0 ? std::min(std::max(0.1, eighth) / fastest, longest_step_) : longest_step_;
-}
-
-void SmoothMotion::blame_fastest() const {
-  std::size_t worst = 0;
-  double fastest = -1;
-  for (std::size_t i = 0; i < y_.size() && !std::isnan(fastest); ++i) {
-    const double change = std::abs(explicit_.first_rate()[i]) / error_scale_[i];
-    if (change <= fastest) continue;
-    worst = i;
-    fastest = change;
-  }
-  const std::string subject = names_.empty() ? "the scene" : "body '" + names_[worst / kPerBody] + "'";
-  if (!std::isfinite(fastest))
-    throw Error(Error::Kind::Run, subject, "acceleration", shortest(fastest), "not finite");
-  throw Error(Error::Kind::Run, subject, "step", shortest(proposed_step_) + " s",
-              "the motion changes too fast for any step; a larger tolerance or Realtime may do");
 }
 
 }  // namespace plumb::precise

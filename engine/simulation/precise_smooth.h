@@ -13,6 +13,7 @@
 #include "engine/integrate/step_polynomial.h"
 #include "engine/scene/scene.h"
 #include "engine/simulation/accuracy.h"
+#include "engine/simulation/precise_hanging.h"
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_stiff.h"
@@ -41,12 +42,9 @@ class SmoothMotion {
   double start() const { return start_; }  ///< s: where the last step began
   const Compensated& state_at_start() const { return y0_; }
 
-  /// dy/dt where the last step began, and where it ended.
-  std::span<const double> rate_at_start() const { return explicit_.first_rate(); }
-  std::span<const double> rate_at_end();
-
   /// The polynomial over the last step, as the state's distance from `state_at_start` with s = (t - start) /
-  /// (time - start). Of order 7; made when first asked for after a step.
+  /// (time - start). Of order 7; made when first asked for after a step. Where shapes may touch and limits of
+  /// joints be met, all coordinates have one.
   const StepPolynomial& polynomial();
 
   /// The state at a time within the last step, by its polynomial. `project` closes the joints there too.
@@ -82,6 +80,25 @@ class SmoothMotion {
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
+  /// What explicit steps are made in: all coordinates, or angles alone where these say where all is.
+  struct Coordinates {
+    Coordinates(Flow& its_flow, std::size_t dimension)
+        : flow(its_flow), method(dimension), polynomial(dimension), error_scale(dimension, 1.0) {}
+    Flow& flow;
+    Dop853 method;
+    StepPolynomial polynomial;
+    std::vector<double> error_scale;
+  };
+  bool in_angles() const { return !hanging_.empty() && !stiff_; }  // the next step
+  Coordinates& now() { return in_angles() ? angles_ : all_; }
+  const Coordinates& now() const { return in_angles() ? angles_ : all_; }
+  bool was_in_angles() const { return !hanging_.empty() && !last_implicit_; }  // the last step
+  Coordinates& last() { return was_in_angles() ? angles_ : all_; }
+  const Coordinates& last() const { return was_in_angles() ? angles_ : all_; }
+  std::span<const double> seen(const Compensated& y);
+  std::span<const double> rate_at_start() const { return now().method.first_rate(); }
+  std::span<const double> rate_at_end();
+
   bool flies() const { return ballistic_ && !equations_.holds_anything(); }
   void begin();
   void fly(double end);
@@ -109,7 +126,8 @@ class SmoothMotion {
   EquationsOfMotion& equations_;
   const MotionMethod method_;
   const bool ballistic_;  // but for contacts
-  Dop853 explicit_;
+  HangingTree hanging_;
+  Coordinates all_, angles_;
   Radau implicit_;
   StiffMotion stiff_motion_;
   SymplecticMotion symplectic_;
@@ -121,10 +139,8 @@ class SmoothMotion {
   Compensated y0_, y_;  // where the last step began and ended
   double before_ = 0;   // s: where the step before that began, with what state; its own start: there is none
   Compensated y_before_;
-  StepPolynomial polynomial_;
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
-  std::vector<double> error_scale_;
-  double proposed_step_ = 0;  // s; 0: none yet
+  double proposed_step_ = 0;                            // s; 0: none yet
   struct Rank {
     double weakest = 1;
     int dependent = 0;

@@ -19,15 +19,16 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
        {rejected_, implicit_steps_, leaps_, std::int64_t{rank_at_start_.dependent},
         std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_}, std::int64_t{stiff_},
         std::int64_t{last_implicit_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
-        std::int64_t{with_polynomial ? polynomial_.degree() : 0}}) {
+        std::int64_t{with_polynomial ? last().polynomial.degree() : 0}}) {
     out.put(number);
   }
   for (const Compensated* y : {&y0_, &y_}) put(y->value()), put(y->carry());
-  if (rate_known_) put(explicit_.last_rate());
+  if (rate_known_) put(now().method.last_rate());
   if (implicit_.last_step() > 0) put(implicit_.memory());
   if (!with_polynomial) return;
-  put(polynomial_.nodes());
-  for (int k = 1; k <= polynomial_.degree(); ++k) put(polynomial_.term(k));
+  const StepPolynomial& path = last().polynomial;
+  put(path.nodes());
+  for (int k = 1; k <= path.degree(); ++k) put(path.term(k));
 }
 
 void SmoothMotion::restore(SnapshotReader& in) {
@@ -57,7 +58,7 @@ void SmoothMotion::restore(SnapshotReader& in) {
     get(value);
     for (std::size_t i = 0; i < value.size(); ++i) y->set(i, value[i], in.get<double>());
   }
-  if (rate_known_) get(explicit_.last_rate());
+  if (rate_known_) get(now().method.last_rate());
   implicit_.forget();
   if (last_step > 0) {
     std::vector<double> memory(implicit_.memory().size());
@@ -67,8 +68,9 @@ void SmoothMotion::restore(SnapshotReader& in) {
   polynomial_known_ = degree > 0;
   std::vector<double> nodes(static_cast<std::size_t>(degree));
   get(nodes);
-  polynomial_.set_nodes(nodes);
-  for (int k = 1; k <= polynomial_.degree(); ++k) get(polynomial_.term(k));
+  StepPolynomial& path = last().polynomial;
+  path.set_nodes(nodes);
+  for (int k = 1; k <= path.degree(); ++k) get(path.term(k));
   equations_.set_window(start_, start_);
 }
 

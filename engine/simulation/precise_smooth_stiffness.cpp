@@ -17,7 +17,7 @@ void SmoothMotion::watch_stiffness() {
   const double h = time_ - start_;
   if (!stiff_) {
     rate_at_end();
-    if (explicit_.stiffness(h, y_.value(), error_scale_) > kStable) {
+    if (now().method.stiffness(h, seen(y_), now().error_scale) > kStable) {
       steps_without_ = 0;
       if (++signs_of_stiffness_ < kSigns) return;
     } else {
@@ -30,6 +30,7 @@ void SmoothMotion::watch_stiffness() {
     if (h * fastest_rate() > kStable / 2) return;
   }
   stiff_ = !stiff_;
+  if (!hanging_.empty()) rate_known_ = false;  // of the other coordinates
   signs_of_stiffness_ = steps_without_ = 0;
   control_.reset();
   implicit_.forget();
@@ -44,12 +45,12 @@ double SmoothMotion::fastest_rate() {
   std::vector<double> y(y_.size()), out(y_.size()), direction(y_.size());
   for (std::size_t i = 0; i < direction.size(); ++i) {  // any that has a part of every mode
     const double mixed = static_cast<double>(static_cast<std::uint32_t>(i + 1) * 2654435761u) / 4294967296.0;
-    direction[i] = error_scale_[i] * (mixed - 0.5);
+    direction[i] = all_.error_scale[i] * (mixed - 0.5);
   }
   const auto size = [&](std::span<const double> v) {
     double largest = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
-      largest = std::max(largest, std::abs(v[i]) * (tolerance_ / error_scale_[i]));
+      largest = std::max(largest, std::abs(v[i]) * (tolerance_ / all_.error_scale[i]));
     }
     return largest;
   };

@@ -26,7 +26,7 @@ double SmoothMotion::longest_symplectic_step() {
     symplectic_.step(start_, 0.5 * h, halves);
     symplectic_.step(start_ + 0.5 * h, 0.5 * h, halves);
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      if (!(std::abs(whole[i] - halves[i]) <= error_scale_[i])) return false;
+      if (!(std::abs(whole[i] - halves[i]) <= all_.error_scale[i])) return false;
     }
     return true;
   };

@@ -25,9 +25,10 @@ TEST(StepControl, GrowsWhenTheErrorIsSmallAndShrinksWhenLarge) {
   EXPECT_GT(control.after_acceptance(1e-6), 2);
   StepControl tight;
   EXPECT_LT(tight.after_acceptance(0.99), 1);
-  EXPECT_DOUBLE_EQ(StepControl::after_rejection(INFINITY), 0.2);
-  EXPECT_DOUBLE_EQ(StepControl::after_rejection(NAN), 0.2);
-  EXPECT_NEAR(StepControl::after_rejection(16), 0.9 * std::pow(16, -1.0 / 8), 1e-14);
+  EXPECT_DOUBLE_EQ(control.after_rejection(INFINITY), 0.2);
+  EXPECT_DOUBLE_EQ(control.after_rejection(NAN), 0.2);
+  EXPECT_NEAR(control.after_rejection(16), 0.9 * std::pow(16, -1.0 / 8), 1e-14);
+  EXPECT_NEAR(StepControl(StepControl::kCareful).after_rejection(16), 0.8 * std::pow(16, -1.0 / 8), 1e-14);
 }
 
 TEST(StepControl, SettlesWhereTheErrorIsJustBelowOne) {
@@ -36,7 +37,7 @@ TEST(StepControl, SettlesWhereTheErrorIsJustBelowOne) {
   double h = 0.01;
   for (int i = 0; i < 60; ++i) {
     const double error = std::pow(h, 8);
-    h *= error <= 1 ? control.after_acceptance(error) : StepControl::after_rejection(error);
+    h *= error <= 1 ? control.after_acceptance(error) : control.after_rejection(error);
   }
   EXPECT_LT(h, 1);
   EXPECT_GT(h, 0.7);

@@ -75,6 +75,8 @@ MUTATIONS = [
     Mutation("precise: a hinge's push turns its body the wrong way", "engine/simulation/precise_hinges.cpp",
              "motion[line.b].angular_velocity += line.inertia_b * cross(block.arm_b, push);",
              "motion[line.b].angular_velocity -= line.inertia_b * cross(block.arm_b, push);", "precise"),
+    Mutation("precise: what hangs turns its parent the wrong way", "engine/simulation/precise_hanging.cpp",
+             "to.t += e.x * q.y - e.y * q.x;", "to.t -= e.x * q.y - e.y * q.x;", "precise"),
     Mutation("precise: a limit takes no part in impacts", "engine/simulation/precise_impacts.cpp",
              "return t.stop.has_value() || &t == &touches[worst];", "return &t == &touches[worst];", "precise"),
     Mutation("precise: a motor at its speed has no force one way", "engine/solve/coulomb.cpp",
