@@ -272,22 +272,24 @@ TEST(JointSet, PulleyIsAtwoodsMachine) {
 }
 
 TEST(JointSet, RatchetTurnsOneWayAndClicks) {
-  JointBench<float> bench;
-  const int wall = bench.body({}, 0, 0), wheel = bench.body({}, 1, 2);
-  bench.join(RevoluteDefinition{}, wall, wheel);
-  const int joint = bench.join(RatchetDefinition{.tooth = 0.25}, wall, wheel);
-  bench.angular_acceleration[wheel] = -2;  // held at once: it starts on a tooth
-  bench.run(1, kStep);
-  EXPECT_NEAR(bench.angle[wheel], 0, 2e-3);
-  bench.angular_acceleration[wheel] = 2;
-  bench.run(1, kStep);
-  const double reached = bench.angle[wheel];
-  EXPECT_GT(reached, 0.9);  // free
-  bench.motion[wheel].angular_velocity = 0;
-  bench.angular_acceleration[wheel] = -2;
-  bench.run(2, kStep);
-  EXPECT_NEAR(bench.angle[wheel], std::floor(reached / 0.25) * 0.25, 2e-3);
-  EXPECT_NEAR(bench.joints.torque(joint, 240), 1, 1e-2);  // holds I alpha
+  for (const float way : {1.0f, -1.0f}) {  // of a tooth's sign
+    JointBench<float> bench;
+    const int wall = bench.body({}, 0, 0), wheel = bench.body({}, 1, 2);
+    bench.join(RevoluteDefinition{}, wall, wheel);
+    const int joint = bench.join(RatchetDefinition{.tooth = 0.25 * way}, wall, wheel);
+    bench.angular_acceleration[wheel] = -2 * way;  // held at once: it starts on a tooth
+    bench.run(1, kStep);
+    EXPECT_NEAR(bench.angle[wheel], 0, 2e-3);
+    bench.angular_acceleration[wheel] = 2 * way;
+    bench.run(1, kStep);
+    const double reached = way * bench.angle[wheel];
+    EXPECT_GT(reached, 0.9);  // free
+    bench.motion[wheel].angular_velocity = 0;
+    bench.angular_acceleration[wheel] = -2 * way;
+    bench.run(2, kStep);
+    EXPECT_NEAR(way * bench.angle[wheel], std::floor(reached / 0.25) * 0.25, 2e-3);
+    EXPECT_NEAR(bench.joints.torque(joint, 240), 1, 1e-2);  // holds I alpha
+  }
 }
 
 TEST(JointSet, FrictionDeceleratesAtForceOverMassAndThenHolds) {

@@ -162,15 +162,18 @@ TEST(Sleeping, MovingPlatformsKeepTheirLoadAwake) {
 }
 
 TEST(Sleeping, EndsWhenTheSupportIsPutElsewhere) {
-  World world;
-  add_ground(world);
-  const std::vector<BodyId> boxes = add_tower(world, 3);
-  run(world, 90);
-  ASSERT_EQ(world.counts().awake, 0);
-  world.set_position(boxes[0], {20, 0.5}, 0);
-  run(world, 120);
-  EXPECT_NEAR(world.position(boxes[1]).y, 0.5, 1e-3);
-  EXPECT_NEAR(world.position(boxes[2]).y, 1.5, 1e-3);
+  for (const BodyType support : {BodyType::Dynamic, BodyType::Static}) {
+    World world;
+    add_ground(world);
+    const std::vector<BodyId> boxes = add_tower(world, 3);
+    world.set_type(boxes[0], support);
+    run(world, 90);
+    ASSERT_EQ(world.counts().awake, 0);
+    world.set_position(boxes[0], {20, 0.5}, 0);
+    run(world, 120);
+    EXPECT_NEAR(world.position(boxes[1]).y, 0.5, 1e-3);
+    EXPECT_NEAR(world.position(boxes[2]).y, 1.5, 1e-3);
+  }
 }
 
 TEST(Sleeping, EndsWhenGravityChanges) {

@@ -173,6 +173,7 @@ TEST(Handles, MisuseIsATypedErrorAndChangesNothing) {
   EXPECT_THROW(world.step(-1), Error);
   EXPECT_THROW(world.step(nan), Error);
   EXPECT_THROW(world.step(1.0 / 60, 0), Error);
+  EXPECT_THROW(world.step(1.0 / 60, 1001), Error);
   EXPECT_THROW(world.set_velocity(a, {nan, 0}), Error);
   EXPECT_THROW(world.set_position(a, {infinity, 0}, 0), Error);
   EXPECT_THROW(world.apply_impulse(a, {0, nan}), Error);
