@@ -15,6 +15,8 @@ namespace {
 
 /// Impacts, and steps, within one max_dt: more of them do not end.
 constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
+/// Of the scene's length: what lies in each other by more is a mistake, however few digits are asked for.
+constexpr double kDeepestOverlap = 1e-3;
 
 }  // namespace
 
@@ -71,6 +73,7 @@ void PreciseDriver::arrive() {
 
 PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options)
     : max_dt_(precise.max_dt),
+      overlap_(std::min(precise.tolerance, kDeepestOverlap)),
       parts_(divide(scene)),
       plan_(plan_of(scene, parts_, options.every_stage)),
       flight_(scene, parts_),
@@ -99,6 +102,7 @@ void PreciseDriver::name_redundant_joints() {
 void PreciseDriver::close_joints() {
   if (joints_closed_) return;
   smooth_.start_anew();
+  if (!contacts_.empty()) contacts_.refuse_overlaps(overlap_);
   contacts_.unsettle();
   joints_closed_ = true;
 }

@@ -51,6 +51,30 @@ void Contacts::look_at_states() {
   }
 }
 
+void Contacts::refuse_overlaps(double share) {
+  look_at_states();
+  const double near = kTouching * finder_.near(states_), allowed = share * finder_.scale_of_length() + near;
+  std::vector<OutlinePair> passing;
+  double deepest = allowed;
+  std::string subject;
+  for (const Touch& touch : finder_.touches(states_, near, passing)) {
+    for (int i = 0; i < touch.count; ++i) {
+      const double depth = -touch.rows[i].normal.residual;
+      if (!(depth > deepest)) continue;
+      deepest = depth;
+      const auto name = [&](std::size_t outline) {
+        return "'" + equations_.name(finder_.outlines()[outline].body) + "'";
+      };
+      subject = "bodies " + name(touch.pair.a) + " and " + name(touch.pair.b);
+    }
+  }
+  if (subject.empty()) return;
+  throw Error(
+      Error::Kind::Run, subject, "overlap", shortest(deepest) + " m",
+      "their shapes lie in each other by more than " + shortest(allowed) +
+          " m, and no law says how they part: place them apart, or filter the pair out; Realtime parts them");
+}
+
 void Contacts::settle() {
   const double now = smooth_.time();
   events_at_once_ =

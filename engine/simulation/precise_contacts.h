@@ -33,6 +33,10 @@ class Contacts {
   /// Nothing may touch, and joints have neither limits nor motors.
   bool empty() const { return finder_.outlines().empty() && stops_.empty(); }
 
+  /// Throws `Error` (Run) that names both bodies where shapes lie in each other by more than `share` of the
+  /// scene's length. For bodies that were placed from outside.
+  void refuse_overlaps(double share);
+
   /// At the time where the motion has stopped: after events, jumps of forces and changes from outside.
   void settle();
   bool settled() const { return settled_; }

@@ -53,7 +53,7 @@ class PreciseDriver final : public Driver {
   [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
                          const std::string& problem) const;
 
-  const double max_dt_;
+  const double max_dt_, overlap_;  // s; share of the scene's length that shapes may start in each other
   Parts parts_;
   Plan plan_;
   Flight flight_;

@@ -194,7 +194,7 @@ std::vector<std::string> EquationsOfMotion::redundant_joints(double time, std::s
 
 bool EquationsOfMotion::has_hinges_alone() const {
   return forces_.empty() && !kind_joints_.has_springs() && kind_joints_.stops().empty() &&
-         joints_.distance.empty() && kind_joints_.row_count() == 0 && !wide_mass_ratio_;
+         joints_.distance.empty() && kind_joints_.row_count() == 0;
 }
 
 /// multipliers = A^-1 right_side.
