@@ -37,7 +37,8 @@ struct Turning {
   double turn;
   double reach;  ///< m, from the centre of rotation to the farthest corner
 
-  Turning(const Convex<Real>& convex, const Sweep<Real>& sweep)
+  template <class Moving>
+  Turning(const Convex<Real>& convex, const Sweep<Moving>& sweep)
       : shape(convex),
         start(unit(sweep.start_rotation)),
         turn(static_cast<double>(sweep.turn)),
@@ -66,8 +67,9 @@ struct Bound {
 template <class Real>
 class Approach {
  public:
-  Approach(const Convex<Real>& a, const Sweep<Real>& sweep_a, const Convex<Real>& b,
-           const Sweep<Real>& sweep_b)
+  template <class Moving>
+  Approach(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
+           const Sweep<Moving>& sweep_b)
       : a_(a, sweep_a),
         b_(b, sweep_b),
         start_(sweep_b.start.template as<double>() - sweep_a.start.template as<double>()),
@@ -203,9 +205,9 @@ Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
 // Conservative advancement (Mirtich, 1996): from a time at which the shapes are apart, go on for as long as a
 // bound shows that they stay apart. The bound is of second order, so that near an impact the steps are those
 // of Newton's method.
-template <class Real>
-ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Real>& sweep_a, const Convex<Real>& b,
-                                  const Sweep<Real>& sweep_b, Real target_separation, Real tolerance) {
+template <class Real, class Moving>
+ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
+                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance) {
   using State = typename ImpactResult<Real>::State;
   Approach<Real> approach(a, sweep_a, b, sweep_b);
   double target = std::max(0.0, static_cast<double>(target_separation));
@@ -252,12 +254,15 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Real>& swee
   return finish(State::Hit);
 }
 
-#define PLUMB_INSTANTIATE(Real)                                                                            \
-  template Pose<Real> pose_at(const Sweep<Real>&, double);                                                 \
-  template ImpactResult<Real> time_of_impact(const Convex<Real>&, const Sweep<Real>&, const Convex<Real>&, \
-                                             const Sweep<Real>&, Real, Real);
-PLUMB_INSTANTIATE(float)
-PLUMB_INSTANTIATE(double)
+#define PLUMB_INSTANTIATE(Real, Moving)                                                                      \
+  template ImpactResult<Real> time_of_impact(const Convex<Real>&, const Sweep<Moving>&, const Convex<Real>&, \
+                                             const Sweep<Moving>&, Real, Real);
+PLUMB_INSTANTIATE(float, float)
+PLUMB_INSTANTIATE(float, double)
+PLUMB_INSTANTIATE(double, double)
 #undef PLUMB_INSTANTIATE
+
+template Pose<float> pose_at(const Sweep<float>&, double);
+template Pose<double> pose_at(const Sweep<double>&, double);
 
 }  // namespace plumb

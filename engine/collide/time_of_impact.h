@@ -44,9 +44,10 @@ struct ImpactResult {
 /// Shapes that already start closer than that (they rest or slide on each other) are stopped only where
 /// they come closer than half of the distance they start with.
 ///
-/// Computed in double precision for both types of Real.
-template <class Real>
-ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Real>& sweep_a, const Convex<Real>& b,
-                                  const Sweep<Real>& sweep_b, Real target_separation, Real tolerance);
+/// Computed in double precision for both types of Real. Shapes in float may move in double: at 1e8 m/s the
+/// way of a step is coarser in float than a bullet is large.
+template <class Real, class Moving = Real>
+ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
+                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance);
 
 }  // namespace plumb

@@ -79,7 +79,7 @@ class DirectRows {
   std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
-  double apart_ = 1;  // the ratio of the masses over what counts as far apart, 1 or more
+  double apart_ = 1;  // how much farther apart than usual the least and the most are that rows do
   bool contradicted_ = false;
 };
 

@@ -7,14 +7,19 @@
 namespace plumb {
 namespace {
 
+// s, in m over the fastest push out in m/s: gaps that were closed to 0 are 0 to rounding alone, and are to be
+// treated alike whichever side of it they come to lie on.
+constexpr double kClosed = 1e-8;
+
 template <class Real>
 [[gnu::always_inline]] inline void solve_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
                                              const ContactStep<Real>& step) {
   const Softness<Real>* soft = step.softness[static_cast<int>(c.hardness)];
   Pair<Real> pair(motion, c);
+  const Real closed = Real(kClosed) * c.push_speed;
   // The bias is the largest of three lines: gaps may close, overlaps are pushed out, but no faster than that.
   const auto demand = [&](Real s) {
-    const Softness<Real>& at = soft[s > 0];
+    const Softness<Real>& at = soft[s > closed];
     return Demand<Real>{std::max(s * step.inverse_h, std::max(s * soft[0].bias_rate, -c.push_speed)),
                         at.mass_scale, at.impulse_scale};
   };

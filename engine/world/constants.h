@@ -33,6 +33,11 @@ inline constexpr double kPushShare = 0.1;
 /// directly.
 inline constexpr int kDirectRows = 128;
 inline constexpr double kDirectCost = 20000;
+/// So are larger ones without joints when they are slender: this many rows at most, no more loops of contacts
+/// than this, no more contacts on any body than this.
+inline constexpr int kSlenderRows = 4096;
+inline constexpr int kSlenderLoops = 8;
+inline constexpr int kSlenderContacts = 8;
 /// Islands with joints are so only when their heaviest body has more than this many times the mass of their
 /// lightest: sweeps hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;

@@ -34,23 +34,27 @@ struct Core {
   Convex<Real> convex;
 };
 
-// The body's motion in this step, seen from `origin`. The rotation is that of the step's end, turned back.
+// The body's motion in this step, in double, seen from `origin`. The rotation is that of the step's end,
+// turned back.
 template <class Real>
-Sweep<Real> sweep_of(const WorldData<Real>& w, int body, Vec2d origin) {
+Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin) {
   const BodyMotion<Real>& motion = w.motion[body];
-  const Vec2d start = w.position[body] - motion.moved.template as<double>();
-  const Rotation<Real> q = w.rotation[body], back = rotation_of(-motion.turned);
-  return {(start - origin).template as<Real>(),
-          motion.moved,
+  const Vec2d moved = motion.moved.template as<double>();
+  const double turned = static_cast<double>(motion.turned);
+  const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
+  const Rotation<double> back = rotation_of(-turned);
+  return {w.position[body] - moved - origin,
+          moved,
           {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s},
-          motion.turned};
+          turned};
 }
 
 template <class Real>
-bool in_front(const WorldData<Real>& w, int chain_segment, Vec2<Real> point, const Sweep<Real>& chain) {
+bool in_front(const WorldData<Real>& w, int chain_segment, Vec2d point, const Sweep<double>& chain) {
   const Convex<Real> segment = w.convex(chain_segment);
-  const Vec2<Real> local = chain.start_rotation.inverse() * (point - chain.start);
-  return dot(segment.corners[0].normal, local - segment.corners[0].point) >= 0;
+  const Vec2d local = chain.start_rotation.inverse() * (point - chain.start);
+  const Corner<Real>& first = segment.corners[0];
+  return dot(first.normal.template as<double>(), local - first.point.template as<double>()) >= 0;
 }
 
 // Whether two bodies move fast relative to each other: no slower than one could pass through the other.
@@ -71,7 +75,7 @@ struct Way {
         sweep(sweep_of(w, body, origin)) {}
   int body;
   Vec2d origin;
-  Sweep<Real> sweep;
+  Sweep<double> sweep;
 };
 
 // How much of a shape is its core against another one. Two discs may not even graze each other unseen.
@@ -85,8 +89,8 @@ Real core_share(const WorldData<Real>& w, int shape, int other) {
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way<Real>& way, int shape, int other) {
-  const Sweep<Real> other_sweep = sweep_of(w, w.shapes[other].body, way.origin);
-  const Sweep<Real>& sweep = way.sweep;
+  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.origin);
+  const Sweep<double>& sweep = way.sweep;
   if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
   const Core<Real> core(whole, core_share(w, shape, other));

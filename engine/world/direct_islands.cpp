@@ -65,6 +65,24 @@ void choose_articulated(WorldData<Real>& w) {
   });
 }
 
+// Takes towers and other slender heaps into the choice, however high: contacts that close no loops, with few
+// on any body, have a factorisation of linear cost.
+template <class Real>
+void choose_slender(WorldData<Real>& w) {
+  std::vector<int>& room = w.scratch.island_room;
+  room.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
+  for (const int body : w.awake) {
+    if (!w.gives_way(body)) continue;
+    int& left = room[w.scratch.island_of[body]];
+    left = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : left + 2;
+  }
+  for (const int body : w.awake) {
+    int& size = w.scratch.island_size[body];
+    if (size > tuning::kDirectRows && size <= tuning::kSlenderRows && size <= room[body])
+      size = tuning::kDirectRows;
+  }
+}
+
 // Islands by the body that stands for them, with the most rows that each may have in `w.scratch.island_size`:
 // beyond tuning::kDirectRows they are left to the sweeps.
 template <class Real>
@@ -84,6 +102,7 @@ void find_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
+  choose_slender(w);
   if (w.joint_set.active_count() == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (joint.active) count(joint.body_a, joint.body_b, 2);

@@ -70,9 +70,10 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
   // Far from the origin positions are coarse: the margin covers their rounding.
   const Real far =
       std::max(std::abs(box.lower.x) + std::abs(box.lower.y), std::abs(box.upper.x) + std::abs(box.upper.y));
-  const Real margin =
-      Real(tuning::kBoxMargin) * w.forms[shape].extent + 4 * std::numeric_limits<Real>::epsilon() * far;
-  box = box.grown(margin);
+  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * far;
+  // What does not move needs no margin: a ground would be paired with all that is as near as a tenth of it.
+  if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
+  box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
   const Vec2<Real> ahead = (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity;
   (ahead.x > 0 ? box.upper.x : box.lower.x) += ahead.x;
   (ahead.y > 0 ? box.upper.y : box.lower.y) += ahead.y;
@@ -156,7 +157,9 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
         if (w.shapes[shape].proxy == kNone) continue;
         w.boxes[shape] = convex_bounds(w.convex(shape), pose);
-        store_box(w, shape, dt, w.boxes[shape]);
+        const Vec2<Real> ahead = dt * motion.velocity;
+        const Aabb<Real>& box = w.boxes[shape];
+        store_box(w, shape, dt, merged(box, {box.lower + ahead, box.upper + ahead}));
       }
     }
   }

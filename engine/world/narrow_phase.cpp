@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/collide/contact_manifold.h"
@@ -27,9 +28,13 @@ Real reach_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_
   return Real(tuning::kContactReach) * smaller + std::min(closing, Real(tuning::kContactReachMost) * smaller);
 }
 
+// Far from the origin boxes are as coarse as positions there: both have their place, and their size about it,
+// rounded.
 template <class Real>
 bool boxes_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
-  return !w.boxes[shape_a].grown(reach).overlaps(w.boxes[shape_b]);
+  const Aabb<Real>& box = w.boxes[shape_a];
+  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (size_of(box.lower) + size_of(box.upper));
+  return !box.grown(reach + rounding).overlaps(w.boxes[shape_b]);
 }
 
 template <class Real>

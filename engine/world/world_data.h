@@ -194,7 +194,7 @@ struct Scratch {
   std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;  ///< theirs at the step's start
   std::vector<int> bad_bodies;             ///< whose motion in the step is not to be used
-  std::vector<int> island_of, island_size, island_place;
+  std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
   /// What small islands are made of: what one of them gives up when it grows, another one takes.
