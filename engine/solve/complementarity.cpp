@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/solve/dense_system.h"
+#include "engine/solve/matrix_parts.h"
 
 namespace plumb {
 namespace {
@@ -166,9 +167,7 @@ bool holds(std::span<const double> matrix, std::span<const double> q,
   return true;
 }
 
-}  // namespace
-
-ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q) {
+ComplementaritySolution solve_part(std::span<const double> matrix, std::span<const double> q) {
   using Status = ComplementaritySolution::Status;
   const std::size_t n = q.size();
   ComplementaritySolution solution;
@@ -192,6 +191,34 @@ ComplementaritySolution solve_complementarity(std::span<const double> matrix, st
     for (std::size_t i = 0; i < n; ++i) covering[i] = 1 + static_cast<double>((i * (attempt + 3)) % 7) / 7;
   }
   solution.pivots = pivots;
+  return solution;
+}
+
+}  // namespace
+
+ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q) {
+  MatrixParts parts;
+  parts.find(q.size(), matrix);
+  if (parts.count() == 1) return solve_part(matrix, q);
+  ComplementaritySolution solution;
+  solution.z.assign(q.size(), 0.0);
+  solution.basic.assign(q.size(), 0);
+  std::vector<double> own_matrix, own_q;
+  for (std::size_t p = 0; p < parts.count(); ++p) {
+    const std::span<const std::size_t> rows = parts.part(p);
+    parts.take(p, matrix, own_matrix);
+    own_q.clear();
+    for (const std::size_t i : rows) own_q.push_back(q[i]);
+    const ComplementaritySolution own = solve_part(own_matrix, own_q);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      solution.z[rows[i]] = own.z[i];
+      solution.basic[rows[i]] = own.basic[i];
+    }
+    solution.pivots += own.pivots;
+    if (own.status == ComplementaritySolution::Status::Solved) continue;
+    solution.status = own.status;
+    return solution;
+  }
   return solution;
 }
 

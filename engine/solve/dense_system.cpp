@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace plumb {
@@ -10,52 +9,67 @@ namespace plumb {
 std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix, double dependent) {
   size_ = size;
   original_.assign(matrix.begin(), matrix.end());
-  lu_ = original_;
-  row_.resize(size);
-  column_.resize(size);
-  std::iota(row_.begin(), row_.end(), std::size_t{0});
-  std::iota(column_.begin(), column_.end(), std::size_t{0});
   work_.resize(size);
+  division_.find(size, matrix);
+  if (parts_.size() < division_.count()) parts_.resize(division_.count());
   double largest = 0;
-  for (const double x : lu_) largest = std::max(largest, std::abs(x));
-  for (rank_ = 0; rank_ < size; ++rank_) {
-    std::size_t best_row = rank_, best_column = rank_;
-    double best = 0;
-    for (std::size_t i = rank_; i < size; ++i) {
-      for (std::size_t j = rank_; j < size; ++j) {
-        const double x = std::abs(lu_[i * size + j]);
-        if (x > best) best = x, best_row = i, best_column = j;
-      }
-    }
-    if (!(best > dependent * largest)) break;
-    for (std::size_t j = 0; j < size; ++j) std::swap(lu_[best_row * size + j], lu_[rank_ * size + j]);
-    for (std::size_t i = 0; i < size; ++i) std::swap(lu_[i * size + best_column], lu_[i * size + rank_]);
-    std::swap(row_[best_row], row_[rank_]);
-    std::swap(column_[best_column], column_[rank_]);
-    eliminate(rank_);
+  for (const double x : original_) largest = std::max(largest, std::abs(x));
+  rank_ = 0;
+  for (std::size_t p = 0; p < division_.count(); ++p) {
+    Part& part = parts_[p];
+    const std::span<const std::size_t> rows = division_.part(p);
+    part.size = rows.size();
+    part.row.assign(rows.begin(), rows.end());
+    part.column = part.row;
+    division_.take(p, original_, part.lu);
+    part.factor(dependent * largest);
+    rank_ += part.rank;
   }
   return rank_;
 }
 
-void DenseSystem::eliminate(std::size_t k) {
-  for (std::size_t i = k + 1; i < size_; ++i) {
-    double& factor = lu_[i * size_ + k];
-    factor /= lu_[k * size_ + k];
-    if (factor == 0) continue;
-    for (std::size_t j = k + 1; j < size_; ++j) lu_[i * size_ + j] -= factor * lu_[k * size_ + j];
+void DenseSystem::Part::factor(double least) {
+  for (rank = 0; rank < size; ++rank) {
+    std::size_t best_row = rank, best_column = rank;
+    double best = 0;
+    for (std::size_t i = rank; i < size; ++i) {
+      for (std::size_t j = rank; j < size; ++j) {
+        const double x = std::abs(lu[i * size + j]);
+        if (x > best) best = x, best_row = i, best_column = j;
+      }
+    }
+    if (!(best > least)) break;
+    for (std::size_t j = 0; j < size; ++j) std::swap(lu[best_row * size + j], lu[rank * size + j]);
+    for (std::size_t i = 0; i < size; ++i) std::swap(lu[i * size + best_column], lu[i * size + rank]);
+    std::swap(row[best_row], row[rank]);
+    std::swap(column[best_column], column[rank]);
+    eliminate(rank);
   }
 }
 
+void DenseSystem::Part::eliminate(std::size_t k) {
+  for (std::size_t i = k + 1; i < size; ++i) {
+    double& factor = lu[i * size + k];
+    factor /= lu[k * size + k];
+    if (factor == 0) continue;
+    for (std::size_t j = k + 1; j < size; ++j) lu[i * size + j] -= factor * lu[k * size + j];
+  }
+}
+
+void DenseSystem::Part::solve(std::span<double> b, std::span<double> work) const {
+  for (std::size_t i = 0; i < size; ++i) {
+    work[i] = b[row[i]];
+    for (std::size_t j = 0; j < std::min(i, rank); ++j) work[i] -= lu[i * size + j] * work[j];
+  }
+  for (std::size_t i = rank; i-- > 0;) {
+    for (std::size_t j = i + 1; j < rank; ++j) work[i] -= lu[i * size + j] * work[j];
+    work[i] /= lu[i * size + i];
+  }
+  for (std::size_t i = 0; i < size; ++i) b[column[i]] = i < rank ? work[i] : 0.0;
+}
+
 void DenseSystem::solve(std::span<double> b) const {
-  for (std::size_t i = 0; i < size_; ++i) {
-    work_[i] = b[row_[i]];
-    for (std::size_t j = 0; j < std::min(i, rank_); ++j) work_[i] -= lu_[i * size_ + j] * work_[j];
-  }
-  for (std::size_t i = rank_; i-- > 0;) {
-    for (std::size_t j = i + 1; j < rank_; ++j) work_[i] -= lu_[i * size_ + j] * work_[j];
-    work_[i] /= lu_[i * size_ + i];
-  }
-  for (std::size_t i = 0; i < size_; ++i) b[column_[i]] = i < rank_ ? work_[i] : 0.0;
+  for (std::size_t p = 0; p < division_.count(); ++p) parts_[p].solve(b, work_);
 }
 
 void DenseSystem::solve_refined(std::span<double> b) {

@@ -4,10 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "engine/solve/matrix_parts.h"
+
 namespace plumb {
 
 /// A square linear system A x = b, factorised by Gaussian elimination with complete pivoting. Equations that
 /// depend on others are left out, and as many unknowns are zero: a consistent system is solved all the same.
+/// Unknowns that no chain of entries connects are eliminated apart, so that the cost is the sum of the parts'
+/// cubes.
 class DenseSystem {
  public:
   /// Factorises the matrix of `size` rows, row after row. Returns the rank: pivots below `dependent` times
@@ -23,11 +27,19 @@ class DenseSystem {
   std::size_t rank() const { return rank_; }
 
  private:
-  void eliminate(std::size_t k);
+  struct Part {
+    std::size_t size = 0, rank = 0;
+    std::vector<double> lu;
+    std::vector<std::size_t> row, column;  // the caller's at each place
+    void factor(double least);
+    void eliminate(std::size_t k);
+    void solve(std::span<double> b, std::span<double> work) const;
+  };
 
   std::size_t size_ = 0, rank_ = 0;
-  std::vector<double> original_, lu_;
-  std::vector<std::size_t> row_, column_;  // the caller's row and column at each place
+  std::vector<double> original_;
+  MatrixParts division_;
+  std::vector<Part> parts_;  // as many as there are; further ones keep their room
   mutable std::vector<double> work_;
   std::vector<double> residual_;
 };
