@@ -76,6 +76,7 @@ const Register r{
      .usual = 100,
      .rule = "energy within 5 % after all of them, bounces within 5 % in the first and last 1000 steps, "
              "5 cm into a wall at most",
+     .patience = 3,
      .build = build}};
 
 }  // namespace

@@ -20,6 +20,7 @@ const Register r{
      .values = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9},
      .rule = "the joints' gaps together at most 1 % of the chain, energy off by at most 5 % of what it "
              "turns over",
+     .patience = 3,
      .build = build}};
 
 }  // namespace

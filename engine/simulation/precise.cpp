@@ -15,6 +15,8 @@ namespace {
 
 /// Impacts, and steps, within one max_dt: more of them do not end.
 constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
+/// Times a flight: how long the next may be.
+constexpr double kLonger = 2;
 /// Of the scene's length: what lies in each other by more is a mistake, however few digits are asked for.
 constexpr double kDeepestOverlap = 1e-3;
 
@@ -45,15 +47,17 @@ void PreciseDriver::go_on(double end) {
     const Clock clock(profiling_, cost_[kContacts]);
     contacts_.settle();
   }
-  // Without events to look for, nothing but the motion decides how long a step is.
-  const bool as_asked = smooth_.dimension() == 0 || !contacts_.empty();
   {
     const Clock clock(profiling_, cost_[kRungeKutta]);
-    smooth_.step(as_asked ? end : std::numeric_limits<double>::infinity());
+    smooth_.step(limit_of_step(end));
   }
   if (!contacts_.empty()) {
     const Clock clock(profiling_, cost_[kContactSearch]);
     contacts_.stop();  // at the first event on the way
+    if (!contacts_.settled()) {
+      last_flight_ = smooth_.time() - last_event_;
+      last_event_ = smooth_.time();
+    }
   }
   if (++steps_in_step_ > kMostSteps) smooth_.blame_fastest();
   if (contacts_.impacts() - impacts_before_ > kMostImpacts) {
@@ -61,6 +65,17 @@ void PreciseDriver::go_on(double end) {
          "they do not stop within one step; Realtime may do");
   }
   ++statistics_.steps;
+}
+
+/// Without events to look for, nothing but the motion decides how long a step is. Parabolas may be of any
+/// length, but the longer they are, the more shapes are near: up to twice as long as the flight before, or
+/// this one so far.
+double PreciseDriver::limit_of_step(double end) const {
+  if (smooth_.dimension() == 0) return end;
+  if (contacts_.empty()) return std::numeric_limits<double>::infinity();
+  return smooth_.flies()
+             ? std::max(end, smooth_.time() + kLonger * std::max(last_flight_, smooth_.time() - last_event_))
+             : end;
 }
 
 /// Where the last step ended, forces may be switched.

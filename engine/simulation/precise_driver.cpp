@@ -93,6 +93,8 @@ void PreciseDriver::report_cost() {
 std::vector<std::byte> PreciseDriver::save() const {
   SnapshotWriter out;
   out.put(time_);
+  out.put(last_event_);
+  out.put(last_flight_);
   out.put(grid_steps_);
   out.put(std::int64_t{joints_closed_});
   out.put(statistics_.steps);
@@ -116,6 +118,8 @@ void PreciseDriver::restore(std::span<const std::byte> snapshot) {
 void PreciseDriver::take(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   time_ = in.get<double>();
+  last_event_ = in.get<double>();
+  last_flight_ = in.get<double>();
   grid_steps_ = in.get<std::int64_t>();
   joints_closed_ = in.get<std::int64_t>() != 0;
   statistics_ = {};

@@ -42,6 +42,7 @@ class PreciseDriver final : public Driver {
   // What a step is made of, in this order.
   void close_joints();
   void go_on(double end);
+  double limit_of_step(double end) const;
   void arrive();
 
   // What those are made of.
@@ -70,7 +71,8 @@ class PreciseDriver final : public Driver {
   bool joints_closed_ = false;
   Statistics statistics_{};
   int steps_in_step_ = 0;
-  std::int64_t impacts_before_ = 0;  // when the step began
+  double last_event_ = 0, last_flight_ = 0;  // s: when it was, and after what time without one
+  std::int64_t impacts_before_ = 0;          // when the step began
   bool profiling_ = false;
   std::array<double, kStageCount> cost_{};
 };

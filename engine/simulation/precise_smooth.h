@@ -33,6 +33,9 @@ class SmoothMotion {
   const Compensated& state() const { return y_; }      ///< there, joints closed
   std::size_t dimension() const { return y_.size(); }  ///< 0: nothing is integrated
 
+  /// Nothing but constant forces acts until the next event: steps are parabolas.
+  bool flies() const { return ballistic_ && !equations_.holds_anything(); }
+
   /// One step that meets the tolerance, from `time` to at most `limit` (may be infinite) and to at most the
   /// next time at which a force is switched; returns where it ends. Throws `Error` (Run) that names the body
   /// when no step is small enough. With nothing to integrate, it ends as far as it may: `limit` is then
@@ -99,7 +102,6 @@ class SmoothMotion {
   std::span<const double> rate_at_start() const { return now().method.first_rate(); }
   std::span<const double> rate_at_end();
 
-  bool flies() const { return ballistic_ && !equations_.holds_anything(); }
   void begin();
   void fly(double end);
   bool leap(double limit);
