@@ -25,15 +25,6 @@ constexpr KnownLimit kLimits[] = {
     {"bullet|bullet-double", "pendulum_chain[100]", "position_error|velocity_error|angular_velocity_error",
      "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
      "a step; through a chain of 100 it comes steps too late, and the chain stretches."},
-    {"plumb-world|plumb-world-double", "pendulum_chain[20]", "velocity_error|angular_velocity_error",
-     "The world leaves chains of equal links to one sweep a substep: a chain of 20 needs more of them to "
-     "feel its own "
-     "weight."},
-    {"plumb-world|plumb-world-double", "pendulum_chain[100]",
-     "position_error|angle_error|velocity_error|angular_velocity_error",
-     "The world leaves chains of equal links to one sweep a substep: through a chain of 100 a pull comes "
-     "steps too late, "
-     "and the chain stretches."},
     {"box2d", "free_fall/*",
      "position_error|velocity_error|discrete_position|discrete_velocity|energy_drift|momentum_drift",
      "Box2D lets a body move by at most 2 m a step (b2_maxTranslation), which is less than free fall "
@@ -48,11 +39,6 @@ constexpr KnownLimit kLimits[] = {
      "position_error|angle_error|velocity_error|angular_velocity_error|energy_drift|joint_gap",
      "Sequential impulses are stopped after a few sweeps, whatever the step: what they leave undone "
      "falls more slowly than the error of the step.",
-     true},
-    {"plumb-world|plumb-world-double", "pendulum_chain*",
-     "position_error|angle_error|velocity_error|angular_velocity_error|energy_drift|joint_gap",
-     "One sweep a substep, whatever the step: what it leaves undone falls more slowly than the error of the "
-     "step.",
      true},
 };
 

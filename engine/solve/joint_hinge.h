@@ -12,8 +12,9 @@ namespace plumb {
 template <class Real>
 struct HingeConstraint {
   int joint = 0, a = 0, b = 0;
-  Real share = 1;    ///< of its impulses that it applies at a time
-  Real known_h = 0;  ///< nothing here depends on it
+  bool held = false;  ///< another solves it
+  Real share = 1;     ///< of its impulses that it applies at a time
+  Real known_h = 0;   ///< nothing here depends on it
   Vec2<Real> anchor_a{}, anchor_b{};
   Vec2<Real> offset{};  ///< m, at the step's start
   Vec2<Real> impulse{};
@@ -34,12 +35,14 @@ struct HingeConstraint {
   std::pair<Vec2<Real>, Real> reaction() const { return {impulse, 0}; }
 
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    if (held) return;
     offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
     impulse *= step.warm_start;
     evaluate(bodies, step);
   }
 
   void warm_start(const SolverBodies<Real>& bodies) const {
+    if (held) return;
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
     v.apply(impulse, arm_a, arm_b);
@@ -47,6 +50,7 @@ struct HingeConstraint {
   }
 
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    if (held) return;
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
     const Vec2<Real> delta =
@@ -58,6 +62,7 @@ struct HingeConstraint {
   }
 
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+    if (held) return;
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
     evaluate(bodies, motion_a, motion_b, v);

@@ -39,6 +39,13 @@ struct RigidRow {
 };
 inline constexpr int kMostRigidRows = 3;
 
+/// A plain revolute joint, for who solves it in the set's place.
+template <class Real>
+struct HeldHinge {
+  Vec2d anchor_a{}, anchor_b{};   ///< m, from the centres of mass, in the bodies' frames
+  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep: valid until joints come or go
+};
+
 /// All joints of a real-time world, solved by sequential impulses with soft steps and a relaxation ("TGS
 /// soft", Catto, Solver2D, 2024). Joints are coloured such that those of one colour share no dynamic body,
 /// and lie in one array per colour and kind. A substep is
@@ -111,6 +118,13 @@ class JointSet {
   /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or
   /// `relax`); returns their number.
   int rigid_rows(int joint, RigidRow<Real> (&rows)[kMostRigidRows]);
+
+  /// Whether the joint is a revolute one without limits, motor and spring.
+  bool is_hinge(int joint) const;
+  /// Leaves such a joint to the caller: the steps here pass it over until `let_go`.
+  HeldHinge<Real> hold(int joint);
+  /// No joint is left to the caller any more.
+  void let_go();
 
   /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
   Real force(int joint, Real inverse_h) const;

@@ -41,6 +41,11 @@ inline constexpr int kSlenderContacts = 8;
 /// Islands with joints are so only when their heaviest body has more than this many times the mass of their
 /// lightest: sweeps hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;
+/// Trees of hinges are moved as mechanisms, except, unless Solver::Direct asks for it, those with no fewer
+/// and no more links than these and masses within that ratio: sweeps hold them within a thousandth, at half
+/// the cost. Fewer links cost little; more, sweeps leave stretched.
+inline constexpr int kSweptLinksLeast = 6;
+inline constexpr int kSweptLinksMost = 16;
 /// Solver::Direct: the most rows of an island whose joints and contacts are solved together; of a larger one,
 /// the joints alone; and not those either when their factorisation costs more multiplications than this.
 inline constexpr int kArticulatedRows = 512;

@@ -6,6 +6,7 @@
 
 #include "engine/world/constants.h"
 #include "engine/world/free_motion.h"
+#include "engine/world/hinge_trees.h"
 #include "engine/world/link_gaps.h"
 #include "engine/world/link_inertia.h"
 #include "engine/world/union_find.h"
@@ -24,10 +25,21 @@ template <class Real>
 bool masses_alike(const WorldData<Real>& w) {
   Real lightest = std::numeric_limits<Real>::max(), heaviest = 0;
   for (const int body : w.awake) {
-    if (!w.gives_way(body)) continue;
+    if (!w.gives_way(body) || in_hinge_tree(w, body)) continue;
     lightest = std::min(lightest, w.bodies[body].mass), heaviest = std::max(heaviest, w.bodies[body].mass);
   }
   return heaviest <= Real(tuning::kDirectMassRatio) * lightest;
+}
+
+template <class Real>
+bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
+  return joint.active && !in_hinge_tree(w, w.gives_way(joint.body_a) ? joint.body_a : joint.body_b);
+}
+
+// Joints that no mechanism holds.
+template <class Real>
+int swept_joints(const WorldData<Real>& w) {
+  return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
 // Takes islands with joints whose masses are alike out of the choice: they get a size beyond it.
@@ -43,7 +55,7 @@ void note_mass_ratios(WorldData<Real>& w) {
     w.scratch.heaviest[root] = std::max(w.scratch.heaviest[root], mass);
   }
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!joint.active) return;
+    if (!is_swept(w, joint)) return;
     const int root = w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
     if (w.scratch.heaviest[root] <= Real(tuning::kDirectMassRatio) * w.scratch.lightest[root]) {
       w.scratch.island_size[root] = tuning::kDirectRows + 1;
@@ -58,7 +70,7 @@ constexpr int kJointsAlone = -1;
 template <class Real>
 void choose_articulated(WorldData<Real>& w) {
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!joint.active) return;
+    if (!is_swept(w, joint)) return;
     int& size =
         w.scratch.island_size[w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b]];
     size = size > tuning::kArticulatedRows ? kJointsAlone : std::min(size, tuning::kDirectRows);
@@ -93,7 +105,7 @@ void find_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (joint.active) tie(joint.body_a, joint.body_b);
+    if (is_swept(w, joint)) tie(joint.body_a, joint.body_b);
   });
   w.scratch.island_size.assign(w.bodies.size(), 0);
   w.scratch.island_place.assign(w.bodies.size(), kNone);
@@ -103,9 +115,9 @@ void find_islands(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
-  if (w.joint_set.active_count() == 0) return;
+  if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (joint.active) count(joint.body_a, joint.body_b, 2);
+    if (is_swept(w, joint)) count(joint.body_a, joint.body_b, 2);
   });
   if (w.settings.solver == Solver::Direct) {
     choose_articulated(w);
@@ -185,9 +197,9 @@ void fill_islands(WorldData<Real>& w) {
     const int root = root_of(c.body_a, c.body_b), rows = w.scratch.island_size[root];
     if (rows > 2 && rows <= tuning::kDirectRows) island_at(w, root).contacts.push_back(&c);
   });
-  if (w.joint_set.active_count() == 0) return;
+  if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!joint.active) return;
+    if (!is_swept(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
     if (w.scratch.island_size[root] <= tuning::kDirectRows) island_at(w, root).joints.push_back(joint.slot);
   });
@@ -255,9 +267,9 @@ void prepare_direct_islands(WorldData<Real>& w, const JointStep<Real>& joints) {
   w.scratch.direct_count = 0;
   const bool articulated = w.settings.solver == Solver::Direct;
   if (!articulated && !w.settings.direct_islands) return;
-  if (w.graph.empty() && (w.joint_set.active_count() == 0 || (!articulated && masses_alike(w)))) return;
-  if (w.ties_changed) find_islands(w);
-  w.ties_changed = false;
+  if (w.graph.empty() && (swept_joints(w) == 0 || (!articulated && masses_alike(w)))) return;
+  if (!w.scratch.islands_known) find_islands(w);
+  w.scratch.islands_known = true;
   fill_islands(w);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];

@@ -88,7 +88,7 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
   w.scratch.kicks.clear(), w.scratch.starts.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
-  const bool loaded = w.loads.used();
+  const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
   for (const int body : w.awake) {
     const BodyRecord<Real>& record = w.bodies[body];
     if (flight == FreeFlight::Exact && record.constraints == 0) {
@@ -103,12 +103,14 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
     motion.moved = {}, motion.turned = 0;
     w.scratch.starts.push_back({motion.velocity, motion.angular_velocity});
     w.scratch.kicks.push_back(kick_of(w, body, h));
+    w.scratch.kicks.back().in_tree = articulated && w.scratch.trees.holds[body];
   }
 }
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
   for (Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     apply(kick, motion);
     kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
@@ -118,6 +120,7 @@ void integrate_velocities(WorldData<Real>& w) {
 template <class Real>
 void repeat_velocities(WorldData<Real>& w) {
   for (Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     const Vec2<Real> gained = motion.velocity - kick.velocity_before;
     const Real spin_gained = motion.angular_velocity - kick.spin_before;
@@ -130,6 +133,7 @@ void repeat_velocities(WorldData<Real>& w) {
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h) {
   for (const Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
     if (kick.locked_y) motion.velocity.y = 0;

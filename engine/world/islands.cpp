@@ -120,7 +120,7 @@ void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
   UnionFind islands(w.scratch.island_of, w.bodies.size());
-  w.ties_changed = true;  // the islands that a step found are overwritten
+  w.scratch.islands_known = false;  // what a step found is overwritten
   std::vector<char>& restless = w.scratch.restless;
   restless.assign(w.bodies.size(), 0);
   const auto tie = [&](int a, int b) {

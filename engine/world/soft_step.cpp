@@ -3,6 +3,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/direct_islands.h"
 #include "engine/world/free_motion.h"
+#include "engine/world/hinge_trees.h"
 #include "engine/world/solvers.h"
 
 namespace plumb {
@@ -46,9 +47,10 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
-  const bool jointed = w.joint_set.active_count() > 0;
+  const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
 
   prepare_kicks(w, h, substeps, FreeFlight::Exact);
+  move_hinge_trees(w, h, substeps);
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w, joints);
   find_bounces(w);

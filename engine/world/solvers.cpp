@@ -1,11 +1,13 @@
 #include "engine/world/solvers.h"
 
+#include "engine/world/hinge_trees.h"
 #include "engine/world/step.h"
 
 namespace plumb {
 
 template <class Real>
 void solve_motion(WorldData<Real>& w, double h, int substeps) {
+  find_hinge_trees(w);
   switch (w.settings.solver) {
     case Solver::SoftSteps:
     case Solver::Direct:

@@ -13,6 +13,7 @@
 #include "engine/solve/bounce_crowds.h"
 #include "engine/solve/contact_graph.h"
 #include "engine/solve/direct_rows.h"
+#include "engine/solve/hinge_tree.h"
 #include "engine/solve/joint_set.h"
 #include "engine/world/corner_pool.h"
 #include "engine/world/definitions.h"
@@ -147,6 +148,7 @@ struct Kick {
   Real spin = 0;                 ///< rad/s
   Real keep = 1, keep_spin = 1;  ///< what damping leaves
   bool locked_x = false, locked_y = false;
+  bool in_tree = false;          ///< moved with its mechanism
   Vec2<Real> velocity_before{};  ///< m/s, after the kick, before contacts press in this substep
   Real spin_before = 0;          ///< rad/s
 };
@@ -184,6 +186,18 @@ struct DirectIsland {
   bool jerks = false;  ///< gaps are too wide for velocities to close them
 };
 
+/// Mechanisms that are moved as such: kept while no tie changes.
+template <class Real>
+struct HingeTrees {
+  std::vector<TreeLink> links;        ///< of one tree after another, parents first
+  std::vector<Vec2<Real>*> impulses;  ///< of the links' hinges, in the joint set; the roots have none
+  std::vector<int> firsts;            ///< the trees' roots, and the end
+  std::vector<char> holds;            ///< by body: a link
+  int hinges = 0;
+
+  bool empty() const { return hinges == 0; }
+};
+
 /// What a step makes anew: kept between steps for its room alone, and the islands while no tie changes.
 template <class Real>
 struct Scratch {
@@ -201,6 +215,10 @@ struct Scratch {
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
+  bool islands_known = false;  ///< `island_of` and `island_size` are those of the ties as they are
+  HingeTrees<Real> trees;
+  std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
+  std::vector<char> not_a_tree, tree_grounded;  ///< by the body that stands for a set, likewise
   std::vector<int> bouncing;  ///< contacts that have restitution, or may be of discs that approach fast
   std::vector<Bounce<Real>> bounces;
   CrowdRoom<Real> crowds;

@@ -142,6 +142,7 @@ template <class Real>
 void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
   const JointRecord& record = data_->joints[place(joint)];
   data_->joint_set.change(record.slot, kind);
+  data_->ties_changed = true;
   wake(record.body_a), wake(record.body_b);
 }
 template <class Real>

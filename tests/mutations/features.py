@@ -176,6 +176,8 @@ FEATURES = [
             "world/solvers", "world/jakobsen"),
     feature("XPBD", WORLD + "xpbd.cpp", "correct_contact_velocities(bodies.motion, w.graph, contacts);", "",
             "world/solvers", "world/xpbd"),
+    feature("Mechanisms of hinges (pendulums, chains, levers, trees)", SOLVE + "hinge_tree.cpp",
+            "constexpr double kClosed = 1e-11;", "constexpr double kClosed = 1e-5;", "world/hinge_trees"),
     feature("Direct solve of articulated islands", WORLD + "direct_islands.cpp",
             "if (w.settings.solver != Solver::Direct || w.scratch.direct_count == 0) return;",
             "if (w.scratch.direct_count >= 0) return;", "world/direct_solver"),

@@ -70,16 +70,18 @@ Worst swing(double angle, double tip_mass, int steps) {
   return worst;
 }
 
-// What is asked for: less than 1 % at 1:1000, less than 0.1 % at 1:10,000. Measured: 0.008 % and 0.02 %.
+// What is asked for: less than 1 % at 1:1000, less than 0.1 % at 1:10,000. Measured: nothing but rounding,
+// and no energy is gained.
 TYPED_TEST(HeavyTip, DoesNotStretchTheChainWhereItSwingsFromLevel) {
   const Worst thousand = swing<TypeParam>(0, 1e3, 1200), ten = swing<TypeParam>(0, 1e4, 1200);
-  EXPECT_LT(thousand.stretch, 2.5e-4);
-  EXPECT_LT(thousand.gap, 1.5e-3);
-  EXPECT_LT(ten.stretch, 6e-4);
-  EXPECT_LT(ten.gap, 1.8e-3);
+  const double rounding = sizeof(TypeParam) == 4 ? 3e-7 : 3e-11;
+  for (const Worst& worst : {thousand, ten}) {
+    EXPECT_LT(worst.stretch, rounding);
+    EXPECT_LT(worst.gap, 3 * rounding);
+  }
   // Potential energies are of 1e5 and 1e6 J.
-  EXPECT_LT(thousand.energy, 360);
-  EXPECT_LT(ten.energy, 4300);
+  EXPECT_LT(thousand.energy, 0.1);
+  EXPECT_LT(ten.energy, 1);
 }
 
 // From 17 degrees above level it falls freely, until the chain is taut at once.

@@ -12,6 +12,14 @@ TEST(LongRun, APendulumKeepsItsEnergyForTenMillionStepsInRealtime) {
   EXPECT_LT(change, 1e-3);
 }
 
+TEST(LongRun, APendulumKeepsItsEnergyForTenMillionStepsInAWorld) {
+  for (const Engine engine : {Engine::World, Engine::DoubleWorld}) {
+    const double change = energy_change(engine, 10'000'000);
+    report(name_of(engine), change);
+    EXPECT_LT(change, 1e-3);
+  }
+}
+
 TEST(LongRun, APendulumKeepsItsEnergyForTenMillionStepsInPrecise) {
   const double change = energy_change(Engine::Precise, 10'000'000);
   report("Precise", change);
