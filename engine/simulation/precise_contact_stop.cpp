@@ -11,6 +11,8 @@ namespace {
 
 /// Samples of a step that forces and slips are watched at.
 constexpr int kSamples = 5;
+/// And of forces that swing with time: 16 a period.
+constexpr double kSamplesARadian = 2.6;
 /// Forces may be this much below zero before their contact opens, of the largest of them: rounding, and the
 /// difference between a step's polynomial and the step itself.
 constexpr double kForceNoise = 3e-11;
@@ -205,12 +207,20 @@ std::optional<Contacts::Event> Contacts::first_change(double until) {
   if (held_.empty() && stops_.empty()) return std::nullopt;
   list_watched();
   const auto fall = first_fall([this](double time, std::span<double> values) { evaluate(time, values); },
-                               tolerance_, smooth_.start(), until, kSamples);
+                               tolerance_, smooth_.start(), until, samples_until(until));
   if (!fall) return std::nullopt;
   const Watched& watched = watched_[fall->index];
   Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
   if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
   return event;
+}
+
+/// Steps follow the motion. Under contacts that hold still it says nothing of forces that swing by
+/// themselves.
+int Contacts::samples_until(double until) const {
+  constexpr double kMost = 65536;
+  const double swings = fastest_force_ * (until - smooth_.start());
+  return std::max(kSamples, static_cast<int>(std::min(std::ceil(kSamplesARadian * swings), kMost)));
 }
 
 /// The polynomial that the event was found on and the step that ends there differ by the step's error:

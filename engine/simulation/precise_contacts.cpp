@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
@@ -34,7 +35,12 @@ Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight,
       search_(finder_.outlines(), paths_),
       states_(scene.bodies.size()),
       sample_(equations.dimension()),
-      rate_(equations.dimension()) {}
+      rate_(equations.dimension()) {
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* swinging = std::get_if<SinusoidalForce>(&law))
+      fastest_force_ = std::max(fastest_force_, swinging->angular_frequency);
+  }
+}
 
 void Contacts::count(ContactEvent event, double time, std::int64_t times) {
   EventCount& e = events_[static_cast<std::size_t>(event)];

@@ -89,6 +89,7 @@ class Contacts {
   // stop
   std::optional<Event> first_meeting(double until);
   std::optional<Event> first_change(double until);
+  int samples_until(double until) const;
   void list_watched();
   void evaluate(double time, std::span<double> values);
   void refine(const Event& event);
@@ -107,6 +108,7 @@ class Contacts {
   ContactSearch search_;
   std::vector<BodyState> states_;  // by body, at the motion's time
   double near_ = 0;                // m: gaps that are none
+  double fastest_force_ = 0;       // rad/s, of forces that swing with time by themselves
   bool settled_ = false;
 
   std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order

@@ -58,15 +58,17 @@ struct Sample {
   std::vector<double> values;
 };
 
-/// Where the parabola through three samples is lowest, if it falls to a third of the middle one or below.
+/// Where the parabola through three samples is lowest between them, if it falls to a third of all three or
+/// below.
 std::optional<double> dip(const Sample& a, const Sample& b, const Sample& c, std::size_t i) {
   const double fa = a.values[i], fb = b.values[i], fc = c.values[i];
-  if (fb < 0 || fb > fa || fb > fc) return std::nullopt;
+  if (fb < 0) return std::nullopt;
   const double h = 0.5 * (c.time - a.time), slope = (fc - fa) / (2 * h), curve = (fa - 2 * fb + fc) / (h * h);
   if (!(curve > 0)) return std::nullopt;
   const double lowest = fb - 0.5 * slope * slope / curve;
-  if (lowest > fb / 3) return std::nullopt;
-  return std::clamp(b.time - slope / curve, a.time, c.time);
+  const double time = b.time - slope / curve;
+  if (!(time > a.time && time < c.time) || lowest > std::min({fa, fb, fc}) / 3) return std::nullopt;
+  return time;
 }
 
 }  // namespace
