@@ -92,7 +92,8 @@ void EquationsOfMotion::shift_places(std::span<const Twist<double>> shift, Compe
   }
 }
 
-/// The widest gap of a joint, or of a contact that lasts, where bodies are placed.
+/// The widest gap of a joint, or of a contact that lasts, where bodies are placed, m: of angles at an arm of
+/// the scene's length.
 EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   WorstGap worst;
   const auto offer = [&](double gap, const auto& subject) {
@@ -105,7 +106,10 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
     offer(widest.gap, [&] { return "joint '" + joint_of_row_[2 * widest.hinge] + "'"; });
   } else {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      offer(rows_[r].residual, [&] { return "joint '" + joint_of_row_[r] + "'"; });
+      const Row<double>& row = rows_[r];
+      const bool of_angles = row.linear_a == Vec2d{} && row.linear_b == Vec2d{};
+      offer(of_angles ? length_ * row.residual : row.residual,
+            [&] { return "joint '" + joint_of_row_[r] + "'"; });
     }
   }
   for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {

@@ -69,8 +69,9 @@ void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h) {
 }
 
 template <class Real>
-void note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                      const ContactStep<Real>& step) {
+  bool parted = false;
   for (Bounce<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
     face(motion, bounce, step.h);
@@ -80,8 +81,10 @@ void note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
       parts = parts && bounce.before[i] > Real(0.5) * c.restitution * step.bounce_threshold;
     }
     if (!parts) continue;
+    parted = parted || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
     c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
   }
+  return parted;
 }
 
 template <class Real>
@@ -158,7 +161,7 @@ void bounce_velocities(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& boun
 
 #define PLUMB_FOR(Real)                                                                                    \
   template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                                        \
-  template void note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                       \
+  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                       \
                                 const ContactStep<Real>&);                                                 \
   template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                         \
                               const ContactStep<Real>&);                                                   \

@@ -44,9 +44,10 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 template <class Real>
 void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h);
 
-/// Notes how fast points approach before anything acts. What parts after a bounce is not to be warm started.
+/// Notes how fast points approach before anything acts. What parts after a bounce is not to be warm started:
+/// whether there was an impulse of such.
 template <class Real>
-void note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                      const ContactStep<Real>& step);
 
 /// Gives each bounce its place in the substep, once it is known what accelerates the bodies; false when

@@ -61,9 +61,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
   };
   for (int substep = 0; substep < substeps; ++substep) {
-    // Blows are not repeated.
-    const bool repeat = substep > 0 && !jointed && !strikes;
-    note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    // Blows are not repeated, nor what was pressed by contacts that part.
+    const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     repeat ? repeat_velocities(w) : integrate_velocities(w);
     // What joints and contacts of a mechanism did last cancels only when they are solved: until then their
     // impulses make no approach.

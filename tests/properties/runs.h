@@ -19,6 +19,7 @@ using States = std::vector<BodyState>;
 struct Steps {
   double dt = 1.0 / 64;
   int count = 48;
+  bool continuous = true;  ///< a World's continuous collision
 };
 
 /// The states after the steps, in the scene's order. Throws Error as the engine does.
@@ -31,9 +32,9 @@ double difference(const States& a, const States& b);
 /// tolerance a second.
 double disturbance(Engine engine);
 
-/// How far runs end from the undisturbed one when every number that moves is disturbed by up to `by`: the
-/// bound for what is only rounded otherwise. Where the motion comes to a fork within that distance it is
-/// large.
+/// How far runs end from the undisturbed one when every number that moves is disturbed by up to `by`, and all
+/// steps of what rounds in steps by a tenth of it: the bound for what is only rounded otherwise. Where the
+/// motion comes to a fork within that distance it is large.
 double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps = {});
 
 }  // namespace plumb::properties

@@ -21,7 +21,7 @@ Vec2d local(const Body& body, Vec2d point) {
   return {c * way.x + s * way.y, c * way.y - s * way.x};
 }
 
-Shape shape_of(const Thing& thing) {
+Shape shape_of(const Thing& thing, bool bouncy) {
   const double half = 0.2 + 0.07 * thing.size;
   Shape shape{.geometry = Circle{half}};
   if (thing.form == 1) shape.geometry = Box{1.9 * half, 1.1 * half};
@@ -29,7 +29,7 @@ Shape shape_of(const Thing& thing) {
     shape.geometry = Polygon{{{-half, -0.5 * half}, {half, -0.6 * half}, {0.1 * half, half}}};
   if (thing.form == 3) shape.geometry = Capsule{{-half, 0.1}, {0.8 * half, 0}, 0.4 * half};
   shape.friction = 0.22 * thing.friction;
-  shape.restitution = 0.21 * thing.bounce;
+  shape.restitution = bouncy ? 0.1 + 0.18 * thing.bounce : 0.21 * thing.bounce;
   return shape;
 }
 
@@ -43,8 +43,9 @@ Body body_of(const Recipe& recipe, std::size_t index) {
   body.angle = 0.37 * thing.turn + 0.0171 * (own + 1);
   body.velocity = {0.41 * thing.vx, 0.39 * thing.vy};
   body.angular_velocity = 0.43 * thing.spin;
-  body.mass = 0.3 + 0.7 * thing.mass;
-  body.shapes = {shape_of(thing)};
+  // No two have the ratio from which on a World solves their joints directly.
+  body.mass = 0.31 + 0.7 * thing.mass;
+  body.shapes = {shape_of(thing, recipe.bouncy)};
   if (!recipe.contacts) body.shapes[0].filter.mask = 0;
   return body;
 }

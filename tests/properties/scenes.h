@@ -31,6 +31,7 @@ struct Recipe {
   std::vector<Thing> things{};
   std::array<bool, kTies> ties{};  ///< those that may be used; the others are left out
   bool gravity = false, walls = false, contacts = true;
+  bool bouncy = false;  ///< nothing has a restitution of 0
 };
 
 Scene scene_of(const Recipe& recipe);

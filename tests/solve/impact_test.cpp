@@ -83,6 +83,39 @@ TEST(Impact, TwoPointsShareAFlatLanding) {
   EXPECT_NEAR(impulse[2], mass, 1e-14);
 }
 
+// A box of width 2 b and height 2 h lands flat: P = (1 + e) m v in all. While it slides the friction is mu P;
+// at the speed u that friction of less than that stops, it is m u. The torque of the friction T about the
+// centre is borne by the front corner: p2 - p1 = T h / b, as long as that is less than P.
+TEST(Impact, AFlatLandingThatSlidesOrSticks) {
+  const double mass = 1.7, v = 1.2, e = 0.5, b = 0.45, pressure = (1 + e) * mass * v;
+  for (const double h : {0.1, 0.3, 0.9, 2.0}) {
+    for (const double share : {0.1, 0.5, 0.9, 0.99}) {  // T h / (b P)
+      for (const bool sticks : {false, true}) {
+        const double drag = share * b / h * pressure, inertia = mass * (b * b + h * h) / 3;
+        Impact<double> impact;
+        impact.points = 2;
+        impact.restitution = e, impact.friction = (sticks ? 1.01 : 1) * drag / pressure;
+        for (int i = 0; i < 2; ++i) {
+          const double x_i = i == 0 ? -b : b;
+          impact.velocity[2 * i] = -v, impact.velocity[2 * i + 1] = sticks ? -drag / mass : -50;
+          for (int j = 0; j < 2; ++j) {
+            const double x_j = j == 0 ? -b : b;
+            impact.response[2 * i][2 * j] = 1 / mass + x_i * x_j / inertia;
+            impact.response[2 * i][2 * j + 1] = impact.response[2 * j + 1][2 * i] = -x_i * h / inertia;
+            impact.response[2 * i + 1][2 * j + 1] = 1 / mass + h * h / inertia;
+          }
+        }
+        double impulse[4];
+        solve_impact(impact, impulse);
+        EXPECT_NEAR(impulse[0], 0.5 * (1 - share) * pressure, 1e-12) << h << " " << share << " " << sticks;
+        EXPECT_NEAR(impulse[2], 0.5 * (1 + share) * pressure, 1e-12) << h << " " << share << " " << sticks;
+        EXPECT_NEAR(impulse[1] + impulse[3], drag, 1e-12 * std::max(1.0, drag))
+            << h << " " << share << " " << sticks;
+      }
+    }
+  }
+}
+
 TEST(Impact, PartingPointGetsNothing) {
   Impact<double> impact = point_on_floor(1, 1, 0, 0);
   impact.restitution = 1;
