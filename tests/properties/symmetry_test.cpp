@@ -154,7 +154,11 @@ INSTANTIATE_TEST_SUITE_P(All, InertialFrames,
                          case_name);
 
 TEST_P(InertialFrames, Boost) {
-  check([&](const Scene& scene) {
+  // Forces on a body act in substeps while something is near, in a World, and how near depends on the frame.
+  Recipe sample = recipe();
+  if (engine() == Engine::World || engine() == Engine::DoubleWorld)
+    sample.ties[kSpring] = sample.ties[kPull] = false;
+  check(sample, [&](const Scene& scene) {
     const double speed = std::exp2(*rc::gen::inRange(0, 6));
     // Continuous collision asks how fast bodies are in the world's frame.
     const Steps steps{.continuous = false};
