@@ -302,7 +302,7 @@ TEST(LongRun, APendulumKeepsItsEnergyForAHundredThousandSteps) {
     EXPECT_LT(world, 2.6e-4);  // promised: 1e-3
   }
   EXPECT_LT(realtime, 2.6e-4);
-  EXPECT_LT(precise, 3e-11);
+  EXPECT_LT(precise, 1e-10);  // it grows with time: 1e-8 is promised over a hundred times as many
 }
 
 }  // namespace
