@@ -114,6 +114,11 @@ inline constexpr double kGraze = 0.01;
 /// How near a fast body is brought to what it meets, as a share of the smaller extent.
 inline constexpr double kImpactTolerance = 1e-3;
 
+/// Impacts that a body may have in flight in a step; at one more it waits for the next step.
+inline constexpr int kImpactsInFlight = 8;
+/// Newton steps for the time at which two flights meet: they begin within g dt / v of it, and square that.
+inline constexpr int kMeetingSteps = 3;
+
 /// A body that has moved slower than this, in extents a second, for this long, s, may sleep.
 inline constexpr double kSleepSpeed = 0.05;
 inline constexpr double kSleepTime = 0.5;

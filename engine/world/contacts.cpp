@@ -72,7 +72,7 @@ bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
 }
 
 template <class Real>
-void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
+ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
   // A chain's segment comes first: manifolds know it there only.
   if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
@@ -81,10 +81,16 @@ void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
   record.body_a = a.body, record.body_b = b.body;
   record.pre_solve = a.pre_solve || b.pre_solve;
   record.hit_events = a.hit_events || b.hit_events;
+  return record;
+}
+
+template <class Real>
+void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
+  const ContactRecord record = contact_of(w, shape_a, shape_b);
   const int contact = w.contacts.add(record);
   link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
-  w.pairs.insert(shape_a, shape_b);
-  if (w.bodies[a.body].awake || w.bodies[b.body].awake) {
+  w.pairs.insert(record.shape_a, record.shape_b);
+  if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) {
     enter_near(w, contact);
   } else {
     w.contacts[contact].home = ContactHome::Idle;
@@ -198,6 +204,7 @@ void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
 
 #define PLUMB_FOR(Real)                                                                    \
   template bool may_collide(const WorldData<Real>&, int, int);                             \
+  template ContactRecord contact_of(const WorldData<Real>&, int, int);                     \
   template void create_contact(WorldData<Real>&, int, int);                                \
   template void destroy_contact(WorldData<Real>&, int);                                    \
   template void begin_contact(WorldData<Real>&, int, const ContactConstraint<Real>&);      \

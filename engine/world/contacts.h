@@ -15,6 +15,10 @@ inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 
 /// What nothing can meet has no box in the trees, and costs no more than a body without shapes.
 inline bool meets_nothing(const Filter& filter) { return seen_by(filter) == 0; }
 
+/// What a contact of two shapes is, in the order that it has them in.
+template <class Real>
+ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b);
+
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
 

@@ -4,9 +4,9 @@
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/geometry/convex_bounds.h"
-#include "engine/math/trigonometry.h"
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
+#include "engine/world/rebound.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -34,19 +34,12 @@ struct Core {
   Convex<Real> convex;
 };
 
-// The body's motion in this step, in double, seen from `origin`. The rotation is that of the step's end,
-// turned back.
+// What is left of a body's motion at a fraction of this step, seen from `origin`. The rotation is that of the
+// step's end, turned back.
 template <class Real>
-Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin) {
-  const BodyMotion<Real>& motion = w.motion[body];
-  const Vec2d moved = motion.moved.template as<double>();
-  const double turned = static_cast<double>(motion.turned);
-  const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
-  const Rotation<double> back = rotation_of(-turned);
-  return {w.position[body] - moved - origin,
-          moved,
-          {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s},
-          turned};
+Sweep<double> sweep_of(const WorldData<Real>& w, int body, double from, Vec2d origin) {
+  if (const Flight* flight = flight_in(w, body)) return flight->sweep(from, origin);
+  return flight_of(w, body).sweep(from, origin);
 }
 
 template <class Real>
@@ -66,14 +59,12 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
   return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
 }
 
-// A fast body's way, seen from where it started.
-template <class Real>
+// The rest of a fast body's way, seen from where it starts.
 struct Way {
-  Way(const WorldData<Real>& w, int body_)
-      : body(body_),
-        origin(w.position[body] - w.motion[body].moved.template as<double>()),
-        sweep(sweep_of(w, body, origin)) {}
-  int body;
+  Way(const Flight& flight_, double from_)
+      : flight(flight_), from(from_), origin(flight_.start_at(from_)), sweep(flight_.sweep(from_, origin)) {}
+  const Flight& flight;
+  double from;
   Vec2d origin;
   Sweep<double> sweep;
 };
@@ -88,22 +79,33 @@ Real core_share(const WorldData<Real>& w, int shape, int other) {
 
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way<Real>& way, int shape, int other) {
-  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.origin);
-  const Sweep<double>& sweep = way.sweep;
-  if (w.forms[other].chain && !in_front(w, other, sweep.start, other_sweep)) return 1;
+double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, int other) {
+  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.from, way.origin);
+  if (w.forms[other].chain && !in_front(w, other, way.sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
-  const Core<Real> core(whole, core_share(w, shape, other));
-  using State = typename ImpactResult<Real>::State;
+  using Result = ImpactResult<Real>;
   const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
   const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
-  const ImpactResult<Real> through =
-      time_of_impact(obstacle, other_sweep, core.convex, sweep, tolerance, tolerance);
-  if (through.state == State::Separated || through.state == State::Overlapped) return 1;
-  const ImpactResult<Real> first = time_of_impact(obstacle, other_sweep, whole, sweep, tolerance, tolerance);
+  const auto meet = [&](const Convex<Real>& moving) {
+    return time_of_impact(obstacle, other_sweep, moving, way.sweep, tolerance, tolerance);
+  };
+  const auto fraction = [&](const Result& result) {
+    return way.from + result.exact_fraction * (1 - way.from);
+  };
+  const bool flies_on = way.flight.impacts > 0;
+  if (way.flight.yields && may_rebound(w, shape, other)) {
+    const Result first = meet(whole);
+    if (first.state == Result::State::Separated) return 1;
+    if (first.state != Result::State::Overlapped && (first.exact_fraction > 0 || flies_on))
+      return fraction(first);
+  }
+  const Core<Real> core(whole, core_share(w, shape, other));
+  const Result through = meet(core.convex);
+  if (through.state == Result::State::Separated || through.state == Result::State::Overlapped) return 1;
+  const Result first = meet(whole);
   // Shapes that touched at the start are held by their contact until the core comes too near.
-  return first.state == State::Overlapped || first.exact_fraction == 0 ? through.exact_fraction
-                                                                       : first.exact_fraction;
+  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? fraction(through)
+                                                                               : fraction(first);
 }
 
 // Whether a contact between the shapes had points in this step: the solver has seen to it.
@@ -118,61 +120,81 @@ bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
                      other_body, is_solved);
 }
 
-// A box around all that the body covers on its way.
+// A box around all that the body covers for the rest of its way.
 template <class Real>
-Aabb<Real> way_of(const WorldData<Real>& w, int body) {
-  const Real extent = w.extents[body];
-  const Vec2<Real> end = w.position[body].template as<Real>(), start = end - w.motion[body].moved;
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(extent);
+Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
+  const Vec2<Real> start = flight.start.template as<Real>(),
+                   end = (flight.start + flight.way).template as<Real>();
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body]);
 }
 
-// Smallest fraction over all that the body meets, when all of that has a contact with it.
+// Takes the sooner one.
 template <class Real>
-double first_impact_of_pairs(const WorldData<Real>& w, const Way<Real>& way) {
-  double first = 1;
-  const int body = way.body;
+void note_meeting(const WorldData<Real>& w, const Way& way, int shape, int other, Meeting& first) {
+  const double fraction = fraction_of_impact(w, way, shape, other);
+  if (fraction < first.fraction) first.fraction = fraction, first.shape = shape, first.other = other;
+}
+
+// The first of all that the body meets, when all of that has a contact with it.
+template <class Real>
+void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
+  const int body = way.flight.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
     const bool is_a = (edge & 1) == 0;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     if (w.forms[shape].chain || !pass_fast(w, body, w.shapes[other].body)) return;
-    first = std::min(first, fraction_of_impact(w, way, shape, other));
+    note_meeting(w, way, shape, other, first);
   });
-  return first;
 }
 
-// Smallest fraction over all that the body meets.
+// The first of all that the body meets. What it flies on to after an impact, no solver has seen to.
 template <class Real>
-double first_impact(const WorldData<Real>& w, const FastBody& fast) {
-  const int body = fast.body;
-  const Way<Real> way(w, body);
-  if (fast.covered) return first_impact_of_pairs(w, way);
-  double first = 1;
-  const Aabb<Real> swept = way_of(w, body);
+void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
+  const int body = way.flight.body;
+  const bool flies_on = way.flight.impacts > 0;
+  const Aabb<Real> swept = way_of(w, way.flight);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
     const auto visit = [&](int other, int) {
-      if (!pass_fast(w, body, w.shapes[other].body) || !may_collide(w, shape, other) ||
-          was_solved(w, body, shape, other))
+      if (!may_collide(w, shape, other)) return true;
+      if (!flies_on && (!pass_fast(w, body, w.shapes[other].body) || was_solved(w, body, shape, other)))
         return true;
-      first = std::min(first, fraction_of_impact(w, way, shape, other));
+      note_meeting(w, way, shape, other, first);
       return true;
     };
     w.still_tree.query(swept, mask, visit);
     w.moving_tree.query(swept, mask, visit);
   }
+}
+
+// What a flight meets first from a fraction of the step on.
+template <class Real>
+Meeting first_meeting(const WorldData<Real>& w, int place, double from) {
+  const Flight& flight = w.scratch.flights[place];
+  Meeting first{.flight = place, .version = flight.version};
+  if (!w.gives_way(flight.body)) return first;
+  const Way way(flight, from);
+  if (flight.covered && flight.impacts == 0) {
+    meet_pairs(w, way, first);
+  } else {
+    meet_all(w, way, first);
+  }
+  if (first.other == kNone) return first;
+  if (const Flight* other = flight_in(w, w.shapes[first.other].body)) first.other_version = other->version;
   return first;
 }
 
 // Stores the whole way of a fast body, so that others find it.
 template <class Real>
-void show_way(WorldData<Real>& w, int body) {
+void show_way(WorldData<Real>& w, const Flight& flight) {
+  const int body = flight.body;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.shapes[shape].proxy == kNone) continue;
     DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
-    tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, body), tree.box(w.shapes[shape].proxy)));
+    tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, flight), tree.box(w.shapes[shape].proxy)));
   }
 }
 
@@ -188,19 +210,72 @@ void hide_way(WorldData<Real>& w, int body, Real dt) {
   }
 }
 
+// The later one first, as heaps have it; none is the same as another.
+bool is_later(const Meeting& a, const Meeting& b) {
+  return a.fraction != b.fraction ? a.fraction > b.fraction
+                                  : (a.flight != b.flight ? a.flight > b.flight : a.version > b.version);
+}
+
 template <class Real>
-void turn_back(WorldData<Real>& w, int body, double fraction, Real dt) {
-  BodyMotion<Real>& motion = w.motion[body];
-  const double rest = 1 - fraction;
-  w.position[body] -= rest * motion.moved.template as<double>();
-  const Real back = static_cast<Real>(-rest) * motion.turned;
-  const Rotation<Real> q = w.rotation[body], r = rotation_of(back);
-  w.rotation[body] = {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};
-  w.bodies[body].angle += static_cast<double>(back);
-  motion.moved *= static_cast<Real>(fraction);
-  motion.turned += back;
-  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    refresh_box(w, shape, dt, Real(0));
+void look_ahead(WorldData<Real>& w, int place, double from) {
+  const Meeting next = first_meeting(w, place, from);
+  if (!(next.fraction < 1)) return;
+  w.scratch.meetings.push_back(next);
+  std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
+}
+
+// The flight of what is met; null when that does not move.
+template <class Real>
+Flight* flight_met(WorldData<Real>& w, int body) {
+  if (w.bodies[body].type == BodyType::Static) return nullptr;
+  int& place = w.scratch.flight_places[body];
+  if (place == kNone) {
+    place = static_cast<int>(w.scratch.flights.size());
+    w.scratch.flights.push_back(flight_of(w, body));
+  }
+  return &w.scratch.flights[place];
+}
+
+// What was to meet next does so, unless either of both is on another way since.
+template <class Real>
+void meet(WorldData<Real>& w, const Meeting& next, double dt) {
+  std::vector<Flight>& flights = w.scratch.flights;
+  if (flights[next.flight].version != next.version) return;
+  Flight* other = flight_met(w, w.shapes[next.other].body);
+  Flight& flight = flights[next.flight];
+  if (other != nullptr && other->version != next.other_version) {
+    look_ahead(w, next.flight, next.fraction);
+    return;
+  }
+  if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
+    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, dt);
+    if (!thrown) flight.yields = false;  // too slowly for that
+    if (thrown) show_way(w, flight);
+    const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
+    if (other_too) show_way(w, *other);
+    look_ahead(w, next.flight, next.fraction);
+    if (other_too) look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction);
+    return;
+  }
+  flight.stop(next.fraction, std::max(flight.time, next.fraction * dt));
+}
+
+// One impact after the other, until the step ends.
+template <class Real>
+void fly_on(WorldData<Real>& w, double dt) {
+  std::vector<Flight>& flights = w.scratch.flights;
+  std::vector<Meeting>& meetings = w.scratch.meetings;
+  w.scratch.flight_places.assign(w.bodies.size(), kNone);
+  for (std::size_t i = 0; i < flights.size(); ++i)
+    w.scratch.flight_places[flights[i].body] = static_cast<int>(i);
+  std::make_heap(meetings.begin(), meetings.end(), is_later);
+  while (!meetings.empty()) {
+    std::pop_heap(meetings.begin(), meetings.end(), is_later);
+    const Meeting next = meetings.back();
+    meetings.pop_back();
+    meet(w, next, dt);
+  }
+  w.scratch.flight_places.clear();
 }
 
 }  // namespace
@@ -208,19 +283,35 @@ void turn_back(WorldData<Real>& w, int body, double fraction, Real dt) {
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
   if (w.scratch.fast_bodies.empty()) return;
-  std::vector<double>& fractions = w.scratch.fractions;
-  fractions.clear();
+  std::vector<Flight>& flights = w.scratch.flights;
+  std::vector<Meeting>& meetings = w.scratch.meetings;
+  flights.clear(), meetings.clear();
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    if (!fast.covered) show_way(w, fast.body);
+    flights.push_back(flight_of(w, fast.body));
+    flights.back().covered = fast.covered;
+    if (!fast.covered) show_way(w, flights.back());
   }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
-  for (const FastBody& fast : w.scratch.fast_bodies) {
-    fractions.push_back(w.gives_way(fast.body) ? first_impact(w, fast) : 1);
+  bool rebounds = false;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const Meeting first = first_meeting(w, static_cast<int>(i), 0);
+    if (!(first.fraction < 1)) continue;
+    meetings.push_back(first);
+    rebounds = rebounds || may_rebound(w, first.shape, first.other);
   }
-  for (std::size_t i = 0; i < fractions.size(); ++i) {
-    const FastBody& fast = w.scratch.fast_bodies[i];
-    if (fractions[i] < 1) turn_back(w, fast.body, fractions[i], dt);
-    if (!fast.covered) hide_way(w, fast.body, dt);
+  if (rebounds) {
+    fly_on(w, static_cast<double>(dt));
+  } else {
+    for (const Meeting& at : meetings)
+      flights[at.flight].stop(at.fraction, at.fraction * static_cast<double>(dt));
+  }
+  for (const Flight& flight : flights) {
+    if (flight.changed) {
+      land(w, flight, static_cast<double>(dt));
+      for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+        refresh_box(w, shape, dt, Real(0));
+    }
+    if (!flight.covered || flight.impacts > 0) hide_way(w, flight.body, dt);
   }
 }
 

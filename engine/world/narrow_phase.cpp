@@ -8,6 +8,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
+#include "engine/world/narrow_phase.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -138,6 +139,18 @@ double ask(CombineFunction rule, double a, double b, const char* what, double mo
       "must be in [0, " + std::to_string(most) + "] for " + std::to_string(a) + " and " + std::to_string(b));
 }
 
+}  // namespace
+
+template <class Real>
+Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  return static_cast<Real>(w.restitution_rule == nullptr
+                               ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
+                               : ask(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
+}
+
+namespace {
+
 // Whether the solver is to note how a contact approaches, and its largest impulses. What touches already, and
 // neither bounces nor is reported, needs neither.
 template <class Real>
@@ -153,10 +166,7 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.friction = static_cast<Real>(w.friction_rule == nullptr
                                      ? combine(w.settings.combine_friction, a.friction, b.friction)
                                      : ask(w.friction_rule, a.friction, b.friction, "friction", 1e9));
-  c.restitution =
-      static_cast<Real>(w.restitution_rule == nullptr
-                            ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
-                            : ask(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
+  c.restitution = restitution_between(w, contact.shape_a, contact.shape_b);
   const Real radius = std::max(form_a.radius, form_b.radius);
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
@@ -231,6 +241,17 @@ bool touches(const ContactConstraint<Real>& c) {
 }
 
 }  // namespace
+
+template <class Real>
+ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact) {
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  const ContactManifold<Real> manifold = manifold_of(w, contact, Real(tuning::kContactReach) * smaller);
+  ContactConstraint<Real> c;
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = kNone;
+  mix_materials(w, contact, c);
+  rebuild(w, contact, manifold, c);
+  return c;
+}
 
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt) {
@@ -331,6 +352,10 @@ void report_impacts(WorldData<Real>& w) {
   });
 }
 
+template float restitution_between(const WorldData<float>&, int, int);
+template double restitution_between(const WorldData<double>&, int, int);
+template ContactConstraint<float> constraint_between(const WorldData<float>&, const ContactRecord&);
+template ContactConstraint<double> constraint_between(const WorldData<double>&, const ContactRecord&);
 template void report_impacts(WorldData<float>&);
 template void report_impacts(WorldData<double>&);
 template void update_contacts(WorldData<float>&, float);

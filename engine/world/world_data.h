@@ -18,6 +18,7 @@
 #include "engine/world/corner_pool.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
+#include "engine/world/flight.h"
 #include "engine/world/slots.h"
 #include "engine/world/used_list.h"
 
@@ -224,7 +225,9 @@ struct Scratch {
   CrowdRoom<Real> crowds;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;
-  std::vector<double> fractions;
+  std::vector<Flight> flights;
+  std::vector<Meeting> meetings;   ///< a heap, the first on top
+  std::vector<int> flight_places;  ///< by body: its flight, while they are followed
   std::vector<ShapeId> visitors;
   std::vector<ConvexMass> mass_parts;
 };

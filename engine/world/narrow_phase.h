@@ -1,0 +1,16 @@
+#pragma once
+
+#include "engine/world/world_data.h"
+
+namespace plumb {
+
+/// Newton's coefficient for two shapes, by the world's rule.
+template <class Real>
+Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b);
+
+/// The constraint of two shapes where their bodies are now, with the points that they touch at and no
+/// impulses; without points when they do not touch.
+template <class Real>
+ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact);
+
+}  // namespace plumb
