@@ -52,6 +52,10 @@ class EquationsOfMotion final : public Flow {
   /// to rounding; then velocities likewise until they keep them so, and what sticks from slipping. Throws
   /// `Error` (Run) where gaps cannot be closed.
   void project(double time, Compensated& y);
+  /// Where bodies hang by hinges alone, and start with velocities that these do not allow: the impulses that
+  /// take away what is not allowed, as if the hinges were put on in that instant. `project` then lets places
+  /// and velocities follow from the angles.
+  void strike_hinges(double time, Compensated& y);
 
   /// The parts of `rate` and `project`, for methods that hold joints in their own way; arrays by body.
   /// Accelerations by forces alone:

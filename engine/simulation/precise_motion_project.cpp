@@ -31,6 +31,24 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   kick(shift, 1, y);
 }
 
+void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
+  constexpr double kRounding = 1e-12;  // of the fastest: velocities that were meant to fit
+  if (!only_hinges() || !hinges_.rooted()) return;
+  place(time, y.value());
+  hinges_.place(poses_);
+  std::vector<Twist<double>>& shift = accelerations_;
+  std::fill(shift.begin(), shift.end(), Twist<double>{});
+  hinges_.stop(twists_, shift);
+  const auto fastest = [&](const std::vector<Twist<double>>& twists) {
+    double most = 0;
+    for (const Twist<double>& twist : twists)
+      most = std::max(
+          {most, std::sqrt(length_squared(twist.velocity)), std::abs(twist.angular_velocity) * length_});
+    return most;
+  };
+  if (fastest(shift) > kRounding * fastest(twists_)) kick(shift, 1, y);
+}
+
 /// Of what hangs by hinges on what stands, angles alone are free: places and velocities follow from them.
 void EquationsOfMotion::hang(double time, Compensated& y) {
   place(time, y.value());

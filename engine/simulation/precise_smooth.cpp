@@ -364,6 +364,7 @@ void SmoothMotion::restart() {
 }
 
 void SmoothMotion::start_anew() {
+  equations_.strike_hinges(time_, y_);
   project(time_, y_);
   control_.reset();
   proposed_step_ = 0;

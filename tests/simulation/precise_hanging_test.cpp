@@ -166,6 +166,40 @@ TEST(PreciseHanging, HeavyTipsFollowLagrangesEquations) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(states[i].angle, static_cast<double>(end[i]), 3e-11) << i;
 }
 
+// A rod that flies sideways is caught by its hinge: what it had about that is what it turns with, and for two
+// rods the impulses at both hinges are found from their sums of momentum.
+TEST(PreciseHanging, HingesCatchWhatTheyDoNotAllow) {
+  const std::vector<Link> links = {{-1, 2, 0.3, {0, 0}, {0, -0.5}, 0, 0.7}};
+  Scene scene = scene_of(links, false, false);
+  scene.gravity = {};
+  scene.bodies[0].velocity = {3, 1};
+  const auto states = run(scene, 1);
+  // (I + m c^2) w = I w0 + c x m v, c = (0, -0.5).
+  const double w = (0.3 * 0.7 + 2 * 0.5 * 3) / (0.3 + 2 * 0.25);
+  EXPECT_NEAR(states[0].angular_velocity, w, 1e-14);
+
+  // A second one, at rest but for its own turning: energy is lost, never gained.
+  const std::vector<Link> two = {{-1, 2, 0.3, {0, 0}, {0, -0.5}, 0, 0},
+                                 {0, 1, 0.1, {0, -0.5}, {0, -0.5}, 0, 0}};
+  Scene pair = scene_of(two, false, false);
+  pair.gravity = {};
+  pair.bodies[0].velocity = pair.bodies[1].velocity = {};
+  pair.bodies[0].angular_velocity = 0, pair.bodies[1].angular_velocity = 4;
+  const auto caught = run(pair, 1);
+  // With A1 = I1 + m1 c^2 + m2 L^2 = 0.3 + 0.5 + 1, A2 = I2 + m2 c^2 = 0.35, B = m2 L c = 0.5: momenta about
+  // the hinges are A1 w1 + B w2 = 0 of the upper, B w1 + A2 w2 = I2 4 of the lower.
+  const double a1 = 1.8, a2 = 0.35, b = 0.5, p = 0.4;
+  double energy = 0, momentum = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const BodyState& rod = caught[i];
+    energy += 0.5 * (two[i].mass * length_squared(rod.velocity) +
+                     two[i].inertia * rod.angular_velocity * rod.angular_velocity);
+    momentum += two[i].mass * cross(rod.position, rod.velocity) + two[i].inertia * rod.angular_velocity;
+  }
+  EXPECT_NEAR(energy, 0.5 * p * p * a1 / (a1 * a2 - b * b), 5e-14);
+  EXPECT_NEAR(momentum, p, 1e-14);
+}
+
 // A link that may not turn swings none: what hangs on it has the world for its root.
 TEST(PreciseHanging, LinksThatMayNotTurnStay) {
   const std::vector<Link> links = {{-1, 1, 0.1, {0, 0}, {0.5, 0}, 0, 0},
