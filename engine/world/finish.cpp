@@ -63,6 +63,18 @@ Aabb<Real> box_of(const WorldData<Real>& w, int shape) {
   return convex_bounds(w.convex(shape), Pose<Real>{w.position[body].template as<Real>(), w.rotation[body]});
 }
 
+namespace {
+
+// What the box covers while it moves by `way`.
+template <class Real>
+Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
+  box.lower.x += std::min(way.x, Real(0)), box.lower.y += std::min(way.y, Real(0));
+  box.upper.x += std::max(way.x, Real(0)), box.upper.y += std::max(way.y, Real(0));
+  return box;
+}
+
+}  // namespace
+
 template <class Real>
 Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
   const int body = w.shapes[shape].body;
@@ -74,10 +86,7 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
   // What does not move needs no margin: a ground would be paired with all that is as near as a tenth of it.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
-  const Vec2<Real> ahead = (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity;
-  (ahead.x > 0 ? box.upper.x : box.lower.x) += ahead.x;
-  (ahead.y > 0 ? box.upper.y : box.lower.y) += ahead.y;
-  return box;
+  return stretched(box, (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity);
 }
 
 namespace {
@@ -124,6 +133,8 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const remainders = remainders_of(w);
   const bool sleeping = w.settings.sleeping;
+  // What stands has no margin: who comes near it has to be stored a step before.
+  const bool grounds = w.still_tree.size() > 0;
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
@@ -157,9 +168,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
         if (w.shapes[shape].proxy == kNone) continue;
         w.boxes[shape] = convex_bounds(w.convex(shape), pose);
-        const Vec2<Real> ahead = dt * motion.velocity;
-        const Aabb<Real>& box = w.boxes[shape];
-        store_box(w, shape, dt, merged(box, {box.lower + ahead, box.upper + ahead}));
+        store_box(w, shape, dt, grounds ? stretched(w.boxes[shape], dt * motion.velocity) : w.boxes[shape]);
       }
     }
   }
