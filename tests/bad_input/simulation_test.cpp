@@ -16,7 +16,7 @@ namespace {
 
 Scene two_balls() {
   Scene scene{.name = "two balls"};
-  for (const double x : {0.0, 0.75})
+  for (const double x : {0.0, 1.25})
     scene.bodies.push_back(
         {.name = x > 0 ? "b" : "a", .position = {x, 0}, .shapes = {{.geometry = Circle{0.5}}}});
   return scene;

@@ -186,7 +186,7 @@ FEATURES = [
     feature("Scenes are one way in", WORLD + "add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",
             "world/add_scene"),
     feature("Constants in one place", WORLD + "narrow_phase.cpp",
-            "Real(tuning::kContactReach) * smaller", "Real(tuning::kContactReach)", "extremes/figures"),
+            "return Real(tuning::kContactReach) * smaller +", "return Real(tuning::kContactReach) +", "extremes/figures"),
     feature("Handles that know what is gone", WORLD + "world.cpp",
             "if (!data_->bodies.holds(body.index, body.generation)) report_gone(",
             "if (body.index >= static_cast<std::uint32_t>(data_->bodies.size())) report_gone(", "world/world"),
