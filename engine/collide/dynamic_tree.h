@@ -60,6 +60,11 @@ class DynamicTree {
   template <class Visit>
   void query(const Aabb<Real>& box, std::uint32_t mask, Visit&& visit) const;
 
+  /// Which leaves meet others, all in one go: `meets`, by proxy, becomes 1 where the box of a leaf overlaps
+  /// another leaf's, and 0 elsewhere. Where few meet this costs a fraction of a query for each. False, with
+  /// marks missing, when it takes more than `most` comparisons of boxes: where many meet.
+  bool mark_meetings(std::vector<char>& meets, int most) const;
+
   /// Sweeps a box of `half_extent` (zero for a ray) from `origin` by `translation`, m. Calls
   /// visit(int user, Real max_fraction) -> Real for leaves that the sweep meets at a fraction of at most
   /// max_fraction of the translation, nearer subtrees first; max_fraction starts at 1 and becomes what visit
@@ -76,6 +81,8 @@ class DynamicTree {
 
   /// Leaves in the tree.
   int size() const { return size_; }
+  /// All proxies are below this.
+  int proxies() const { return static_cast<int>(slots_.size()); }
   /// The longest way from the root to a leaf, in nodes; looks at every node.
   int height() const;
   /// Around all leaves; {0, 0} to {0, 0} when there are none.

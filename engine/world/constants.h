@@ -99,6 +99,11 @@ inline constexpr double kManifoldTravel = 0.002;
 inline constexpr double kBoxMargin = 0.1;
 inline constexpr double kBoxSteps = 4;
 
+/// Where at least so many shapes have left their stored boxes, and at least one in so many of all, most of
+/// them without a contact, those that meet others are found at once.
+inline constexpr int kScreenedMoves = 64;
+inline constexpr int kScreenedShare = 8;
+
 /// Approaches slower than this many times |gravity| dt do not bounce: a body at rest gains |gravity| dt
 /// before its contact answers.
 inline constexpr double kRestingSteps = 4;

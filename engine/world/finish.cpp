@@ -43,8 +43,8 @@ void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const Bod
   } else {
     w.position[body] += motion.moved.template as<double>();
   }
-  record.angle += static_cast<double>(motion.turned);
   if (motion.turned == 0) return;
+  record.angle += static_cast<double>(motion.turned);
   // One Newton step towards |q| = 1.
   Rotation<Real>& q = w.rotation[body];
   const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
@@ -91,13 +91,11 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
 
 namespace {
 
-// A shape whose box, or `due` instead, has left what is stored for it is stored anew.
+// Stores what a shape is going to need from here on.
 template <class Real>
-void store_box(WorldData<Real>& w, int shape, Real dt, const Aabb<Real>& due) {
+void store_box(WorldData<Real>& w, int shape, Real dt) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  DynamicTree<Real>& tree = w.tree_of(w.bodies[record.body].type);
-  if (tree.box(record.proxy).contains(due)) return;
-  tree.enlarge(record.proxy, stored_box(w, shape, dt));
+  w.tree_of(w.bodies[record.body].type).enlarge(record.proxy, stored_box(w, shape, dt));
   w.enlarged[record.body] = 1;
   if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
@@ -123,7 +121,7 @@ bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
   const ShapeRecord<Real>& record = w.shapes[shape];
   const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
   const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
-  store_box(w, shape, dt, box_ahead(w, shape, dt, turned));
+  if (!stored.contains(box_ahead(w, shape, dt, turned))) store_box(w, shape, dt);
   return covered;
 }
 
@@ -150,7 +148,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     if (loads != nullptr) loads[body] = {};
     if (sleeping) {
       time_stillness(record, motion, extent, dt);
-    } else {
+    } else if (record.still_for != 0) {
       record.still_for = 0;
     }
     w.enlarged[body] = 0;
@@ -166,9 +164,13 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     } else {
       const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-        if (w.shapes[shape].proxy == kNone) continue;
-        w.boxes[shape] = convex_bounds(w.convex(shape), pose);
-        store_box(w, shape, dt, grounds ? stretched(w.boxes[shape], dt * motion.velocity) : w.boxes[shape]);
+        const int proxy = w.shapes[shape].proxy;
+        if (proxy == kNone) continue;
+        const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
+        w.boxes[shape] = box;
+        // Whoever is awake is in the moving tree.
+        if (!w.moving_tree.box(proxy).contains(grounds ? stretched(box, dt * motion.velocity) : box))
+          store_box(w, shape, dt);
       }
     }
   }

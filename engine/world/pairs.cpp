@@ -1,12 +1,33 @@
+#include "engine/world/constants.h"
 #include "engine/world/contacts.h"
 #include "engine/world/step.h"
 
 namespace plumb {
+namespace {
+
+// Finds out at once which of the boxes in the moving tree meet any other, when that promises to spare most of
+// many a query: when most of what moved had no contact. False: it is not known.
+template <class Real>
+bool mark_meetings(WorldData<Real>& w) {
+  const int moved = static_cast<int>(w.moved_shapes.size()), all = w.moving_tree.size();
+  if (all < tuning::kScreenedMoves) return false;
+  w.scratch.meets.resize(static_cast<std::size_t>(w.moving_tree.proxies()));
+  if (moved < tuning::kScreenedMoves || moved * tuning::kScreenedShare < all) return false;
+  int lone = 0;
+  for (const int shape : w.moved_shapes) {
+    const ShapeRecord<Real>& record = w.shapes[shape];
+    lone += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
+  }
+  return 8 * lone >= 7 * moved && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
+}
+
+}  // namespace
 
 template <class Real>
 void find_pairs(WorldData<Real>& w) {
   std::vector<std::pair<int, int>>& found = w.scratch.found_pairs;
   found.clear();
+  const bool marked = mark_meetings(w);
   for (const int shape : w.moved_shapes) {
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone) continue;  // gone meanwhile
@@ -20,7 +41,8 @@ void find_pairs(WorldData<Real>& w) {
     };
     const std::uint32_t mask = seen_by(record.filter);
     if (mask == 0) continue;
-    w.moving_tree.query(box, mask, visit);
+    if (type == BodyType::Static || !marked || w.scratch.meets[record.proxy] != 0)
+      w.moving_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
   }
   for (const int shape : w.moved_shapes) w.shapes[shape].moved = false;

@@ -204,6 +204,7 @@ template <class Real>
 struct Scratch {
   std::vector<int> queue;
   std::vector<std::pair<int, int>> found_pairs;
+  std::vector<char> meets;  ///< by proxy of the moving tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   std::vector<ContactConstraint<Real>> begun_contacts;
   std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps

@@ -284,5 +284,26 @@ TEST(Contacts, AreReadWithTheirForces) {
   EXPECT_NEAR(contacts[0].points[0].y, 0, 0x1p-22);
 }
 
+// Where hundreds fall side by side and a few meet, which shapes meet any other is found at once: the few
+// bounce as if alone.
+TEST(Contacts, TheFewThatMeetAmongManyThatFall) {
+  const ShapeDefinition disc{.geometry = Circle{0.5}, .material = {.friction = 0, .restitution = 1}};
+  World world({.gravity = {0, -kGravity}});
+  std::vector<BodyId> discs;
+  for (int i = 0; i < 400; ++i)
+    discs.push_back(add_body(world, {3.0 * (i / 20), 3.0 * (i % 20)}, disc, {i % 50 == 7 ? 2.0 : 0.0, 0}));
+  BodyDefinition kinematic;  // and one below the last column
+  kinematic.type = BodyType::Kinematic;
+  kinematic.position = {57, -3.5};
+  world.create_body(kinematic, ShapeDefinition{.geometry = Box{2, 2}});
+  run(world, 90);  // those that fly aside reach the next ones after 1 s, 2 m away
+  for (int i = 0; i < 380; ++i) {
+    const bool was_struck = i >= 20 && (i - 20) % 50 == 7;
+    EXPECT_NEAR(world.velocity(discs[i]).x, was_struck ? 2 : 0, 1e-5) << i;
+    EXPECT_NEAR(world.velocity(discs[i]).y, -1.5 * kGravity, 1e-4) << i;
+  }
+  EXPECT_GT(world.velocity(discs[380]).y, -kGravity) << "it was thrown back";
+}
+
 }  // namespace
 }  // namespace plumb
