@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,18 +24,18 @@ using harness::Style;
 struct Options {
   std::vector<std::string> command;
   std::string engine, dt, timeout = "10", format = "console";
-  int chapter = 0;
+  std::optional<int> chapter;
 };
 
 constexpr const char* kOwnEngine = "yours";
 constexpr double kLargestStep = 1.0 / 30;
 
-std::vector<course::Chapter> chosen_chapters(int number) {
+std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
   std::vector<course::Chapter> all = course::chapters();
-  if (number == 0) return all;
+  if (!number) return all;
   for (course::Chapter& chapter : all)
-    if (chapter.number == number) return {std::move(chapter)};
-  throw UsageError(fmt::format("--chapter is {}: there are chapters 1 to {}", number, all.size()));
+    if (chapter.number == *number) return {std::move(chapter)};
+  throw UsageError(fmt::format("--chapter is {}: there are chapters 1 to {}", *number, all.size()));
 }
 
 int examine(const Options& options, const reference::Backend& engine) {

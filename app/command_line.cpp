@@ -1,5 +1,9 @@
 #include "app/command_line.h"
 
+#include <fmt/format.h>
+
+#include "app/usage.h"
+
 namespace plumb::app {
 
 std::vector<std::string> split_command(const std::string& text) {
@@ -20,6 +24,7 @@ std::vector<std::string> split_command(const std::string& text) {
       open = true;
     }
   }
+  if (quote != 0) throw UsageError(fmt::format("the command {} has a quote that is not closed", text));
   if (open) words.push_back(word);
   return words;
 }

@@ -119,6 +119,7 @@ void add_compare(CLI::App& app, Action& chosen) {
   command->add_option("--timeout", options->timeout, "s after which a run is stopped (default 300)")
       ->type_name("T");
   command->add_option("--out", options->out, "folder whose results.jsonl is appended to (default results)")
+      ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json (a result a line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));

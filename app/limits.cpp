@@ -1,8 +1,4 @@
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -11,8 +7,9 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
-#include "engine/scene/error.h"
+#include "app/usage.h"
 #include "harness/limits/limits_page.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
@@ -20,24 +17,6 @@ namespace {
 struct Options {
   std::string folder = "stress", out;
 };
-
-[[noreturn]] void fail(const std::string& path, const char* what) {
-  throw Error(Error::Kind::Io, fmt::format("file '{}'", path), "", "",
-              fmt::format("{}: {}", what, std::strerror(errno)));
-}
-
-std::string read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) fail(path, "cannot be read");
-  return text;
-}
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  if (!file) fail(path, "cannot be written");
-}
 
 int start(const Options& options) {
   const harness::limits::LimitsData data = harness::limits::read_limits(options.folder);
@@ -47,10 +26,10 @@ int start(const Options& options) {
     flush();
     return kOk;
   }
-  const std::string page = harness::limits::with_measured_part(read(options.out), part);
+  const std::string page = harness::limits::with_measured_part(harness::read_text(options.out), part);
   const std::string kept = std::filesystem::path(options.out).replace_extension(".jsonl").string();
-  write(kept, harness::limits::to_jsonl(data));
-  write(options.out, page);
+  harness::write_whole(kept, harness::limits::to_jsonl(data));
+  harness::write_whole(options.out, page);
   print(fmt::format("{} has the measured part anew, from what is kept in {}\n", options.out, kept));
   flush();
   return kOk;
@@ -69,6 +48,7 @@ void add_limits(CLI::App& app, Action& chosen) {
       ->add_option("--out", options->out,
                    "page whose part between the markers is replaced; what it is made of is kept beside it\n"
                    "as .jsonl (default: the part goes to stdout)")
+      ->check(problem_with_path)
       ->type_name("FILE");
   command->footer(
       "Examples:\n  plumb limits\n"

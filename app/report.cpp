@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "app/usage.h"
 #include "harness/interrupt.h"
 #include "reference/backend.h"
 
@@ -48,10 +49,12 @@ void add_report(CLI::App& app, Action& chosen) {
           "(default results)")
       ->type_name("DIR");
   command->add_option("--out", options->out, "the file to write (default DIR/report.html)")
+      ->check(problem_with_path)
       ->type_name("FILE");
   command
       ->add_option("--picture", options->picture,
                    "also draw which engine survives which family of `plumb stress`, as SVG")
+      ->check(problem_with_path)
       ->type_name("FILE");
   command->footer(
       "Examples:\n  plumb report\n  plumb report sweep --out trade.html\n"

@@ -24,6 +24,7 @@ int report(const std::string& text, int code) {
 std::string what_next(const Error& error) {
   if (error.kind() != Error::Kind::Name) return "";
   if (error.subject().starts_with("scenario")) return "; `plumb list` shows the scenarios";
+  if (error.subject().starts_with("threshold")) return "; see `plumb thresholds --list`";
   if (error.subject().starts_with("engine")) return "; `plumb engines` shows the engines";
   return "";
 }

@@ -3,12 +3,30 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
 
 namespace plumb::app {
+namespace {
+
+// What is left of a writer that was stopped within a line, or of a disk that was full.
+void drop_half_a_line(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) return;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::streamoff end = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  const std::streamoff size = end;
+  for (; end > 0; --end) {
+    file.seekg(end - 1);
+    if (file.get() == '\n') break;
+  }
+  if (end < size) std::filesystem::resize_file(path, static_cast<std::uintmax_t>(end), code);
+}
+
+}  // namespace
 
 ResultLog::ResultLog(const std::string& folder)
     : path_((std::filesystem::path(folder) / "results.jsonl").string()) {
@@ -17,6 +35,7 @@ ResultLog::ResultLog(const std::string& folder)
   if (code)
     throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
                 fmt::format("cannot be made: {}; name another with --out", code.message()));
+  drop_half_a_line(path_);
   file_.reset(std::fopen(path_.c_str(), "a"));
   if (!file_)
     throw Error(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",

@@ -1,12 +1,8 @@
 #include "app/source.h"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,21 +11,14 @@
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
 
 std::string read_file(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  const std::string subject = fmt::format("file '{}'", path);
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    throw Error(Error::Kind::Io, subject, "", "",
-                "is a directory; give a scene as JSON, like `plumb scene NAME` prints");
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(Error::Kind::Io, subject, "", "", fmt::format("cannot be read: {}", std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(file), {}};
+  if (path == "-") return harness::read_text(std::cin, "standard input");
+  return harness::read_text(path, "give a scene as JSON, like `plumb scene NAME` prints");
 }
 
 // How long a scene from a file runs: as long as the scenario whose name it bears.

@@ -129,6 +129,7 @@ void add_stress(CLI::App& app, Action& chosen) {
   command
       ->add_option("--out", options->out,
                    "folder for the cells; a run that is there goes on (default stress)")
+      ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "cells at a time (default: one a core)")
       ->check(CLI::Range(1, 1024))

@@ -54,6 +54,8 @@ int start(const Options& options) {
         what.instances.push_back(std::move(instance));
     }
   }
+  if (!options.duration.empty() && files.empty())
+    throw UsageError("--duration goes with a scene file: scenarios have their own");
   if (options.names.empty()) what.instances = chosen_instances({}, options.size);
   require_different(what.instances);
   what.engines = chosen_engines(options.engines, programs);
@@ -110,6 +112,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
   command
       ->add_option("--out", options->out,
                    "folder for the results; a sweep that is there goes on (default sweep)")
+      ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));

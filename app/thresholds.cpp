@@ -112,6 +112,7 @@ void add_thresholds(CLI::App& app, Action& chosen) {
   command
       ->add_option("--out", options->out,
                    "folder of thresholds.jsonl; what is there already is not searched again (default stress)")
+      ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json (a value a line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));

@@ -37,6 +37,8 @@ int start(const Options& options) {
     throw UsageError("give --tolerance or --budget-us: what must be reached, or what it may cost");
   if (options.size > 0 && is_file(options.name))
     throw UsageError("--size goes with a scenario's name, not with a file");
+  if (!options.duration.empty() && !is_file(options.name))
+    throw UsageError("--duration goes with a scene file: scenarios have their own");
   sweep::TuneOptions what{.instance = is_file(options.name)
                                           ? file_instance(options.name, options.duration, files)
                                           : one_instance(options.name, options.size),
@@ -53,7 +55,10 @@ int start(const Options& options) {
   harness::catch_interrupts();
   const sweep::Tuned tuned = sweep::tune(what, [&](const std::string& text) { progress.say(text); });
   progress.clear();
-  if (tuned.interrupted) return kInterrupted;
+  if (tuned.interrupted) {
+    fmt::print(stderr, "plumb: interrupted; a search keeps nothing, --seconds makes it shorter\n");
+    return kInterrupted;
+  }
   print(options.format == "json" ? sweep::tune_json(what, tuned)
                                  : sweep::tune_text(what, tuned, harness::Style::of_file(STDOUT_FILENO)));
   const bool any = std::any_of(tuned.answers.begin(), tuned.answers.end(),

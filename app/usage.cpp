@@ -35,4 +35,8 @@ double parse_positive(const std::string& option, const std::string& text) {
   return value;
 }
 
+std::string problem_with_path(const std::string& text) {
+  return text.empty() ? "the name is empty: give that of a file or folder, or leave the option out" : "";
+}
+
 }  // namespace plumb::app

@@ -17,4 +17,7 @@ double parse_number(const std::string& option, const std::string& text);
 /// Likewise, and more than zero.
 double parse_positive(const std::string& option, const std::string& text);
 
+/// What is wrong with the name of a file or folder; empty when nothing is. For options' checks.
+std::string problem_with_path(const std::string& text);
+
 }  // namespace plumb::app

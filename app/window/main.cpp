@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -20,6 +18,7 @@
 #include "demos/window/view.h"
 #include "engine/scene/error.h"
 #include "engine/scene/suggest.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
@@ -40,6 +39,7 @@ void add_options(CLI::App& command, Given& given) {
   command.add_option("--seconds", given.seconds, "how long, of real time (headless: of the show's)")
       ->type_name("T");
   command.add_option("--screenshot", given.screenshot, "write the last frame to this PNG file")
+      ->check(problem_with_path)
       ->type_name("FILE");
   command.add_option("--width", given.width, "px")->check(CLI::Range(64, 8192));
   command.add_option("--height", given.height, "px")->check(CLI::Range(64, 8192));
@@ -55,16 +55,11 @@ void add_options(CLI::App& command, Given& given) {
   command
       .add_option("--script", given.script,
                   "what the player does: lines like '0.5 press 1 2' (docs/demos.md)")
+      ->check(problem_with_path)
       ->type_name("FILE");
   command.add_option("--measure-frames", given.frames, "draw so many frames and say how long they took")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-}
-
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(Error::Kind::Io, "file '" + file + "'", "", "", "cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 window::Options options_of(const Given& given) {
@@ -76,7 +71,8 @@ window::Options options_of(const Given& given) {
   if (!given.seconds.empty()) options.seconds = parse_number("--seconds", given.seconds);
   if (!given.seconds.empty() && options.seconds < 0)
     throw UsageError("--seconds: '" + given.seconds + "' is before the start");
-  if (!given.script.empty()) options.script = window::parse_script(text_of(given.script), given.script);
+  if (!given.script.empty())
+    options.script = window::parse_script(harness::read_text(given.script), given.script);
   if (given.headless && given.seconds.empty() && given.frames == 0)
     throw UsageError("--headless needs an end: give --seconds T");
   return options;

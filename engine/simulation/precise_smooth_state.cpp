@@ -7,7 +7,9 @@
 namespace plumb::precise {
 
 void SmoothMotion::save(double sampled, SnapshotWriter& out) {
-  const bool within = sampled < time_ && sampled > start_ && y_.size() > 0;
+  // A flight is read before its last step, too, where an impact was a little later than it had seemed: that
+  // little is a step, and the parabola is the same.
+  const bool within = sampled < time_ && sampled != start_ && y_.size() > 0;
   const bool with_polynomial = within && method_ != MotionMethod::Symplectic;
   if (with_polynomial) polynomial();
   const auto put = [&](std::span<const double> numbers) {

@@ -212,6 +212,7 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
   if (record.awake) leave_awake(w, body);
   record.type = type;
+  w.remainders.renew(body, w.bodies.size());
   if (type != BodyType::Static) enter_awake(w, body);
   if (type == BodyType::Static) w.motion[body] = {};
   if (record.mass_given) {

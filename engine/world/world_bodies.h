@@ -230,6 +230,7 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   const bool turns = dynamic && !rotation && record.inertia > 0;
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
+  data_->remainders.renew(index, data_->bodies.size());  // what is locked does not move even by that
   data_->ties_changed = true;
   forget_manifolds(*data_, index);
   wake(index);

@@ -194,9 +194,11 @@ std::pair<std::size_t, std::size_t> between(std::string_view page) {
   const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
   const bool once = begin != page.npos && end != page.npos && begin < end &&
                     page.find(kBegin, begin + 1) == page.npos && page.find(kEnd, end + 1) == page.npos;
+  const auto line = [](std::string_view marker) { return marker.substr(0, marker.find('\n')); };
   if (!once)
-    throw Error(Error::Kind::Syntax, "the page of limits", "", "",
-                fmt::format("does not have its two markers once each, in order: {} {}", kBegin, kEnd));
+    throw Error(
+        Error::Kind::Syntax, "the page of limits", "", "",
+        fmt::format("does not have its two markers once each, in order: {} {}", line(kBegin), line(kEnd)));
   return {begin + kBegin.size(), end};
 }
 

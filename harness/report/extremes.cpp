@@ -1,12 +1,10 @@
 #include "harness/report/extremes.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <set>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +13,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/sweep/front.h"
+#include "harness/text_file.h"
 
 namespace plumb::harness::report {
 namespace {
@@ -28,9 +27,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return;
   const std::string subject = fmt::format("file '{}'", path.string());
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(Error::Kind::Io, subject, "", "", fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::istringstream file(read_text(path.string()));
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;

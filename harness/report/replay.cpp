@@ -14,9 +14,9 @@
 #include "harness/energy.h"
 #include "harness/interrupt.h"
 #include "harness/isolate.h"
-#include "harness/report/whole_file.h"
 #include "harness/run.h"
 #include "harness/sweep/rows.h"
+#include "harness/text_file.h"
 
 namespace plumb::harness::report {
 namespace {

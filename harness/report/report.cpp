@@ -10,8 +10,8 @@
 #include "harness/report/extremes.h"
 #include "harness/report/replay.h"
 #include "harness/report/report_data.h"
-#include "harness/report/whole_file.h"
 #include "harness/sweep/rows.h"
+#include "harness/text_file.h"
 
 namespace plumb::harness::report {
 namespace {

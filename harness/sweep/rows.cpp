@@ -1,16 +1,15 @@
 #include "harness/sweep/rows.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
+#include "harness/text_file.h"
 
 namespace plumb::harness::sweep {
 namespace {
@@ -65,10 +64,7 @@ std::vector<Result> latest(std::vector<Result> rows) {
 
 std::vector<Result> read_rows(const std::string& folder_or_file) {
   const std::string path = file_of(folder_or_file);
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(Error::Kind::Io, fmt::format("file '{}'", path), "", "",
-                fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::istringstream file(read_text(path));
   std::vector<Result> rows;
   int number = 0;
   for (std::string line; std::getline(file, line);) {

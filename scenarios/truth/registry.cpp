@@ -11,6 +11,8 @@
 namespace plumb::scenarios {
 namespace {
 
+constexpr int kLargestSize = 1'000'000;  // a scene of a GB; more would use up the memory of most machines
+
 /// Filled before main() by the scenario files, in whatever order they are linked.
 struct Registry {
   std::vector<Scenario> scenarios;
@@ -82,7 +84,7 @@ int parse_size(const Scenario& scenario, const std::string& text) {
   const auto [stop, failure] = std::from_chars(text.data(), end, size);
   if (failure != std::errc{} || stop != end || size < 1)
     throw Error(Error::Kind::Value, subject(scenario.name), "size", text,
-                "must be a whole number, 1 or more");
+                "must be a whole number, from 1 to " + std::to_string(kLargestSize));
   return size;
 }
 
@@ -104,6 +106,7 @@ std::vector<int> chosen_sizes(const Scenario& scenario, const std::optional<std:
   };
   if (text && size > 0 && size != wanted)
     throw error("contradicts the size " + std::to_string(size) + " that was given as well");
+  if (wanted > kLargestSize) throw error("must be at most " + std::to_string(kLargestSize));
   if (!scenario.scales && std::ranges::find(scenario.sizes, wanted) == scenario.sizes.end())
     throw error("does not apply: this scenario does not scale, leave the size out");
   return {wanted};

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"variant", {"scene", "free_fall/vacum"}, {"vacum", "did you mean 'vacuum'"}},
         Bad{"size_zero", {"scene", "pendulum_chain[0]"}, {"size is 0"}},
         Bad{"size_negative", {"scene", "pendulum_chain", "--size", "-3"}, {"--size", "-3", "above 0"}},
+        Bad{"size_huge", {"scene", "pendulum_chain[1000000000]"}, {"1000000000", "at most 1000000"}},
         Bad{"size_not_taken", {"scene", "free_fall", "--size", "7"}, {"size"}},
         Bad{"engine",
             {"run", "free_fall/vacuum", "--engine", "box2e"},
@@ -106,6 +107,15 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"engine_command_twice",
             {"compare", "free_fall", "--engine-command", "plumb=true"},
             {"plumb", "already"}},
+        Bad{"engine_command_quote",
+            {"compare", "free_fall", "--engine-command", "mine=\"true"},
+            {"\"true", "quote", "closed"}},
+        Bad{"chapter_zero", {"check", "--engine", "plumb", "--chapter", "0"}, {"--chapter", "1 to 5"}},
+        Bad{"out_empty", {"sweep", "free_fall", "--out", ""}, {"--out", "empty"}},
+        Bad{"duration_of_a_scenario",
+            {"sweep", "free_fall", "--duration", "5"},
+            {"--duration", "scene file"}},
+        Bad{"threshold", {"thresholds", "overhong"}, {"overhong", "overhang", "--list"}},
         Bad{"explain_a_rival", {"explain", "free_fall/vacuum", "--engine", "box2d"}, {"box2d", "plan"}}),
     [](const auto& which) { return which.param.name; });
 

@@ -18,6 +18,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -28,7 +29,7 @@ ROOT = HERE.parent.parent
 SEEDS = HERE / "corpus"
 
 # Bytes of the longest input: short ones run often.
-LONGEST = {"scene": 3000, "worker": 3000, "host": 2000, "world": 600, "snapshot": 500, "recording": 1200}
+LONGEST = {"scene": 3000, "worker": 3000, "host": 2000, "world": 600, "snapshot": 500, "recording": 600}
 JSON = {"scene", "worker", "host"}
 SLOWEST = 60  # s that one input may take, on a machine that does other things too
 MEMORY = 2048  # MB
@@ -139,6 +140,7 @@ def clear_line():
 
 
 def fuzz(targets, build, seconds, jobs):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     waiting, running = [Run(target, build, seconds) for target in targets], []
     clean, done, interrupted = True, 0, False
     try:

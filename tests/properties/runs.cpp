@@ -98,9 +98,10 @@ double disturbance(Engine engine) {
   return engine == Engine::World ? 1e3 * 0x1p-24 : 1e4 * 0x1p-53;
 }
 
-double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps) {
+double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps,
+                   unsigned first, unsigned count) {
   double most = by;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = first; seed < first + count; ++seed) {
     std::mt19937 random(seed);
     const auto some = [&] { return 2 * (static_cast<double>(random()) / 4294967295.0) - 1; };
     Scene disturbed = scene;

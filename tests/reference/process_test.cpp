@@ -81,6 +81,54 @@ TEST_F(ProcessTest, StatesThatAreNotFinite) {
                  "it blew up");
 }
 
+TEST_F(ProcessTest, AnswersThatNobodyAskedForAreNotTakenForOthers) {
+  const Scene scene = falling({disc("ball", {})});
+  const auto backend = engine("sample(1)\nsend({'done': True, 'ns': 1})\nsend({'done': True, 'ns': 1})");
+  const auto simulator = backend->create(scene, {});
+  EXPECT_EQ(simulator->advance(1), 1);
+  try {
+    simulator->advance(1);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const ProcessError& error) {
+    EXPECT_EQ(error.fault(), Fault::Protocol) << error.what();
+  }
+}
+
+TEST_F(ProcessTest, EnginesThatFailAtTheStartAreNotAvailable) {
+  const struct {
+    const char* hello;
+    const char* reason;
+  } cases[] = {{"sys.exit(7)", "exit code 7"},
+               {"os.kill(os.getpid(), signal.SIGABRT)", "killed by signal 6"},
+               {"say('{\"protocol\": 1')\n    sys.exit(0)", "in the middle of a line"},
+               {"say('hi\\n')", "not JSON"},
+               {"say('\\x00\\xff\\n')", "not JSON"},
+               {"say('[' * 100000 + '\\n')", "nests too deep"},
+               {"say('{}\\n')", "protocol"},
+               {"send({'protocol': '1'})", "protocol"},
+               {"send({'protocol': 1, 'name': 7})", "\"name\""},
+               {"os.close(1)\n    time.sleep(60)", "closed its output"},
+               {"while True: say('x' * 65536)", "a line of more than"}};
+  for (const auto& each : cases) {
+    const auto backend =
+        script(std::string("def hello():\n    ") + each.hello + "\n", {.seconds = 10, .line_bytes = 1 << 20});
+    EXPECT_FALSE(backend->identity().available) << each.hello;
+    EXPECT_THAT(backend->identity().reason, HasSubstr(each.reason)) << each.hello;
+    EXPECT_THROW(backend->create(falling({}), {}), Error) << each.hello;
+  }
+}
+
+TEST_F(ProcessTest, EnginesThatIgnoreSignalsAreEndedAllTheSame) {
+  const fs::path file = folder_.path() / "pid";
+  expect_failure(engine("for s in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGPIPE):\n"
+                        "    signal.signal(s, signal.SIG_IGN)\n"
+                        "with open('" +
+                            file.string() + "', 'w') as f: f.write(str(os.getpid()))\nwhile True: pass",
+                        {.seconds = 3}),
+                 Fault::Timeout, "within 3 s");
+  EXPECT_TRUE(gone(file));
+}
+
 TEST_F(ProcessTest, DeathNamesItsCauseAndTheLastWords) {
   expect_failure(engine("sys.exit(3)"), Fault::Crash, "it ended with exit code 3");
   expect_failure(engine("os.kill(os.getpid(), signal.SIGSEGV)"), Fault::Crash, "killed by signal 11");

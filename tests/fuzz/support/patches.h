@@ -24,9 +24,14 @@ inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
       case 1:
         bytes[at] ^= std::byte{static_cast<unsigned char>(1u << in.below(8))};
         break;
-      case 2:
-        overwrite(at, static_cast<std::int32_t>(in.byte()) - 2);
+      case 2: {
+        // Small numbers, and lengths that overflow when they are multiplied.
+        static constexpr int kPowers[] = {31, 32, 56, 59, 60, 61, 62, 63};
+        const int number = in.byte();
+        if (number < 192) overwrite(at, static_cast<std::int32_t>(number) - 2);
+        if (number >= 192) overwrite(at, std::uint64_t{1} << kPowers[number % 8]);
         break;
+      }
       case 3:
         overwrite(at, in.number(-10, 10));
         break;

@@ -21,6 +21,7 @@
 #include "engine/world/recording_file.h"
 #include "engine/world/replay.h"
 #include "engine/world/snapshot.h"
+#include "tests/fuzz/support/patches.h"
 #include "tests/fuzz/support/require.h"
 #include "tests/fuzz/support/world_parts.h"
 #include "tests/fuzz/support/world_player.h"
@@ -105,10 +106,10 @@ void put_call(Bytes& record, ByteSource& in) {
   }
 }
 
-constexpr int kRecipe = 130, kCall = 131;
+constexpr int kRecipe = 130, kCall = 131, kDamagedCall = 190;
 
-// Each record: its kind, its length, its bytes. Two kinds more than files have: a state whose bytes are the
-// recipe of a world, and a call drawn from its bytes.
+// Each record: its kind, its length, its bytes. Three kinds more than files have: a state whose bytes are the
+// recipe of a world, a call drawn from its bytes, and such a call that what is left of them damages.
 template <class Real>
 Bytes framed(ByteSource& in) {
   static const Bytes header = file_header<Real>();
@@ -124,6 +125,7 @@ Bytes framed(ByteSource& in) {
       record.push_back(static_cast<std::byte>(RecordKind::Call));
       ByteSource arguments(content);
       put_call(record, arguments);
+      if (kind >= kDamagedCall) patch(record, arguments);
     } else {
       record.push_back(static_cast<std::byte>(kind % 8));
       for (const std::uint8_t byte : content) record.push_back(std::byte{byte});
