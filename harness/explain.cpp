@@ -98,6 +98,10 @@ std::string to_console(const Explanation& explanation, const Style& style) {
   if (!settings.empty()) out += style.paint(wrap("settings: " + settings, style.width, 10), Ink::Dim) + "\n";
   out +=
       fmt::format("{} a step over {} steps\n\n", duration_text(explanation.ns_per_step), explanation.steps);
+  if (!explanation.plan.substeps_why.empty())
+    out += wrap(fmt::format("substeps: {}, {}", explanation.plan.substeps, explanation.plan.substeps_why),
+                style.width, 10) +
+           "\n\n";
   int width = 5;
   for (const Stage& stage : explanation.plan.stages)
     width = std::max(width, static_cast<int>(stage.name.size()));
@@ -126,6 +130,7 @@ std::string to_json(const Explanation& explanation) {
                   {"engine", explanation.engine},
                   {"driver", explanation.plan.driver},
                   {"settings", settings},
+                  {"substeps", {{"count", explanation.plan.substeps}, {"why", explanation.plan.substeps_why}}},
                   {"steps", explanation.steps},
                   {"ns_per_step", explanation.ns_per_step},
                   {"stages", stages}};

@@ -49,6 +49,7 @@ class PlumbSimulator final : public Simulator {
         {ContactEvent::SlipEnd, "slips_end"},      {ContactEvent::Change, "changes_of_feature"},
         {ContactEvent::Paradox, "paradoxes"}};
     for (const auto& [event, name] : kEvents) count(name, did.of(event).count);
+    if (const Error* doubt = world_.doubt()) out.emplace_back("doubt", doubt->what());
     if (did.error.known) {
       out.emplace_back("estimated_error", fmt::format("{:.1e} m, {:.1e} rad, {:.1e} m/s", did.error.position,
                                                       did.error.angle, did.error.velocity));
@@ -104,7 +105,9 @@ class RealtimeBackend final : public PlumbBackend {
              "velocity_verlet, semi_implicit_euler or explicit_euler"},
             {"joint_solver", std::string(name_of(kRealtime.joint_solver)), "direct or iterative"},
             {"iterations", std::to_string(kRealtime.iterations),
-             "sweeps over contacts and iterative joints a substep"}};
+             "sweeps over contacts and iterative joints a substep"},
+            {"on_doubt", std::string(name_of(kRealtime.on_doubt)),
+             "stop or report: what becomes of a run that broke a promise"}};
   }
 
   std::vector<Knob> knobs() const override {
@@ -168,6 +171,7 @@ class RealtimeBackend final : public PlumbBackend {
                        named(Integrator::ExplicitEuler)});
     out.joint_solver = given.choice<JointSolver>("joint_solver",
                                                  {named(JointSolver::Direct), named(JointSolver::Iterative)});
+    out.on_doubt = given.choice<OnDoubt>("on_doubt", {named(OnDoubt::Stop), named(OnDoubt::Report)});
     plumb::validate(Accuracy(out));
     return out;
   }

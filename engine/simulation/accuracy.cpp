@@ -50,6 +50,8 @@ std::string_view name_of(JointSolver joint_solver) {
   return joint_solver == JointSolver::Direct ? "direct" : "iterative";
 }
 
+std::string_view name_of(OnDoubt on_doubt) { return on_doubt == OnDoubt::Stop ? "stop" : "report"; }
+
 std::string_view name_of(MotionMethod method) {
   switch (method) {
     case MotionMethod::Automatic:
@@ -81,6 +83,7 @@ void validate(const Accuracy& accuracy) {
                 "integrator");
   require_known(static_cast<int>(realtime.joint_solver), static_cast<int>(JointSolver::Iterative),
                 "joint_solver");
+  require_known(static_cast<int>(realtime.on_doubt), static_cast<int>(OnDoubt::Report), "on_doubt");
 }
 
 }  // namespace plumb

@@ -21,6 +21,12 @@ enum class JointSolver {
   Iterative,  ///< sequential impulses, one joint after another
 };
 
+/// What Realtime does when its watch finds that a step did not keep what it promises (docs/design.md).
+enum class OnDoubt {
+  Stop,    ///< takes the step back and throws `Error` (Run)
+  Report,  ///< goes on; `Simulation::doubt` has what was found first
+};
+
 /// Fixed steps.
 struct Realtime {
   double dt = 1.0 / 60;  ///< s, > 0
@@ -29,6 +35,7 @@ struct Realtime {
   Precision precision = Precision::Double;
   Integrator integrator = Integrator::VelocityVerlet;
   JointSolver joint_solver = JointSolver::Direct;
+  OnDoubt on_doubt = OnDoubt::Stop;  ///< of velocity Verlet; the Euler schemes promise nothing
   friend bool operator==(const Realtime&, const Realtime&) = default;
 };
 
@@ -56,6 +63,7 @@ std::string_view name_of(Precision precision);  ///< "float", "double"
 std::string_view name_of(
     Integrator integrator);  ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
 std::string_view name_of(JointSolver joint_solver);  ///< "direct", "iterative"
+std::string_view name_of(OnDoubt on_doubt);          ///< "stop", "report"
 std::string_view name_of(MotionMethod method);       ///< "automatic", "explicit", "implicit", "symplectic"
 
 /// Throws `Error` (Value) that names the setting: dt <= 0, substeps < 1, a tolerance that is not positive.

@@ -1,4 +1,5 @@
 #include <bit>
+#include <new>
 #include <string>
 
 #include "engine/scene/error.h"
@@ -45,7 +46,12 @@ Simulation compile(const Scene& scene, const Accuracy& accuracy, CompileOptions 
   validate(accuracy);
   if (const std::string reason = unsupported(scene, accuracy); !reason.empty())
     throw Error(Error::Kind::Unsupported, "scene '" + scene.name + "'", "", "", reason);
-  return {make_driver(scene, accuracy, options), scene.bodies.size(), identity_of(scene, accuracy)};
+  try {
+    return {make_driver(scene, accuracy, options), scene.bodies.size(), identity_of(scene, accuracy)};
+  } catch (const std::bad_alloc&) {
+    throw Error(Error::Kind::Run, "scene '" + scene.name + "'", "memory", "",
+                "there is not enough of it for " + std::to_string(scene.bodies.size()) + " bodies");
+  }
 }
 
 std::string unsupported(const Scene& scene, const Accuracy& accuracy) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/scene/error.h"
 #include "engine/scene/scene.h"
 #include "engine/simulation/plan.h"
 
@@ -76,6 +77,11 @@ class Driver {
   virtual const Plan& plan() const = 0;
   virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off
   virtual Statistics statistics() const = 0;
+  /// A step could not be finished for want of memory: what `read` gives is the state before it, where the
+  /// driver keeps that. It does not step again.
+  virtual void abandon_step() {}
+  /// The first promise that a step broke, of a run that goes on all the same; or null.
+  virtual const Error* doubt() const { return nullptr; }
 };
 
 }  // namespace plumb

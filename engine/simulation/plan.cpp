@@ -7,6 +7,7 @@
 
 #include "engine/simulation/contact_finder.h"
 #include "engine/simulation/stages.h"
+#include "engine/simulation/substeps.h"
 
 namespace plumb {
 namespace {
@@ -88,6 +89,9 @@ Plan plan_realtime(const Scene& scene, const Realtime& accuracy, bool every_stag
 
   Plan plan;
   plan.driver = "realtime<" + std::string(name_of(accuracy.precision)) + ">";
+  const SubstepPlan substeps = plan_substeps(scene, accuracy, touching.any);
+  plan.substeps = static_cast<int>(std::min(substeps.count, double{kMostSubsteps}));
+  plan.substeps_why = substeps.why;
   const auto add = [&](RealtimeStage stage, std::string name, bool needed, std::string why) {
     plan.stages.resize(static_cast<std::size_t>(stage) + 1);
     if (!needed && every_stage) why += "; runs all the same, as every stage was asked for";
@@ -121,6 +125,9 @@ Plan plan_realtime(const Scene& scene, const Realtime& accuracy, bool every_stag
       : touching.any    ? "no pair that can touch has friction"
                         : no_pair);
   add(RealtimeStage::Check, "check", true, "no state that is not finite leaves the engine");
+  add(RealtimeStage::Watch, "watch", two_passes,
+      two_passes ? "no gap, overlap or loss of energy beyond what is promised goes unsaid"
+                 : "this integrator promises nothing");
   return plan;
 }
 

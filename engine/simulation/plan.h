@@ -17,6 +17,8 @@ struct Stage {
 struct Plan {
   std::string driver;  ///< "realtime<double>", "realtime<float>", "precise"
   std::vector<Stage> stages;
+  int substeps = 1;            ///< Realtime: of a step
+  std::string substeps_why{};  ///< "as asked for", or what of the scene needs more
 };
 
 }  // namespace plumb

@@ -6,6 +6,7 @@
 #include "engine/scene/error.h"
 #include "engine/scene/features.h"
 #include "engine/scene/text.h"
+#include "engine/simulation/substeps.h"
 #include "engine/solve/direct_joints.h"
 #include "engine/solve/iterative_joints.h"
 
@@ -45,6 +46,7 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
       gravity_(scene.gravity.as<Real>()),
       forces_(scene),
       contact_solver_(contact_settings<Real>(scene, accuracy, plan_)) {
+  accuracy_.substeps = plan_.substeps;
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
     dynamic_.push_back(body.type == BodyType::Dynamic);
@@ -62,6 +64,8 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
   if (is_active(plan_, Forces)) wrenches_.resize(bodies_.size()), predicted_.resize(bodies_.size());
   if (contacts_active()) finder_ = std::make_unique<ContactFinder<Real>>(scene, bodies_);
   if (is_active(plan_, Restitution)) impacts_ = std::make_unique<ImpactStage<Real>>();
+  if (is_active(plan_, Watch))
+    watch_ = std::make_unique<plumb::Watch<Real>>(scene, names_, bodies_, contacts_active());
   if (!joints_active()) return;
   if (accuracy.joint_solver == JointSolver::Direct) {
     joints_ = std::make_unique<DirectJoints<Real>>(scene, bodies_);
@@ -72,12 +76,15 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
 
 template <class Real>
 void RealtimeDriver<Real>::step() {
+  if (abandoned_)
+    throw Error(Error::Kind::Run, "simulation", "memory", "", "there was not enough of it for a step");
   last_pose_ = bodies_.pose, last_angle_ = bodies_.angle, last_twist_ = bodies_.twist;
   last_remainder_ = remainder_;
   const double h = accuracy_.dt / accuracy_.substeps;
   const double start = time();
 
   detect(static_cast<Real>(accuracy_.dt));
+  if (watch_ && watch_->starts_anew()) watch_->begin(bodies_, contacts_, shapes());
   for (int substep = 0; substep < accuracy_.substeps; ++substep) {
     const double t = start + substep * h;
     switch (accuracy_.integrator) {
@@ -93,6 +100,7 @@ void RealtimeDriver<Real>::step() {
     }
   }
   stage(Check, [&] { check(); });
+  stage(Watch, [&] { watch(); });
   ++step_;
   statistics_.steps += accuracy_.substeps;
 }
@@ -232,6 +240,10 @@ template class RealtimeDriver<double>;
 std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy) {
   if (const std::string feature = unusual_feature(scene); !feature.empty())
     return feature + ", which Realtime does not have; 'plumb-world' runs it";
+  const SubstepPlan substeps = plan_substeps(scene, accuracy, false);
+  if (substeps.count > kMostSubsteps)
+    return substeps.why +
+           ", too fast for fixed steps of this dt; 'plumb-world' and 'plumb-precise' may run it";
   if (accuracy.precision != Precision::Float) return "";
   constexpr double kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
   const auto fits = [](double value) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/simulation/contact_finder.h"
 #include "engine/simulation/driver.h"
 #include "engine/simulation/stages.h"
+#include "engine/simulation/watch.h"
 #include "engine/solve/constants.h"
 #include "engine/solve/contact_solver.h"
 #include "engine/solve/impact_stage.h"
@@ -33,6 +35,8 @@ class RealtimeDriver final : public Driver {
   const Plan& plan() const override { return plan_; }
   void profile(bool on) override;
   Statistics statistics() const override { return statistics_; }
+  void abandon_step() override;
+  const Error* doubt() const override { return doubt_ ? &*doubt_ : nullptr; }
 
  private:
   using enum RealtimeStage;
@@ -66,6 +70,7 @@ class RealtimeDriver final : public Driver {
   void collide(Real h);
   void drift(Real h);
   void check();
+  void watch();
 
   /// The first step has no impulses to start from, and makes up for it.
   int sweeps() const {
@@ -74,6 +79,10 @@ class RealtimeDriver final : public Driver {
 
   void set_motion(std::size_t body, const BodyState& state);
   void roll_back();
+  std::string after_this_step() const;
+  std::span<const SolidShape<Real>> shapes() const {
+    return finder_ ? finder_->shapes() : std::span<const SolidShape<Real>>{};
+  }
   bool contacts_active() const { return is_active(plan_, ContactHold); }
   bool joints_active() const { return is_active(plan_, JointHold); }
 
@@ -98,8 +107,11 @@ class RealtimeDriver final : public Driver {
   std::vector<Twist<Real>> last_twist_;
   std::int64_t step_ = 0;
   bool profiling_ = false;
+  bool abandoned_ = false;        // a step was not finished
   bool contacts_changed_ = true;  // since the impact stage looked at them
   Statistics statistics_;
+  std::unique_ptr<plumb::Watch<Real>> watch_;
+  std::optional<Error> doubt_;
 };
 
 /// Empty, or why a Realtime driver cannot run `scene` (a valid one).

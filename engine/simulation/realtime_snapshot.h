@@ -77,7 +77,6 @@ struct SavedRealtime {
         point.hold = from.get<ContactImpulse<Real>>(), point.relax = from.get<ContactImpulse<Real>>();
       }
     });
-    in.expect_end();
   }
 
  private:

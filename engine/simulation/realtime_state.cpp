@@ -37,6 +37,7 @@ template <class Real>
 void RealtimeDriver<Real>::write(std::size_t body, const BodyState& state) {
   set_motion(body, state);
   remainder_[body] = {};
+  if (watch_) watch_->start_anew();
   if (bodies_.twist[body].angular_velocity != 0 && !is_active(plan_, Turn)) {
     Stage& turn = plan_.stages[static_cast<std::size_t>(Turn)];
     turn.active = true;
@@ -67,11 +68,31 @@ void RealtimeDriver<Real>::check() {
       roll_back();
       throw Error(Error::Kind::Run, "body '" + names_[body] + "'", field,
                   shortest(static_cast<double>(value)),
-                  "not finite after step " + std::to_string(step_ + 1) +
-                      " (t = " + shortest(static_cast<double>(step_ + 1) * accuracy_.dt) +
-                      " s); the world is left as it was before that step. A smaller dt may help");
+                  "not finite after " + after_this_step() + ". A smaller dt may help");
     }
   }
+}
+
+/// A step that broke a promise is taken back, or noted.
+template <class Real>
+void RealtimeDriver<Real>::watch() {
+  const std::optional<Error> found = watch_->look(bodies_, contacts_, shapes());
+  if (!found) return;
+  const Error error(found->kind(), found->subject(), found->field(), found->value(),
+                    found->problem() + ". After " + after_this_step());
+  if (accuracy_.on_doubt == OnDoubt::Report || accuracy_.integrator != Integrator::VelocityVerlet) {
+    if (!doubt_) doubt_ = error;
+    return;
+  }
+  roll_back();
+  throw error;
+}
+
+template <class Real>
+std::string RealtimeDriver<Real>::after_this_step() const {
+  return "step " + std::to_string(step_ + 1) +
+         " (t = " + shortest(static_cast<double>(step_ + 1) * accuracy_.dt) +
+         " s); the world is left as it was before that step";
 }
 
 template <class Real>
@@ -87,6 +108,16 @@ void RealtimeDriver<Real>::roll_back() {
     for (ContactPoint<Real>& point : contact.points) point.hold = point.relax = {};
   }
   if (joints_) joints_->forget();
+}
+
+/// Allocates nothing.
+template <class Real>
+void RealtimeDriver<Real>::abandon_step() {
+  bodies_.pose = last_pose_;
+  bodies_.angle = last_angle_;
+  bodies_.twist = last_twist_;
+  remainder_ = last_remainder_;
+  abandoned_ = true;
 }
 
 template <class Real>
@@ -107,6 +138,7 @@ std::vector<std::byte> RealtimeDriver<Real>::save() const {
   }
   SnapshotWriter out;
   saved.write(out);
+  if (watch_) watch_->write(out);
   return out.bytes();
 }
 
@@ -122,7 +154,13 @@ void RealtimeDriver<Real>::restore(std::span<const std::byte> snapshot) {
   for (const SavedContact<Real>& contact : saved.contacts)
     in.expect(static_cast<std::size_t>(second_of(contact.pair)) < shapes &&
               first_of(contact.pair) < second_of(contact.pair));
+  std::unique_ptr<plumb::Watch<Real>> watched =
+      watch_ ? std::make_unique<plumb::Watch<Real>>(*watch_) : nullptr;
+  if (watched) watched->read(in);
+  in.expect_end();
   // Nothing has been changed up to here, and nothing can fail from here on.
+  watch_ = std::move(watched);
+  doubt_.reset();
   step_ = saved.step;
   statistics_ = saved.statistics;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
@@ -160,6 +198,8 @@ void RealtimeDriver<Real>::restore(std::span<const std::byte> snapshot) {
   template void RealtimeDriver<Real>::write(std::size_t, const BodyState&);      \
   template void RealtimeDriver<Real>::set_motion(std::size_t, const BodyState&); \
   template void RealtimeDriver<Real>::check();                                   \
+  template void RealtimeDriver<Real>::abandon_step();                            \
+  template void RealtimeDriver<Real>::watch();                                   \
   template void RealtimeDriver<Real>::roll_back();                               \
   template std::vector<std::byte> RealtimeDriver<Real>::save() const;            \
   template void RealtimeDriver<Real>::restore(std::span<const std::byte>);

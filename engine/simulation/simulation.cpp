@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <string>
 
 #include "engine/scene/check.h"
@@ -63,7 +64,13 @@ Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, s
 void Simulation::step(int count) {
   if (count < 0)
     throw Error(Error::Kind::Value, "simulation", "count", std::to_string(count), "must not be negative");
-  for (int i = 0; i < count; ++i) driver_->step();
+  try {
+    for (int i = 0; i < count; ++i) driver_->step();
+  } catch (const std::bad_alloc&) {
+    driver_->abandon_step();
+    throw Error(Error::Kind::Run, "simulation", "memory", "",
+                "there is not enough of it for a step; fewer bodies, or fewer that touch, need less");
+  }
 }
 
 double Simulation::time() const { return driver_->time(); }
@@ -137,5 +144,6 @@ void Simulation::restore(std::span<const std::byte> snapshot) {
 const Plan& Simulation::plan() const { return driver_->plan(); }
 void Simulation::profile(bool on) { driver_->profile(on); }
 Statistics Simulation::statistics() const { return driver_->statistics(); }
+const Error* Simulation::doubt() const { return driver_->doubt(); }
 
 }  // namespace plumb

@@ -36,6 +36,9 @@ class Simulation {
   const Plan& plan() const;
   void profile(bool on);
   Statistics statistics() const;
+  /// With `OnDoubt::Report`: the first thing that a step did not keep as promised, or null. Until the next
+  /// call of `step`, `set_state` or `restore`.
+  const Error* doubt() const;
 
  private:
   friend Simulation compile(const Scene&, const Accuracy&, struct CompileOptions);

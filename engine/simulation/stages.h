@@ -22,8 +22,9 @@ enum class RealtimeStage {
   ContactRelax,  ///< v_n >= 0
   Friction,      ///< impulses in the Coulomb cone; their time is part of the contact stages'
   Check,         ///< that every state is finite
+  Watch,         ///< that the step kept what is promised
 };
-inline constexpr int kRealtimeStages = static_cast<int>(RealtimeStage::Check) + 1;
+inline constexpr int kRealtimeStages = static_cast<int>(RealtimeStage::Watch) + 1;
 
 /// Derives what a step needs for `scene`, and why. With `every_stage` all stages run, needed or not.
 Plan plan_realtime(const Scene& scene, const Realtime& accuracy, bool every_stage);

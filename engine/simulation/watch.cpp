@@ -1,0 +1,281 @@
+#include "engine/simulation/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/joints/joints.h"
+#include "engine/scene/text.h"
+#include "engine/simulation/watch_bounds.h"
+
+namespace plumb {
+namespace {
+
+constexpr const char* kAdvice = "; a smaller dt, more substeps or 'plumb-world' may do better";
+
+template <class Real>
+Real width_of(const SolidShape<Real>& shape) {
+  return 2 * (shape.kind == ShapeKind::Circle ? shape.radius : std::min(shape.half.x, shape.half.y));
+}
+
+/// How deep the shapes lie in each other; below zero, how far apart they are.
+template <class Real>
+Real depth_of(const Contact<Real>& contact) {
+  Real depth = -contact.points[0].separation;
+  if (contact.count > 1) depth = std::max(depth, -contact.points[1].separation);
+  return depth;
+}
+
+std::string figure_of(double value, const char* unit) { return shortest(value) + unit; }
+
+template <class Real>
+Error broken(const std::string& subject, const char* field, Real value, Real bound, const char* unit,
+             const std::string& promise) {
+  return {Error::Kind::Run, subject, field, figure_of(static_cast<double>(value), unit),
+          promise + " " + figure_of(static_cast<double>(bound), unit) + kAdvice};
+}
+
+/// Whether a bound that is missed `times` over is to be said; `misses` counts the steps in a row.
+bool lasts(double times, int& misses) {
+  misses = times > 1 ? misses + 1 : 0;
+  return misses >= bounds::kLasting || times > bounds::kAtOnce;
+}
+
+}  // namespace
+
+template <class Real>
+Watch<Real>::Watch(const Scene& scene, const std::vector<std::string>& names, const Bodies<Real>& bodies,
+                   bool contacts)
+    : names_(&names), energy_(scene, bodies, contacts) {
+  constexpr Real kFar = std::numeric_limits<Real>::max();
+  std::vector<Real> size(bodies.size(), 0);
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    const Body& of = scene.bodies[body];
+    dynamic_.push_back(of.type == BodyType::Dynamic);
+    Real width = kFar, reach = 0;
+    for (const Shape& shape : of.shapes) {
+      reach = std::max(reach, static_cast<Real>(reach_of(shape.geometry)));
+    }
+    width_.push_back(width);
+    const Real spread = std::sqrt(static_cast<Real>(inertia_of(of) / (dynamic_[body] ? of.mass : 1)));
+    size[body] = std::max(reach, spread);
+    // Rounding is half of epsilon |x|.
+    farthest_.push_back(reach > 0 && dynamic_[body]
+                            ? Real(2 * bounds::kRounding) * 2 * reach / std::numeric_limits<Real>::epsilon()
+                            : kFar);
+  }
+  for (const SolidShape<Real>& shape : compile_shapes<Real>(scene))
+    width_[shape.body] = std::min(width_[shape.body], width_of(shape));
+  if (contacts && !(scene.gravity == Vec2d{})) {
+    const double g = std::sqrt(length_squared(scene.gravity));
+    up_ = ((-1 / g) * scene.gravity).as<Real>();
+    sag_.resize(bodies.size()), sag_before_.resize(bodies.size()), sag_misses_.resize(bodies.size());
+  }
+  const Joints<Real> joints = compile_joints<Real>(scene);
+  const auto add = [&](const auto& joint, const std::string& name, Real length) {
+    WatchedJoint watched{name, joint.a, joint.b, joint.anchor_a, joint.anchor_b, length, length};
+    const auto widen = [&](int body, Vec2<Real> anchor) {
+      if (body == kFixedFrame || !dynamic_[body]) return;
+      watched.span = std::max({watched.span, size[body], std::sqrt(length_squared(anchor))});
+    };
+    widen(joint.a, joint.anchor_a), widen(joint.b, joint.anchor_b);
+    joints_.push_back(watched);
+  };
+  std::size_t hinge = 0, rod = 0;
+  for (const Joint& joint : scene.joints) {
+    const std::string name = std::visit([](const auto& j) { return j.name; }, joint);
+    if (std::holds_alternative<RevoluteJoint>(joint)) add(joints.revolute[hinge++], name, Real{0});
+    if (std::holds_alternative<DistanceJoint>(joint)) {
+      add(joints.distance[rod], name, joints.distance[rod].length);
+      ++rod;
+    }
+  }
+}
+
+template <class Real>
+Real Watch<Real>::gap_of(const WatchedJoint& joint, const Bodies<Real>& bodies) const {
+  // The difference of positions first: far from the origin their sum with the arms would be rounded.
+  Vec2<Real> way = joint.b == kFixedFrame ? joint.anchor_b : bodies.pose[joint.b].position;
+  way -= joint.a == kFixedFrame ? joint.anchor_a : bodies.pose[joint.a].position;
+  if (joint.b != kFixedFrame) way += bodies.pose[joint.b].rotation * joint.anchor_b;
+  if (joint.a != kFixedFrame) way -= bodies.pose[joint.a].rotation * joint.anchor_a;
+  const Real distance = std::sqrt(length_squared(way));
+  return joint.length > 0 ? std::abs(distance - joint.length) : distance;
+}
+
+template <class Real>
+void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
+                        std::span<const SolidShape<Real>> shapes) {
+  anew_ = false;
+  for (WatchedJoint& joint : joints_) joint.excess = gap_of(joint, bodies);
+  excess_.clear();
+  note_excess(contacts, shapes);
+  std::fill(sag_.begin(), sag_.end(), Real{0});
+  std::fill(sag_misses_.begin(), sag_misses_.end(), 0);
+  for (WatchedJoint& joint : joints_) joint.misses = 0;
+  deep_.clear();
+  energy_misses_ = 0;
+  energy_.begin(bodies);
+}
+
+/// Bodies that lie in others from the start, and how deep.
+template <class Real>
+void Watch<Real>::note_excess(std::span<const Contact<Real>> contacts,
+                              std::span<const SolidShape<Real>> shapes) {
+  std::vector<Real> deepest;
+  for (const Contact<Real>& contact : contacts) {
+    if (contact.count == 0) continue;
+    const Real depth = depth_of(contact);
+    const Real width =
+        std::min(width_of(shapes[first_of(contact.pair)]), width_of(shapes[second_of(contact.pair)]));
+    if (!(depth > Real(bounds::kOverlap) * width)) continue;
+    deepest.resize(names_->size(), 0);
+    for (const int body : {contact.a, contact.b})
+      if (dynamic_[body]) deepest[body] = std::max(deepest[body], depth);
+  }
+  if (!excess_.empty() && !deepest.empty())
+    for (std::size_t body = 0; body < deepest.size(); ++body)
+      deepest[body] = std::min(deepest[body], excess_[body]);
+  excess_.swap(deepest);
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_positions(const Bodies<Real>& bodies) const {
+  for (std::size_t body = 0; body < farthest_.size(); ++body) {
+    const Vec2<Real> position = bodies.pose[body].position;
+    const Real far = std::max(std::abs(position.x), std::abs(position.y));
+    if (far <= farthest_[body]) continue;
+    return Error(Error::Kind::Run, "body '" + (*names_)[body] + "'", "position",
+                 shortest(static_cast<double>(far)),
+                 "is rounded by more than the body's own size; 'plumb' or 'plumb-world' are finer there");
+  }
+  return {};
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_joints(const Bodies<Real>& bodies) {
+  for (WatchedJoint& joint : joints_) {
+    const Real gap = gap_of(joint, bodies), bound = Real(bounds::kGap) * joint.span + joint.excess;
+    if (lasts(static_cast<double>(gap / bound), joint.misses))
+      return broken("joint '" + joint.name + "'", "gap", gap, bound, " m", "it was to stay within");
+    joint.excess = std::min(joint.excess, gap);
+  }
+  return {};
+}
+
+/// What stands on something has sunk as far as that, and as far as it lies in it.
+template <class Real>
+void Watch<Real>::note_sag(const Contact<Real>& contact, Real depth) {
+  const Real upward = dot(contact.normal, up_);
+  if (upward > Real(0.5)) {
+    sag_[contact.b] = std::max(sag_[contact.b], sag_before_[contact.a] + depth);
+  } else if (upward < Real(-0.5)) {
+    sag_[contact.a] = std::max(sag_[contact.a], sag_before_[contact.b] + depth);
+  }
+}
+
+template <class Real>
+bool Watch<Real>::lies_too_deep(PairKey pair, double times) {
+  int misses = 0;
+  for (const DeepPair& before : deep_before_)
+    if (before.pair == pair) misses = before.misses;
+  const bool said = lasts(times, misses);
+  deep_.push_back({pair, misses});
+  return said;
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_overlaps(std::span<const Contact<Real>> contacts,
+                                                   std::span<const SolidShape<Real>> shapes) {
+  deep_.swap(deep_before_);
+  deep_.clear();
+  sag_.swap(sag_before_);
+  std::fill(sag_.begin(), sag_.end(), Real{0});
+  for (const Contact<Real>& contact : contacts) {
+    if (contact.count == 0) continue;
+    const Real depth = depth_of(contact);
+    if (depth < 0) continue;
+    if (!sag_.empty()) note_sag(contact, depth);
+    Real bound = Real(bounds::kOverlap) * std::min(width_of(shapes[first_of(contact.pair)]),
+                                                   width_of(shapes[second_of(contact.pair)]));
+    if (!excess_.empty()) bound += std::max(excess_[contact.a], excess_[contact.b]);
+    if (depth > bound && lies_too_deep(contact.pair, static_cast<double>(depth / bound)))
+      return broken("body '" + (*names_)[contact.a] + "'", "overlap", depth, bound, " m",
+                    "with body '" + (*names_)[contact.b] + "'; it was to stay within");
+  }
+  return {};
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_sag() {
+  for (std::size_t body = 0; body < sag_.size(); ++body) {
+    const Real bound = Real(bounds::kSag) * width_[body];
+    if (sag_[body] <= bound || !dynamic_[body]) {
+      sag_misses_[body] = 0;
+      continue;
+    }
+    if (!lasts(static_cast<double>(sag_[body] / bound), sag_misses_[body])) continue;
+    return broken("body '" + (*names_)[body] + "'", "sag", sag_[body], bound, " m",
+                  "with all that it stands on; it was to stay within");
+  }
+  return {};
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
+  if (!energy_.active()) return {};
+  const double change = energy_.change(bodies);
+  if (!excess_.empty()) energy_.forgive();
+  const double wrong = energy_.falls() ? change : std::abs(change);
+  energy_misses_ =
+      wrong > bounds::kEnergy ? energy_misses_ + bounds::kEnergyRecurrence : std::max(energy_misses_ - 1, 0);
+  if (energy_misses_ < bounds::kEnergyRecurrence * bounds::kLasting &&
+      !(wrong > bounds::kAtOnce * bounds::kEnergy))
+    return {};
+  return broken("the scene", change > 0 ? "energy gained" : "energy lost", std::abs(change), bounds::kEnergy,
+                " of what was in motion", "it was to stay within");
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
+                                       std::span<const SolidShape<Real>> shapes) {
+  if (auto found = look_at_positions(bodies)) return found;
+  if (auto found = look_at_joints(bodies)) return found;
+  if (auto found = look_at_overlaps(contacts, shapes)) return found;
+  if (auto found = look_at_sag()) return found;
+  if (!excess_.empty()) note_excess(contacts, shapes);
+  return look_at_energy(bodies);
+}
+
+template <class Real>
+void Watch<Real>::write(SnapshotWriter& out) const {
+  out.put(static_cast<std::uint8_t>(anew_));
+  for (const WatchedJoint& joint : joints_) out.put(joint.excess), out.put(joint.misses);
+  out.put(static_cast<std::uint8_t>(excess_.empty()));
+  for (const Real excess : excess_) out.put(excess);
+  for (const Real sag : sag_) out.put(sag);
+  for (const int misses : sag_misses_) out.put(misses);
+  out.put(static_cast<std::uint64_t>(deep_.size()));
+  for (const DeepPair& deep : deep_) out.put(deep);
+  out.put(energy_misses_);
+  energy_.write(out);
+}
+
+template <class Real>
+void Watch<Real>::read(SnapshotReader& in) {
+  anew_ = in.get<std::uint8_t>() != 0;
+  for (WatchedJoint& joint : joints_) joint.excess = in.get<Real>(), joint.misses = in.get<int>();
+  excess_.resize(in.get<std::uint8_t>() != 0 ? 0 : names_->size());
+  for (Real& excess : excess_) excess = in.get<Real>();
+  for (Real& sag : sag_) sag = in.get<Real>();
+  for (int& misses : sag_misses_) misses = in.get<int>();
+  deep_.resize(in.count(sizeof(DeepPair)));
+  for (DeepPair& deep : deep_) deep = in.get<DeepPair>();
+  energy_misses_ = in.get<int>();
+  energy_.read(in);
+}
+
+template class Watch<float>;
+template class Watch<double>;
+
+}  // namespace plumb

@@ -1,0 +1,38 @@
+#pragma once
+
+/// What the fixed-step driver promises of a run, as bounds that its watch holds it to. All are shares of the
+/// scene's own sizes and energies.
+namespace plumb::bounds {
+
+/// A joint's gap, of the distance from the anchor to the centre of its body (or the length of a rod). The
+/// direct solver closes joints to rounding.
+inline constexpr double kGap = 0.005;
+
+/// How deep two shapes may lie in each other, of the width of the narrower one.
+inline constexpr double kOverlap = 0.008;
+
+/// How deep what a body stands on may have sunk, down to the ground, of the body's own width.
+inline constexpr double kSag = 0.03;
+
+/// Energy gained, or lost where nothing takes any, of the most that has been in motion. Velocity Verlet's
+/// error is (w h)^2/4 of it at most, for a mode of frequency w (Hairer, Lubich and Wanner, Geometric
+/// Numerical Integration, 2006, ch. I.5).
+inline constexpr double kEnergy = 0.04;
+
+/// Steps for which a bound must be missed before it is said: what dissolves sooner is the passing error of an
+/// impact that goes through a heap.
+inline constexpr int kLasting = 15;
+
+/// Energy comes and goes with the motion: one step in so many may be within the bound.
+inline constexpr int kEnergyRecurrence = 4;
+
+/// How many times over a bound may be missed for that while.
+inline constexpr double kAtOnce = 30;
+
+/// How far rounding may move a body's position, of the body's own size.
+inline constexpr double kRounding = 4;
+
+/// Roundings of positions that may add up in the account of energy before it says anything.
+inline constexpr double kRoundings = 4096;
+
+}  // namespace plumb::bounds

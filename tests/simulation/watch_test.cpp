@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "engine/scene/error.h"
+#include "tests/simulation/scenes.h"
+
+namespace plumb {
+namespace {
+
+using namespace plumb::testing;
+
+/// What ends the run within `steps`, if anything does.
+std::optional<Error> end_of(Simulation& world, int steps) {
+  try {
+    world.step(steps);
+  } catch (const Error& error) {
+    return error;
+  }
+  return {};
+}
+
+Scene heavy_on_light(double ratio) {
+  Scene scene = with(empty_scene(), {plane(), box("light", {0, 0.5}, 1, 1), box("heavy", {0, 1.5}, 1, 1)});
+  scene.bodies[2].mass = ratio;
+  return scene;
+}
+
+Scene with_tip(int links, double mass) {
+  Scene scene = rods(links);
+  for (int i = 0; i < links; ++i) {
+    scene.bodies[i].position = {0, -(i + 0.5)};
+    scene.bodies[i].angle = -std::acos(0.0);
+  }
+  Body tip = disc("tip", {0, -static_cast<double>(links)}, 0.1);
+  tip.mass = mass;
+  tip.shapes.clear();
+  tip.inertia = mass * 0.005;
+  scene.bodies.push_back(tip);
+  scene.joints.push_back(RevoluteJoint{"last", "rod " + std::to_string(links - 1), "tip", {0.5, 0}, {}});
+  return scene;
+}
+
+Scene on_a_spring(double stiffness) {
+  Scene scene = empty_scene({0, 0});
+  scene.bodies = {disc("mass", {0.1, 0}, 0.05)};
+  scene.forces = {SpringForce{.body_a = std::string(kWorld),
+                              .body_b = "mass",
+                              .anchor_a = {-1, 0},
+                              .rest_length = 1,
+                              .stiffness = stiffness}};
+  return scene;
+}
+
+double overlap_of(const Simulation& world) {
+  return 1 - (world.state(2).position.y - world.state(1).position.y);
+}
+
+TEST(Watch, ShapesThatSinkEndTheRunBeforeTheStep) {
+  Simulation world = compile(heavy_on_light(1e6));
+  const std::optional<Error> error = end_of(world, 300);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind(), Error::Kind::Run);
+  EXPECT_EQ(error->field(), "overlap");
+  EXPECT_TRUE(error->subject() == "body 'plane'" || error->subject() == "body 'light'") << error->subject();
+  EXPECT_NE(error->problem().find("plumb-world"), std::string::npos);
+  // The state is that before the step, and the step cannot be made.
+  const double time = world.time(), overlap = overlap_of(world);
+  EXPECT_GT(time, 0);
+  EXPECT_LT(overlap, 0.25);
+  EXPECT_TRUE(end_of(world, 1));
+  EXPECT_EQ(world.time(), time);
+}
+
+TEST(Watch, ReportGoesOnAndSaysWhatWasFound) {
+  Simulation world = compile(heavy_on_light(1e6), Realtime{.on_doubt = OnDoubt::Report});
+  EXPECT_EQ(world.doubt(), nullptr);
+  EXPECT_FALSE(end_of(world, 300));
+  ASSERT_NE(world.doubt(), nullptr);
+  EXPECT_EQ(world.doubt()->field(), "overlap");
+}
+
+TEST(Watch, WhatHoldsIsNotDoubted) {
+  Simulation world = compile(heavy_on_light(10), Realtime{.on_doubt = OnDoubt::Report});
+  world.step(300);
+  EXPECT_EQ(world.doubt(), nullptr);
+}
+
+TEST(Watch, OverlapsFromTheStartMayDissolve) {
+  Scene scene = empty_scene({0, 0});
+  scene.bodies = {box("left", {0, 0}, 1, 1), box("right", {0.5, 0}, 1, 1)};
+  Simulation world = compile(scene);
+  world.step(300);
+  EXPECT_GT(world.state(1).position.x - world.state(0).position.x, 0.99);
+}
+
+TEST(Watch, JointsThatOpenAreNamed) {
+  Scene scene = with_tip(10, 1000);
+  scene.forces = {
+      Torque{.body = "tip"}};  // of none: a law that may do work, so that there is no account of energy
+  Simulation world = compile(scene, Realtime{.joint_solver = JointSolver::Iterative});
+  const std::optional<Error> error = end_of(world, 300);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->field(), "gap");
+  EXPECT_EQ(error->subject().find("joint '"), 0u);
+}
+
+// A comet passes its sun within one step: no fixed step follows that.
+TEST(Watch, EnergyThatTheStepsMakeIsSaid) {
+  Scene scene = empty_scene({0, 0});
+  scene.bodies = {disc("comet", {1, 0}, 0.01)};
+  scene.bodies[0].velocity = {0, 0.02};
+  scene.forces = {AttractionForce{.body = "comet", .strength = 1}};
+  Simulation world = compile(scene);
+  const std::optional<Error> error = end_of(world, 300);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->field().find("energy"), 0u);
+}
+
+TEST(Watch, PositionsBeyondFloatAreSaid) {
+  Scene scene = with(empty_scene({0, 0}), {disc("far", {1e8, 0}, 0.5)});
+  scene.bodies[0].velocity = {1, 0};
+  Simulation in_float = compile(scene, Realtime{.precision = Precision::Float});
+  const std::optional<Error> error = end_of(in_float, 1);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->field(), "position");
+  Simulation in_double = compile(scene);
+  EXPECT_FALSE(end_of(in_double, 100));
+}
+
+TEST(Watch, RestoredRunsEndAtTheSameStep) {
+  Simulation whole = compile(heavy_on_light(100)), begun = compile(heavy_on_light(100));
+  ASSERT_TRUE(end_of(whole, 300));
+  begun.step(10);
+  Simulation restored = compile(heavy_on_light(100));
+  restored.restore(begun.save());
+  ASSERT_TRUE(end_of(restored, 300));
+  EXPECT_EQ(restored.time(), whole.time());
+  EXPECT_EQ(restored.hash(), whole.hash());
+}
+
+// w h <= 1/4: energy off by 1/64 at most (velocity Verlet, Hairer, Lubich and Wanner 2006, ch. I.5).
+TEST(Substeps, SpringsAreFollowed) {
+  for (const double turn : {2.0, 10.0, 1000.0}) {
+    const double w = turn * 60, whole = 0.005 * w * w;
+    Simulation world = compile(on_a_spring(w * w));
+    EXPECT_EQ(world.plan().substeps, static_cast<int>(4 * turn));
+    for (int i = 0; i < 60; ++i) {
+      world.step();
+      const BodyState at = world.state(0);
+      const double energy = (at.velocity.x * at.velocity.x + w * w * at.position.x * at.position.x) / 2;
+      EXPECT_NEAR(energy / whole, 1, 1.0 / 60) << turn << " " << i;
+    }
+  }
+}
+
+TEST(Substeps, SpringsBeyondAllStepsAreRefused) {
+  const std::string why = unsupported(on_a_spring(1e16), Realtime{});
+  EXPECT_NE(why.find("springs"), std::string::npos) << why;
+  EXPECT_THROW(compile(on_a_spring(1e16)), Error);
+}
+
+TEST(Substeps, OrdinaryScenesHaveWhatWasAskedFor) {
+  EXPECT_EQ(compile(rods(100)).plan().substeps, 4);
+  EXPECT_EQ(compile(heavy_on_light(1)).plan().substeps, 4);
+  EXPECT_EQ(compile(on_a_spring(3600), Realtime{.substeps = 7}).plan().substeps, 7);
+}
+
+// Light links under a heavy load move to and fro with w^2 = 12 T / (m l), which explodes from w h = 2 on.
+TEST(Substeps, LinksHoldHeavyLoads) {
+  Scene scene = with_tip(10, 1e6);
+  scene.bodies[4].velocity.x = 1e-3;  // what would grow
+  Simulation world = compile(scene);
+  EXPECT_GT(world.plan().substeps, 4);
+  EXPECT_FALSE(end_of(world, 120));
+  EXPECT_NEAR(world.state(10).position.y, -10, 1e-3);
+}
+
+TEST(Substeps, PendulumsAreFollowedAtAnyStep) {
+  Scene scene = rods(1);
+  Simulation world = compile(scene, Realtime{.dt = 1});
+  const double start = energy(scene, world), turned_over = kGravity / 2;
+  for (int i = 0; i < 100; ++i) {
+    world.step();
+    EXPECT_NEAR((energy(scene, world) - start) / turned_over, 0, 0.05) << i;
+  }
+}
+
+}  // namespace
+}  // namespace plumb
