@@ -7,6 +7,7 @@
 #include "engine/scene/features.h"
 #include "engine/scene/text.h"
 #include "engine/simulation/substeps.h"
+#include "engine/simulation/watch_bounds.h"
 #include "engine/solve/direct_joints.h"
 #include "engine/solve/iterative_joints.h"
 
@@ -80,11 +81,13 @@ void RealtimeDriver<Real>::step() {
     throw Error(Error::Kind::Run, "simulation", "memory", "", "there was not enough of it for a step");
   last_pose_ = bodies_.pose, last_angle_ = bodies_.angle, last_twist_ = bodies_.twist;
   last_remainder_ = remainder_;
+  detect(static_cast<Real>(accuracy_.dt));
+  if (watch_ && watch_->starts_anew()) {
+    watch_->begin(bodies_, contacts_, shapes());
+    plan_for_towers();
+  }
   const double h = accuracy_.dt / accuracy_.substeps;
   const double start = time();
-
-  detect(static_cast<Real>(accuracy_.dt));
-  if (watch_ && watch_->starts_anew()) watch_->begin(bodies_, contacts_, shapes());
   for (int substep = 0; substep < accuracy_.substeps; ++substep) {
     const double t = start + substep * h;
     switch (accuracy_.integrator) {
@@ -103,6 +106,19 @@ void RealtimeDriver<Real>::step() {
   stage(Watch, [&] { watch(); });
   ++step_;
   statistics_.steps += accuracy_.substeps;
+}
+
+/// More substeps where a tower stands that the sweeps of those asked for do not hold straight.
+template <class Real>
+void RealtimeDriver<Real>::plan_for_towers() {
+  const double sway = watch_->sway(contacts_, accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
+  // It falls with h^2.
+  const double times = std::sqrt(sway / bounds::kSteadySway);
+  if (sway <= bounds::kSway || times > bounds::kMostForTowers) return;
+  accuracy_.substeps =
+      static_cast<int>(std::min(std::ceil(times * accuracy_.substeps), double{kMostSubsteps}));
+  plan_.substeps = accuracy_.substeps;
+  plan_.substeps_why = "a tower stands that fewer would let sway";
 }
 
 template <class Real>

@@ -33,6 +33,7 @@ struct SavedContact {
 template <class Real>
 struct SavedRealtime {
   std::int64_t step = 0;
+  int substeps = 1;
   Statistics statistics{};
   std::vector<SavedMotion<Real>> motions;  ///< by body
   std::vector<Real> memory;                ///< of the joints
@@ -40,7 +41,7 @@ struct SavedRealtime {
   std::vector<SavedContact<Real>> contacts;
 
   void write(SnapshotWriter& out) const {
-    out.put(step);
+    out.put(step), out.put(substeps);
     out.put(statistics);
     write_list(out, motions, [](SnapshotWriter& to, const SavedMotion<Real>& motion) {
       to.put(motion.position), to.put(motion.remainder), to.put(motion.angle);
@@ -57,7 +58,7 @@ struct SavedRealtime {
   }
 
   void read(SnapshotReader& in) {
-    step = in.get<std::int64_t>();
+    step = in.get<std::int64_t>(), substeps = in.get<int>();
     statistics = in.get<Statistics>();
     read_list(in, motions, [](SnapshotReader& from, SavedMotion<Real>& motion) {
       motion.position = from.get<Vec2<Real>>(), motion.remainder = from.get<Vec2<Real>>();

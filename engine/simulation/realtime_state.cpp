@@ -5,6 +5,7 @@
 #include "engine/scene/text.h"
 #include "engine/simulation/realtime.h"
 #include "engine/simulation/realtime_snapshot.h"
+#include "engine/simulation/substeps.h"
 
 namespace plumb {
 
@@ -76,7 +77,8 @@ void RealtimeDriver<Real>::check() {
 /// A step that broke a promise is taken back, or noted.
 template <class Real>
 void RealtimeDriver<Real>::watch() {
-  const std::optional<Error> found = watch_->look(bodies_, contacts_, shapes());
+  const std::optional<Error> found =
+      watch_->look(bodies_, contacts_, shapes(), accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
   if (!found) return;
   const Error error(found->kind(), found->subject(), found->field(), found->value(),
                     found->problem() + ". After " + after_this_step());
@@ -124,6 +126,7 @@ template <class Real>
 std::vector<std::byte> RealtimeDriver<Real>::save() const {
   SavedRealtime<Real> saved;
   saved.step = step_;
+  saved.substeps = accuracy_.substeps;
   saved.statistics = statistics_;
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     saved.motions.push_back(
@@ -148,6 +151,7 @@ void RealtimeDriver<Real>::restore(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   saved.read(in);
   in.expect(saved.motions.size() == bodies_.size());
+  in.expect(saved.substeps >= 1 && saved.substeps <= kMostSubsteps);
   in.expect(saved.memory.size() == (joints_ ? joints_->memory().size() : 0));
   const std::size_t shapes = finder_ ? finder_->shapes().size() : 0;
   in.expect(saved.boxes.empty() || saved.boxes.size() == shapes);
@@ -162,6 +166,7 @@ void RealtimeDriver<Real>::restore(std::span<const std::byte> snapshot) {
   watch_ = std::move(watched);
   doubt_.reset();
   step_ = saved.step;
+  accuracy_.substeps = plan_.substeps = saved.substeps;
   statistics_ = saved.statistics;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const SavedMotion<Real>& motion = saved.motions[body];

@@ -35,6 +35,9 @@ Error broken(const std::string& subject, const char* field, Real value, Real bou
           promise + " " + figure_of(static_cast<double>(bound), unit) + kAdvice};
 }
 
+/// Lower towers stand at any step that what rests allows.
+constexpr std::size_t kLeastTower = 6;
+
 /// Whether a bound that is missed `times` over is to be said; `misses` counts the steps in a row.
 bool lasts(double times, int& misses) {
   misses = times > 1 ? misses + 1 : 0;
@@ -69,6 +72,7 @@ Watch<Real>::Watch(const Scene& scene, const std::vector<std::string>& names, co
   if (contacts && !(scene.gravity == Vec2d{})) {
     const double g = std::sqrt(length_squared(scene.gravity));
     up_ = ((-1 / g) * scene.gravity).as<Real>();
+    gravity_ = g;
     sag_.resize(bodies.size()), sag_before_.resize(bodies.size()), sag_misses_.resize(bodies.size());
   }
   const Joints<Real> joints = compile_joints<Real>(scene);
@@ -114,7 +118,7 @@ void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real
   std::fill(sag_misses_.begin(), sag_misses_.end(), 0);
   for (WatchedJoint& joint : joints_) joint.misses = 0;
   deep_.clear();
-  energy_misses_ = 0;
+  energy_misses_ = tower_misses_ = 0;
   energy_.begin(bodies);
 }
 
@@ -145,9 +149,9 @@ std::optional<Error> Watch<Real>::look_at_positions(const Bodies<Real>& bodies) 
     const Vec2<Real> position = bodies.pose[body].position;
     const Real far = std::max(std::abs(position.x), std::abs(position.y));
     if (far <= farthest_[body]) continue;
-    return Error(Error::Kind::Run, "body '" + (*names_)[body] + "'", "position",
-                 shortest(static_cast<double>(far)),
-                 "is rounded by more than the body's own size; 'plumb' or 'plumb-world' are finer there");
+    return Error(
+        Error::Kind::Run, "body '" + (*names_)[body] + "'", "position", shortest(static_cast<double>(far)),
+        "is rounded by more than four times the body's own size; double precision or 'plumb-world' is finer");
   }
   return {};
 }
@@ -222,6 +226,24 @@ std::optional<Error> Watch<Real>::look_at_sag() {
 }
 
 template <class Real>
+double Watch<Real>::sway(std::span<const Contact<Real>> contacts, double h, int sweeps) {
+  tallest_ = {};
+  if (sag_.empty() || contacts.size() < kLeastTower) return 0;
+  tallest_ = towers_.tallest(contacts, dynamic_, up_);
+  return sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(width_[tallest_.top]), sweeps);
+}
+
+template <class Real>
+std::optional<Error> Watch<Real>::look_at_towers(std::span<const Contact<Real>> contacts, double h,
+                                                 int sweeps) {
+  const double expected = sway(contacts, h, sweeps);
+  if (!lasts(expected / bounds::kSway, tower_misses_)) return {};
+  return broken(
+      "body '" + (*names_)[tallest_.top] + "'", "sway", expected, bounds::kSway, " of its width",
+      "is to be expected on a tower of " + std::to_string(tallest_.levels) + "; it was to stay within");
+}
+
+template <class Real>
 std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
   if (!energy_.active()) return {};
   const double change = energy_.change(bodies);
@@ -238,11 +260,12 @@ std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
 
 template <class Real>
 std::optional<Error> Watch<Real>::look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
-                                       std::span<const SolidShape<Real>> shapes) {
+                                       std::span<const SolidShape<Real>> shapes, double h, int sweeps) {
   if (auto found = look_at_positions(bodies)) return found;
   if (auto found = look_at_joints(bodies)) return found;
   if (auto found = look_at_overlaps(contacts, shapes)) return found;
   if (auto found = look_at_sag()) return found;
+  if (auto found = look_at_towers(contacts, h, sweeps)) return found;
   if (!excess_.empty()) note_excess(contacts, shapes);
   return look_at_energy(bodies);
 }
@@ -257,7 +280,7 @@ void Watch<Real>::write(SnapshotWriter& out) const {
   for (const int misses : sag_misses_) out.put(misses);
   out.put(static_cast<std::uint64_t>(deep_.size()));
   for (const DeepPair& deep : deep_) out.put(deep);
-  out.put(energy_misses_);
+  out.put(energy_misses_), out.put(tower_misses_);
   energy_.write(out);
 }
 
@@ -271,7 +294,7 @@ void Watch<Real>::read(SnapshotReader& in) {
   for (int& misses : sag_misses_) misses = in.get<int>();
   deep_.resize(in.count(sizeof(DeepPair)));
   for (DeepPair& deep : deep_) deep = in.get<DeepPair>();
-  energy_misses_ = in.get<int>();
+  energy_misses_ = in.get<int>(), tower_misses_ = in.get<int>();
   energy_.read(in);
 }
 

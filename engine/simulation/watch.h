@@ -8,6 +8,7 @@
 #include "engine/scene/error.h"
 #include "engine/scene/scene.h"
 #include "engine/simulation/snapshot.h"
+#include "engine/simulation/tower.h"
 #include "engine/simulation/watch_energy.h"
 #include "engine/solve/contact.h"
 
@@ -31,9 +32,12 @@ class Watch {
   void begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
              std::span<const SolidShape<Real>> shapes);
 
+  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width.
+  double sway(std::span<const Contact<Real>> contacts, double h, int sweeps);
+
   /// The first promise that is found broken; its problem says what was promised, and not after which step.
   std::optional<Error> look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
-                            std::span<const SolidShape<Real>> shapes);
+                            std::span<const SolidShape<Real>> shapes, double h, int sweeps);
 
   void write(SnapshotWriter& out) const;
   void read(SnapshotReader& in);
@@ -59,6 +63,7 @@ class Watch {
   std::optional<Error> look_at_overlaps(std::span<const Contact<Real>> contacts,
                                         std::span<const SolidShape<Real>> shapes);
   std::optional<Error> look_at_sag();
+  std::optional<Error> look_at_towers(std::span<const Contact<Real>> contacts, double h, int sweeps);
   std::optional<Error> look_at_energy(const Bodies<Real>& bodies);
   bool lies_too_deep(PairKey pair, double times);
   void note_sag(const Contact<Real>& contact, Real depth);
@@ -73,7 +78,10 @@ class Watch {
   std::vector<Real> sag_, sag_before_;  // m, by body
   std::vector<DeepPair> deep_, deep_before_;  // by pair
   std::vector<int> sag_misses_;               // by body
-  int energy_misses_ = 0;
+  int energy_misses_ = 0, tower_misses_ = 0;
+  TowerFinder<Real> towers_;
+  Tower tallest_;
+  double gravity_ = 0;  // m/s^2
   Vec2<Real> up_{};
   EnergyWatch<Real> energy_;
   bool anew_ = true;

@@ -14,6 +14,13 @@ inline constexpr double kOverlap = 0.008;
 /// How deep what a body stands on may have sunk, down to the ground, of the body's own width.
 inline constexpr double kSag = 0.03;
 
+/// How far the top of a tower may sway, of its width, by what the sweeps leave (`sway_of`); and what substeps
+/// are chosen for.
+inline constexpr double kSway = 0.04, kSteadySway = 0.02;
+
+/// How many times as many substeps a tower may ask for: one that needs more is for a direct solver.
+inline constexpr double kMostForTowers = 8;
+
 /// Energy gained, or lost where nothing takes any, of the most that has been in motion. Velocity Verlet's
 /// error is (w h)^2/4 of it at most, for a mode of frequency w (Hairer, Lubich and Wanner, Geometric
 /// Numerical Integration, 2006, ch. I.5).

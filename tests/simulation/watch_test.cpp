@@ -177,6 +177,47 @@ TEST(Substeps, LinksHoldHeavyLoads) {
   EXPECT_NEAR(world.state(10).position.y, -10, 1e-3);
 }
 
+Scene tower(int boxes) {
+  Scene scene = with(empty_scene(), {plane()});
+  for (int i = 0; i < boxes; ++i) scene.bodies.push_back(box("box " + std::to_string(i), {0, i + 0.5}, 1, 1));
+  return scene;
+}
+
+// At rest, so that whatever moves is the method's own.
+TEST(Substeps, TowersStandStraight) {
+  for (const int boxes : {20, 30}) {
+    Simulation world = compile(tower(boxes));
+    world.step(300);
+    EXPECT_GT(world.plan().substeps, 4);
+    for (int i = 1; i <= boxes; ++i) {
+      EXPECT_NEAR(world.state(i).position.x, 0, 0.04) << boxes << " " << i;
+      EXPECT_NEAR(world.state(i).position.y, i - 0.5, 0.01) << boxes << " " << i;
+    }
+  }
+}
+
+TEST(Substeps, LowTowersAreAsTheyWere) {
+  Simulation world = compile(tower(10));
+  world.step();
+  EXPECT_EQ(world.plan().substeps, 4);
+}
+
+TEST(Watch, TowersBeyondTheSweepsAreSaid) {
+  Simulation world = compile(tower(200));
+  const std::optional<Error> error = end_of(world, 60);
+  ASSERT_TRUE(error);
+  EXPECT_LE(world.time(), 0.5);
+}
+
+TEST(Watch, SubstepsOfATowerAreRestored) {
+  Simulation whole = compile(tower(20)), begun = compile(tower(20)), restored = compile(tower(20));
+  begun.step(5);
+  restored.restore(begun.save());
+  EXPECT_EQ(restored.plan().substeps, begun.plan().substeps);
+  whole.step(10), restored.step(5);
+  EXPECT_EQ(restored.hash(), whole.hash());
+}
+
 TEST(Substeps, PendulumsAreFollowedAtAnyStep) {
   Scene scene = rods(1);
   Simulation world = compile(scene, Realtime{.dt = 1});

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/solve/contact.h"
+
+namespace plumb {
+
+/// A column of bodies, each of which stands on one other and carries at most one, and touches nothing else.
+struct Tower {
+  int levels = 0;
+  int top = 0;  ///< body
+};
+
+/// Finds the tallest tower of a scene.
+template <class Real>
+class TowerFinder {
+ public:
+  /// `dynamic` by body. `up` is a unit vector.
+  Tower tallest(std::span<const Contact<Real>> contacts, std::span<const char> dynamic, Vec2<Real> up);
+
+ private:
+  struct Neighbours {
+    int below = -1, above = -1;
+    int touching = 0;
+  };
+  std::vector<Neighbours> of_;  // by body
+};
+
+/// How far the top of a tower moves aside while it should stand, as a share of its width: sweeps pass a load
+/// on from contact to contact, and carry it over a way that grows with the root of their number. Measured on
+/// towers of 5 to 200 boxes, steps of 1/60 to 1 s, 4 to 16 substeps and sweeps; within a factor of three.
+/// `fall` is g h^2 over the width.
+double sway_of(int levels, double fall, int sweeps);
+
+}  // namespace plumb
