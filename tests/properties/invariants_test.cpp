@@ -97,12 +97,16 @@ TEST_P(Invariants, MomentumOfWhatIsLeftAlone) {
   }
   // Realtime stops discs that do not bounce, as they have no restitution or are pressed together faster than
   // they come, along the line of centres at contact, from where the substep of h starts: what they move
-  // sideways until then, v h, turns an impulse J by v h J about the centre. Everything else keeps it.
+  // sideways until then, v h, turns an impulse J by v h J about the centre. So it is with corners, which turn
+  // until they meet. Everything else keeps it.
   check(tied, [&](const Scene& scene) { keeps(scene, false); });
   Recipe apart = tied;
   apart.contacts = false;
   check(apart, [&](const Scene& scene) { keeps(scene, true); });
-  check(Recipe{.bouncy = true}, [&](const Scene& scene) { keeps(scene, true); });
+  check(Recipe{.bouncy = true}, [&](Scene scene) {
+    for (Body& body : scene.bodies) body.shapes[0].geometry = Circle{0.35};
+    keeps(scene, true);
+  });
 }
 
 TEST_P(Invariants, EnergyDoesNotGrowWhereNothingDrives) {

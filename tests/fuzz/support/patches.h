@@ -8,6 +8,18 @@
 
 namespace plumb::fuzz {
 
+/// Where the next number from `at` on is that could be the length of a list: 8 bytes, small and not 0. `at`
+/// where there is none.
+inline std::size_t next_length(const std::vector<std::byte>& bytes, std::size_t at) {
+  for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
+    const std::size_t from = (at + i) % (bytes.size() - 7);
+    std::uint64_t number = 0;
+    std::memcpy(&number, bytes.data() + from, sizeof(number));
+    if (number > 0 && number < 64) return from;
+  }
+  return at;
+}
+
 /// Changes bytes here and there, as the rest of `in` says: single ones, numbers, blocks.
 inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
   const auto overwrite = [&](std::size_t at, const auto& value) {
@@ -29,7 +41,7 @@ inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
         static constexpr int kPowers[] = {31, 32, 56, 59, 60, 61, 62, 63};
         const int number = in.byte();
         if (number < 192) overwrite(at, static_cast<std::int32_t>(number) - 2);
-        if (number >= 192) overwrite(at, std::uint64_t{1} << kPowers[number % 8]);
+        if (number >= 192) overwrite(next_length(bytes, at), std::uint64_t{1} << kPowers[number % 8]);
         break;
       }
       case 3:

@@ -106,10 +106,12 @@ void put_call(Bytes& record, ByteSource& in) {
   }
 }
 
-constexpr int kRecipe = 130, kCall = 131, kDamagedCall = 190;
+constexpr int kRecipe = 130, kCall = 131;
 
-// Each record: its kind, its length, its bytes. Three kinds more than files have: a state whose bytes are the
-// recipe of a world, a call drawn from its bytes, and such a call that what is left of them damages.
+Bytes begin_record(RecordKind kind) { return {static_cast<std::byte>(kind)}; }
+
+// Each record: its kind, its length, its bytes. Two kinds more than files have: a state whose bytes are the
+// recipe of a world, and a call drawn from its bytes.
 template <class Real>
 Bytes framed(ByteSource& in) {
   static const Bytes header = file_header<Real>();
@@ -119,17 +121,32 @@ Bytes framed(ByteSource& in) {
     const auto content = in.take(in.byte());
     Bytes record;
     if (kind == kRecipe) {
-      record.push_back(static_cast<std::byte>(RecordKind::State));
+      record = begin_record(RecordKind::State);
       Encoder(record).put(snapshot_of_recipe<Real>(content));
     } else if (kind >= kCall) {
-      record.push_back(static_cast<std::byte>(RecordKind::Call));
+      record = begin_record(RecordKind::Call);
       ByteSource arguments(content);
       put_call(record, arguments);
-      if (kind >= kDamagedCall) patch(record, arguments);
     } else {
       record.push_back(static_cast<std::byte>(kind % 8));
       for (const std::uint8_t byte : content) record.push_back(std::byte{byte});
     }
+    append_record(file, record);
+  }
+  return file;
+}
+
+// Calls of a world that has no bodies yet, each drawn from its bytes, and damaged by what is left of them: no
+// step is taken, so that very many are read.
+template <class Real>
+Bytes damaged_calls(ByteSource& in) {
+  static const Bytes header = file_header<Real>();
+  Bytes file = header;
+  while (!in.empty()) {
+    ByteSource arguments(in.take(in.byte()));
+    Bytes record = begin_record(RecordKind::Call);
+    put_call(record, arguments);
+    patch(record, arguments);
     append_record(file, record);
   }
   return file;
@@ -174,10 +191,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace plumb::fuzz;
   ByteSource in({data, size});
   const int kind = in.byte() % 8;
-  if (kind < 4) {
+  if (kind < 2) {
     replay_twice<float>(framed<float>(in));
-  } else if (kind < 7) {
+  } else if (kind < 4) {
     replay_twice<double>(framed<double>(in));
+  } else if (kind < 7) {
+    replay_twice<float>(damaged_calls<float>(in));
   } else {
     Bytes bytes(in.rest().size());
     if (!bytes.empty()) std::memcpy(bytes.data(), in.rest().data(), bytes.size());
