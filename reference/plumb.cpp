@@ -149,6 +149,7 @@ class RealtimeBackend final : public PlumbBackend {
                  {"integrator", std::string(name_of(chosen.integrator))},
                  {"joint_solver", std::string(name_of(chosen.joint_solver))},
                  {"iterations", std::to_string(chosen.iterations)},
+                 {"on_doubt", std::string(name_of(chosen.on_doubt))},
                  {"precision", std::string(name_of(chosen.precision))}};
     append_contact_rules(out, scene);
     return out;

@@ -34,7 +34,7 @@ inline constexpr int kLasting = 15;
 inline constexpr int kEnergyRecurrence = 4;
 
 /// How many times over a bound may be missed for that while.
-inline constexpr double kAtOnce = 30;
+inline constexpr double kAtOnce = 60;
 
 /// How far rounding may move a body's position, of the body's own size.
 inline constexpr double kRounding = 4;

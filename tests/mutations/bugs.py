@@ -94,6 +94,25 @@ MUTATIONS = [
     Mutation("precise: the companion is no finer than the run", "engine/simulation/precise_companion.cpp",
              "kFiner = 0.1,", "kFiner = 1,", "precise"),
 
+    # What the fixed-step driver promises.
+    Mutation("watch: overlaps go unsaid", "engine/simulation/watch.cpp",
+             "if (depth > bound && lies_too_deep(", "if (depth > 100 * bound && lies_too_deep(", "realtime"),
+    Mutation("watch: gaps go unsaid", "engine/simulation/watch.cpp",
+             "if (lasts(static_cast<double>(gap / bound), joint.misses))",
+             "if (lasts(0.0, joint.misses))", "realtime"),
+    Mutation("watch: energy is not looked at", "engine/simulation/watch.cpp",
+             "if (!energy_.active()) return {};", "return {};", "realtime"),
+    Mutation("watch: positions are never too far", "engine/simulation/watch.cpp",
+             "if (far <= farthest_[body]) continue;", "if (far <= 1e3 * farthest_[body]) continue;", "realtime"),
+    Mutation("watch: towers may be as tall as they like", "engine/simulation/watch.cpp",
+             "if (!lasts(expected / bounds::kSway, tower_misses_)) return {};", "return {};", "realtime"),
+    Mutation("watch: what a run has met is forgotten in snapshots", "engine/simulation/watch.cpp",
+             "deep_.resize(in.count(sizeof(DeepPair)));", "deep_.clear(); in.count(sizeof(DeepPair));", "realtime"),
+    Mutation("substeps for half of a spring's frequency", "engine/simulation/substeps.cpp",
+             "rates.frequency = std::sqrt(curved);", "rates.frequency = std::sqrt(curved) / 2;", "realtime"),
+    Mutation("substeps for a tenth of what links carry", "engine/simulation/hinge_modes.cpp",
+             "g * above.load / length", "g * above.load / (100 * length)", "realtime"),
+
     # The real-time world.
     Mutation("world: a limit pulls", "engine/solve/joint_rule.h",
              "return role == RowRole::Limit ? 0 : -most;", "return -most;", "world"),
