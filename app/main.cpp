@@ -69,6 +69,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  keep_standard_files();
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app("plumb, a 2D rigid-body engine and the harness that proves it", "plumb");
   app.set_version_flag("--version", fmt::format("plumb {}", harness::version()));

@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "engine/scene/error.h"
 
 namespace plumb::app {
@@ -15,6 +18,19 @@ namespace {
 }
 
 }  // namespace
+
+void keep_standard_files() {
+  for (int file = open("/dev/null", O_RDWR); file >= 0; file = open("/dev/null", O_RDWR)) {
+    if (file > STDERR_FILENO) {
+      close(file);
+      return;
+    }
+    // The other way around, so that who writes or reads there is told.
+    const int wrong = open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    dup2(wrong, file);
+    close(wrong);
+  }
+}
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail();

@@ -11,6 +11,10 @@ class OutputClosed : public std::runtime_error {
   OutputClosed() : std::runtime_error("stdout was closed") {}
 };
 
+/// To be called first. Where stdin, stdout or stderr are closed, the next file that is opened would get their
+/// numbers, and results what is meant for stdout.
+void keep_standard_files();
+
 /// Writes data to stdout. Throws `OutputClosed`, or `Error` (Io) when the medium is full.
 void print(std::string_view text);
 

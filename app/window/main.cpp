@@ -150,6 +150,7 @@ int run_view(const Given& given) {
 }
 
 int main(int argc, char** argv) {
+  keep_standard_files();
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app("plumb's window", "plumb");
   app.require_subcommand(1);

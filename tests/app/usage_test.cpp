@@ -164,6 +164,19 @@ TEST(Output, AClosedPipeEndsQuietly) {
   EXPECT_EQ(folder.read("err"), "");
 }
 
+// What is opened next would get the number of stdout, and be written into.
+TEST(Output, AClosedStdoutIsAnErrorAndLeavesResultsAsTheyAre) {
+  const Folder folder;
+  const std::string common =
+      std::string(PLUMB_PROGRAM) + " compare free_fall/vacuum --engine plumb --no-cost ";
+  const std::string command = common + "--out " + folder.path("r") + " >&- 2>" + folder.path("err");
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_EQ(folder.read("err"), "plumb: stdout: Bad file descriptor\n");
+  const std::vector<std::string> lines = lines_of(folder.read("r/results.jsonl"));
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines.front().front(), '{');
+}
+
 TEST(Output, AFullMediumIsAnError) {
   const Folder folder;
   const std::string command = std::string(PLUMB_PROGRAM) + " list > /dev/full 2>" + folder.path("err");
