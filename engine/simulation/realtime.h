@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -75,8 +76,10 @@ class RealtimeDriver final : public Driver {
 
   /// The first step has no impulses to start from, and makes up for it.
   int sweeps() const {
-    return step_ == 0 ? constants::kColdSweeps * accuracy_.iterations : accuracy_.iterations;
+    return std::max(load_sweeps_,
+                    step_ == 0 ? constants::kColdSweeps * accuracy_.iterations : accuracy_.iterations);
   }
+  int sweeps_for_loads() const;
 
   void set_motion(std::size_t body, const BodyState& state);
   void roll_back();
@@ -107,6 +110,8 @@ class RealtimeDriver final : public Driver {
   std::vector<Real> last_angle_;
   std::vector<Twist<Real>> last_twist_;
   std::int64_t step_ = 0;
+  int load_sweeps_ = 0;         // that heavy loads on light bodies need in this step
+  bool masses_differ_ = false;  // so far that there may be such
   bool profiling_ = false;
   bool abandoned_ = false;        // a step was not finished
   bool contacts_changed_ = true;  // since the impact stage looked at them

@@ -59,6 +59,11 @@ inline constexpr int kImpactsAtLeast = 1 << 17;
 /// stack that is built at rest stays there.
 inline constexpr int kColdSweeps = 20;
 
+/// How many times heavier than what it rests on a load must be to be given more sweeps, and how many contacts
+/// a pass then works on at most in all its sweeps.
+inline constexpr double kHeavyLoad = 30;
+inline constexpr int kLoadWork = 4000;
+
 /// Newton iterations for the time of a contact; they converge quadratically and end at rounding.
 inline constexpr int kTimeIterations = 12;
 
