@@ -13,6 +13,7 @@ Exit status: 0 when nothing was found, 1 when something was, 130 when interrupte
 """
 
 import argparse
+import ctypes
 import dataclasses
 import os
 import pathlib
@@ -38,6 +39,12 @@ KEPT_FILES, KEPT_BYTES = 45, 150_000  # a target, at most
 
 def all_targets():
     return sorted(path.stem for path in (HERE / "targets").glob("*.cpp"))
+
+
+def end_with_parent():
+    """A fuzzer does not run on when this program is killed."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
 
 
 def environment():
@@ -74,7 +81,7 @@ class Run:
                    f"-artifact_prefix={self.findings}/{self.target}-"]
         with open(self.log, "wb") as log:
             self.process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=log,
-                                            stderr=subprocess.STDOUT, env=environment())
+                                            stderr=subprocess.STDOUT, env=environment(), preexec_fn=end_with_parent)
 
     def found(self):
         return set(self.findings.glob(f"{self.target}-*"))
