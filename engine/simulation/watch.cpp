@@ -75,6 +75,8 @@ Watch<Real>::Watch(const Scene& scene, const std::vector<std::string>& names, co
     gravity_ = g;
     sag_.resize(bodies.size()), sag_before_.resize(bodies.size()), sag_misses_.resize(bodies.size());
   }
+  const auto moving = std::count(dynamic_.begin(), dynamic_.end(), char{1});
+  if (scene.joints.empty() && (!contacts || moving < 2)) farthest_.clear();
   const Joints<Real> joints = compile_joints<Real>(scene);
   const auto add = [&](const auto& joint, const std::string& name, Real length) {
     WatchedJoint watched{name, joint.a, joint.b, joint.anchor_a, joint.anchor_b, length, length};
@@ -143,6 +145,7 @@ void Watch<Real>::note_excess(std::span<const Contact<Real>> contacts,
   excess_.swap(deepest);
 }
 
+/// Where bodies may meet others that move, or are tied; what is on its own has its energy to tell.
 template <class Real>
 std::optional<Error> Watch<Real>::look_at_positions(const Bodies<Real>& bodies) const {
   for (std::size_t body = 0; body < farthest_.size(); ++body) {
@@ -150,8 +153,10 @@ std::optional<Error> Watch<Real>::look_at_positions(const Bodies<Real>& bodies) 
     const Real far = std::max(std::abs(position.x), std::abs(position.y));
     if (far <= farthest_[body]) continue;
     return Error(
-        Error::Kind::Run, "body '" + (*names_)[body] + "'", "position", shortest(static_cast<double>(far)),
-        "is rounded by more than four times the body's own size; double precision or 'plumb-world' is finer");
+        Error::Kind::Run, "body '" + (*names_)[body] + "'", "position",
+        shortest(static_cast<double>(far)) + " m",
+        "is rounded by more than four times the body's own size; double precision or 'plumb-world' is "
+        "finer");
   }
   return {};
 }

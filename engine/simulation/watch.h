@@ -70,9 +70,10 @@ class Watch {
   void note_excess(std::span<const Contact<Real>> contacts, std::span<const SolidShape<Real>> shapes);
 
   const std::vector<std::string>* names_;
-  std::vector<char> dynamic_;   // by body
-  std::vector<Real> width_;     // m, by body: of its narrowest shape
-  std::vector<Real> farthest_;  // m, by body: from the origin, where positions are still fine enough
+  std::vector<char> dynamic_;  // by body
+  std::vector<Real> width_;    // m, by body: of its narrowest shape
+  std::vector<Real>
+      farthest_;  // m, by body: from the origin, where positions are still fine enough; empty where none meet
   std::vector<WatchedJoint> joints_;
   std::vector<Real> excess_;            // m, by body, overlap from the start; empty where nothing overlapped
   std::vector<Real> sag_, sag_before_;  // m, by body

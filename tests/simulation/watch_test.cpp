@@ -132,7 +132,7 @@ TEST(Watch, EnergyThatTheStepsMakeIsSaid) {
 }
 
 TEST(Watch, PositionsBeyondFloatAreSaid) {
-  Scene scene = with(empty_scene({0, 0}), {disc("far", {1e8, 0}, 0.5)});
+  Scene scene = with(empty_scene({0, 0}), {disc("far", {1e8, 0}, 0.5), disc("near it", {1e8 + 2, 0}, 0.5)});
   scene.bodies[0].velocity = {1, 0};
   Simulation in_float = compile(scene, Realtime{.precision = Precision::Float});
   const std::optional<Error> error = end_of(in_float, 1);
