@@ -10,8 +10,9 @@ namespace plumb {
 /// The contact constraints of awake bodies, sorted into colours: no two of a colour share a dynamic body, so
 /// that they may be solved in any order, side by side. Contacts with a body that does not give way have
 /// colours of their own at the end: what is solved last holds best, and the ground should. The colouring is
-/// greedy and persistent (a constraint keeps its colour); what finds none goes to the last, which is solved
-/// in order.
+/// greedy and persistent (a constraint keeps its colour); what finds none (contacts of a body that has many,
+/// a drum or a wrecking ball, which holds the others) goes to the overflow right before those of the ground,
+/// which is solved in order.
 template <class Real>
 class ContactGraph {
  public:
@@ -31,7 +32,7 @@ class ContactGraph {
   ContactConstraint<Real>& at(Place place) { return colours_[place.colour][place.index]; }
   const ContactConstraint<Real>& at(Place place) const { return colours_[place.colour][place.index]; }
 
-  /// `visit(constraint)` for all, overflow first, in the order that they are solved in.
+  /// `visit(constraint)` for all, in the order that they are solved in.
   template <class Visit>
   void for_each(Visit&& visit) {
     for (int i = 0; i < used_count_; ++i) {
@@ -41,7 +42,9 @@ class ContactGraph {
 
   std::vector<ContactConstraint<Real>>& colour(int c) { return colours_[c]; }
   const std::vector<ContactConstraint<Real>>& colour(int c) const { return colours_[c]; }
-  static constexpr int order(int nth) { return nth == 0 ? kOverflow : nth - 1; }
+  static constexpr int order(int nth) {
+    return nth < kDynamicColours ? nth : (nth == kDynamicColours ? kOverflow : nth - 1);
+  }
 
   std::size_t size() const;
   bool empty() const { return used_count_ == 0; }

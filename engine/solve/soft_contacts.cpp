@@ -10,6 +10,19 @@ namespace {
 // s, in m over the fastest push out in m/s: gaps that were closed to 0 are 0 to rounding alone, and are to be
 // treated alike whichever side of it they come to lie on.
 constexpr double kClosed = 1e-8;
+// Loads add no more than this many times the fastest push out: what cannot give way is not squeezed harder
+// and harder.
+constexpr double kLoadedPush = 3;
+
+// m/s, by which a load pushes shapes apart faster: a share of what the last substep's impulse changes their
+// velocities by.
+template <class Real>
+[[gnu::noinline]] Real push_with_load(const ContactConstraint<Real>& c, Real inverse_mass,
+                                      const ContactStep<Real>& step) {
+  if (c.hardness != ContactHardness::Soft) return 0;
+  const Real loaded = (c.normal_impulse[0] + c.normal_impulse[1]) * inverse_mass;
+  return std::min(step.push_with_load * loaded, Real(kLoadedPush) * c.push_speed);
+}
 
 template <class Real>
 [[gnu::always_inline]] inline void solve_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
@@ -17,11 +30,14 @@ template <class Real>
   const Softness<Real>* soft = step.softness[static_cast<int>(c.hardness)];
   Pair<Real> pair(motion, c);
   const Real closed = Real(kClosed) * c.push_speed;
+  Real fastest = -c.push_speed;
+  if (std::min(c.now[0], c.now[1]) * soft[0].bias_rate < fastest) [[unlikely]]
+    fastest -= push_with_load(c, pair.a.inverse_mass + pair.b.inverse_mass, step);
   // The bias is the largest of three lines: gaps may close, overlaps are pushed out, but no faster than that.
   const auto demand = [&](Real s) {
     const Softness<Real>& at = soft[s > closed];
-    return Demand<Real>{std::max(s * step.inverse_h, std::max(s * soft[0].bias_rate, -c.push_speed)),
-                        at.mass_scale, at.impulse_scale};
+    return Demand<Real>{std::max(s * step.inverse_h, std::max(s * soft[0].bias_rate, fastest)), at.mass_scale,
+                        at.impulse_scale};
   };
   if (c.count == 2) {
     press(pair, c, demand(c.now[0]), demand(c.now[1]));

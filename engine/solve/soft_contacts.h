@@ -12,6 +12,8 @@ struct ContactStep {
   Softness<Real> softness[3][2]{};  ///< by ContactHardness; overlaps, and gaps, which are not softened
   Real warm_start = 1;        ///< this substep over the last one: impulses grow with the time they act in
   Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
+  Real push_with_load = 0;    ///< of the velocity that a load gives soft contacts' bodies, the share by which
+                              ///< they are pushed out faster
 };
 
 /// Applies the impulses of the substep before: what was needed then is nearly what is needed now.

@@ -83,6 +83,10 @@ inline constexpr double kSlop = 0.002;
 /// Fastest push out of an overlap, in extents of the smaller shape a second: deep overlaps dissolve without a
 /// burst.
 inline constexpr double kPushSpeed = 4;
+/// What an impact has driven into each other may part faster, between bodies that give way: by this share of
+/// the velocity that the load between them gives to them in a substep. At 0.2 what starts in each other flies
+/// apart a fifth faster.
+inline constexpr double kPushWithLoad = 0.05;
 
 /// Contacts are prepared for shapes that are nearer than this share of the smaller shape's extent, besides
 /// the way that they may come closer in the step.

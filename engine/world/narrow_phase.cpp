@@ -8,6 +8,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
+#include "engine/world/encounter.h"
 #include "engine/world/narrow_phase.h"
 #include "engine/world/step.h"
 
@@ -96,12 +97,10 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
 }
 
 // Writes the manifold into the constraint; points that were there before, by feature, keep their impulses.
+// `q` is the rotation of a, `between` the way from its centre of mass to that of b.
 template <class Real>
 void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
-             ContactConstraint<Real>& c) {
-  const int a = contact.body_a, b = contact.body_b;
-  const Rotation<Real> q = w.rotation[a];
-  const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
+             Rotation<Real> q, Vec2<Real> between, ContactConstraint<Real>& c) {
   const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
   const Real expected[2] = {c.expected_impulse[0], c.expected_impulse[1]};
   const std::uint16_t features[2] = {c.features[0], c.features[1]};
@@ -125,9 +124,32 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
     c.features[i] = from.feature;
   }
   if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
-  prepare_rows(w.motion[a], w.motion[b], arms_a, between, c);
+  prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
+}
+
+template <class Real>
+void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
+             ContactConstraint<Real>& c) {
+  const int a = contact.body_a, b = contact.body_b;
+  rebuild(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(), c);
+}
+
+// Where the shapes are going to meet in the step, if they do; separations are those of now. Whether it has
+// points.
+template <class Real>
+bool build_ahead(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
+                 ContactConstraint<Real>& c) {
+  const Encounter<Real> at = find_encounter(w, contact, dt);
+  if (at.manifold.count == 0) return false;
+  rebuild(w, contact, at.manifold, at.rotation, at.between, c);
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Real along = dot(c.normal, b.velocity - a.velocity);
+  for (int i = 0; i < c.count; ++i) {
+    c.separation[i] -= at.time * (along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
+  }
+  return true;
 }
 
 // What a rule of the user's says, when it can be a coefficient.
@@ -278,11 +300,14 @@ void update_contacts(WorldData<Real>& w, Real dt) {
       continue;
     }
     const ContactManifold<Real> manifold = new_manifold(contact);
-    if (manifold.count == 0) continue;
     ContactConstraint<Real> c;
+    if (manifold.count > 0) {
+      rebuild(w, contact, manifold, c);
+    } else if (!build_ahead(w, contact, dt, c)) {
+      continue;
+    }
     c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
     mix_materials(w, contact, c);
-    rebuild(w, contact, manifold, c);
     if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
     begin_step(w, c, dt);
     w.scratch.begun_contacts.push_back(c);

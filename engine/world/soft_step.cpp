@@ -40,7 +40,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                                           {contact_softness<Real>(tuning::kStiffFrequencyShare, h)},
                                           {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
                              .warm_start = warm_start,
-                             .bounce_threshold = bounce_threshold(w, h * substeps)};
+                             .bounce_threshold = bounce_threshold(w, h * substeps),
+                             .push_with_load = Real(tuning::kPushWithLoad)};
   JointStep<Real> joints{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),

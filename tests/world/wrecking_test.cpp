@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/world/support.h"
+
+// What a violent impact drives into each other comes apart again soon.
+namespace plumb {
+namespace {
+
+constexpr double kSide = 0.4;  // m, of the small squares
+
+// m, how deep two squares are in each other: the least overlap along their sides (separating axes).
+double depth_of(const World& world, BodyId a, double half_a, BodyId b, double half_b) {
+  const Vec2d between = world.position(b) - world.position(a);
+  const double turn = world.angle(b) - world.angle(a);
+  const double spread =
+      std::abs(std::cos(turn)) + std::abs(std::sin(turn));  // half width seen from the other
+  double least = half_a + half_b;
+  const auto along = [&](double angle, double own, double other) {
+    const Vec2d x{std::cos(angle), std::sin(angle)}, y{-x.y, x.x};
+    for (const Vec2d axis : {x, y})
+      least = std::min(least, own + other * spread - std::abs(dot(axis, between)));
+  };
+  along(world.angle(a), half_a, half_b);
+  along(world.angle(b), half_b, half_a);
+  return least;
+}
+
+// m, of all pairs now.
+double deepest(const World& world, BodyId ram, const std::vector<BodyId>& squares) {
+  double out = 0;
+  const auto note = [&](double depth) { out = std::max(out, depth); };
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    note(depth_of(world, ram, 4, squares[i], kSide / 2));
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec2d between = world.position(squares[j]) - world.position(squares[i]);
+      if (std::abs(between.x) + std::abs(between.y) > 2 * kSide) continue;
+      note(depth_of(world, squares[i], kSide / 2, squares[j], kSide / 2));
+    }
+  }
+  return out;
+}
+
+// An 8 m square of density 8 flies at 40 m/s into a block of squares of 0.4 m, edge to edge. Four substeps
+// hand the blow on by some rows each, and what the others have not been told of is driven into each other. In
+// the steps 8 to 17, while the block is thrown apart, the deepest overlap is 171 mm in the mean; pushed out
+// no faster than what was put into each other it would be 207 mm.
+TEST(Wrecking, WhatIsDrivenIntoEachOtherPartsSoon) {
+  World world({.gravity = {0, 0}, .sleeping = false});
+  BodyDefinition definition;
+  definition.position = {-5.2, 0};
+  definition.velocity = {40, 0};
+  const BodyId ram = world.create_body(definition, ShapeDefinition{.geometry = Box{8, 8}, .density = 8});
+  std::vector<BodyId> squares;
+  for (int column = 0; column < 40; ++column)
+    for (int row = 0; row < 30; ++row)
+      squares.push_back(add_box(world, {kSide * column, kSide * (row - 15)}, 1, kSide, kSide));
+  double sum = 0;
+  for (int step = 1; step <= 17; ++step) {
+    world.step(1.0 / 60, 4);
+    if (step >= 8) sum += deepest(world, ram, squares);
+  }
+  EXPECT_LT(sum / 10, 0.19);
+}
+
+}  // namespace
+}  // namespace plumb
