@@ -145,7 +145,7 @@ TEST(Watch, PositionsBeyondFloatAreSaid) {
 TEST(Watch, RestoredRunsEndAtTheSameStep) {
   Simulation whole = compile(heavy_on_light(1e7)), begun = compile(heavy_on_light(1e7));
   ASSERT_TRUE(end_of(whole, 300));
-  begun.step(5);
+  begun.step(10);
   Simulation restored = compile(heavy_on_light(1e7));
   restored.restore(begun.save());
   ASSERT_TRUE(end_of(restored, 300));
@@ -216,10 +216,11 @@ TEST(Substeps, LowTowersAreAsTheyWere) {
 }
 
 TEST(Watch, TowersBeyondTheSweepsAreSaid) {
-  Simulation world = compile(tower(200));
+  Simulation world = compile(tower(65));
   const std::optional<Error> error = end_of(world, 60);
   ASSERT_TRUE(error);
-  EXPECT_LE(world.time(), 0.5);
+  EXPECT_EQ(error->field(), "sway");
+  EXPECT_EQ(error->subject(), "body 'box 64'");
 }
 
 TEST(Watch, SubstepsOfATowerAreRestored) {
