@@ -126,14 +126,15 @@ std::string to_json(const Explanation& explanation) {
                       {"share", share_of(stage, explanation.nanoseconds)},
                       {"ns_per_step", stage.nanoseconds / std::max(1, explanation.steps)}});
   }
-  const Json json{{"scene", explanation.scene},
-                  {"engine", explanation.engine},
-                  {"driver", explanation.plan.driver},
-                  {"settings", settings},
-                  {"substeps", {{"count", explanation.plan.substeps}, {"why", explanation.plan.substeps_why}}},
-                  {"steps", explanation.steps},
-                  {"ns_per_step", explanation.ns_per_step},
-                  {"stages", stages}};
+  const Json json{
+      {"scene", explanation.scene},
+      {"engine", explanation.engine},
+      {"driver", explanation.plan.driver},
+      {"settings", settings},
+      {"substeps", {{"count", explanation.plan.substeps}, {"why", explanation.plan.substeps_why}}},
+      {"steps", explanation.steps},
+      {"ns_per_step", explanation.ns_per_step},
+      {"stages", stages}};
   return json.dump(2);
 }
 

@@ -54,6 +54,7 @@ struct Method {
   int order = 1;                  ///< of the global error in the substep; 0: adaptive, meets a tolerance
   double substep = 1.0 / 60;      ///< s
   double epsilon = 1.1920929e-7;  ///< unit roundoff of its state
+  bool follows_springs = false;   ///< takes shorter substeps where force laws are stiff: none is lost
 };
 
 /// An adapter: translates a Scene to one engine. Adapters hold no state of their own.

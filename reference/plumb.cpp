@@ -129,6 +129,7 @@ class RealtimeBackend final : public PlumbBackend {
       case Integrator::VelocityVerlet:
         out.scheme = Scheme::VelocityVerlet;
         out.order = 2;
+        out.follows_springs = true;
         break;
       case Integrator::SemiImplicitEuler:
         out.scheme = Scheme::SemiImplicitEuler;

@@ -120,7 +120,7 @@ void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real
   std::fill(sag_misses_.begin(), sag_misses_.end(), 0);
   for (WatchedJoint& joint : joints_) joint.misses = 0;
   deep_.clear();
-  energy_misses_ = tower_misses_ = 0;
+  energy_misses_ = drift_misses_ = tower_misses_ = 0;
   energy_.begin(bodies);
 }
 
@@ -254,13 +254,19 @@ std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
   const double change = energy_.change(bodies);
   if (!excess_.empty()) energy_.forgive();
   const double wrong = energy_.falls() ? change : std::abs(change);
+  const auto broken_by = [&](double bound, const char* promise) {
+    return broken("the scene", change > 0 ? "energy gained" : "energy lost", std::abs(change), bound,
+                  " of what was in motion", promise);
+  };
+  drift_misses_ = !energy_.falls() && wrong > bounds::kDrift ? drift_misses_ + 1 : 0;
+  if (drift_misses_ >= bounds::kDriftSteps)
+    return broken_by(bounds::kDrift, "has gone by degrees; it was to stay within");
   energy_misses_ =
       wrong > bounds::kEnergy ? energy_misses_ + bounds::kEnergyRecurrence : std::max(energy_misses_ - 1, 0);
   if (energy_misses_ < bounds::kEnergyRecurrence * bounds::kLasting &&
       !(wrong > bounds::kAtOnce * bounds::kEnergy))
     return {};
-  return broken("the scene", change > 0 ? "energy gained" : "energy lost", std::abs(change), bounds::kEnergy,
-                " of what was in motion", "it was to stay within");
+  return broken_by(bounds::kEnergy, "it was to stay within");
 }
 
 template <class Real>
@@ -285,7 +291,7 @@ void Watch<Real>::write(SnapshotWriter& out) const {
   for (const int misses : sag_misses_) out.put(misses);
   out.put(static_cast<std::uint64_t>(deep_.size()));
   for (const DeepPair& deep : deep_) out.put(deep);
-  out.put(energy_misses_), out.put(tower_misses_);
+  for (const int misses : {energy_misses_, drift_misses_, tower_misses_}) out.put(misses);
   energy_.write(out);
 }
 
@@ -299,7 +305,7 @@ void Watch<Real>::read(SnapshotReader& in) {
   for (int& misses : sag_misses_) misses = in.get<int>();
   deep_.resize(in.count(sizeof(DeepPair)));
   for (DeepPair& deep : deep_) deep = in.get<DeepPair>();
-  energy_misses_ = in.get<int>(), tower_misses_ = in.get<int>();
+  for (int* const misses : {&energy_misses_, &drift_misses_, &tower_misses_}) *misses = in.get<int>();
   energy_.read(in);
 }
 

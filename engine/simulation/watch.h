@@ -79,7 +79,7 @@ class Watch {
   std::vector<Real> sag_, sag_before_;  // m, by body
   std::vector<DeepPair> deep_, deep_before_;  // by pair
   std::vector<int> sag_misses_;               // by body
-  int energy_misses_ = 0, tower_misses_ = 0;
+  int energy_misses_ = 0, drift_misses_ = 0, tower_misses_ = 0;
   TowerFinder<Real> towers_;
   Tower tallest_;
   double gravity_ = 0;  // m/s^2

@@ -67,7 +67,8 @@ TEST(Plan, WhichSceneRunsWhichStages) {
       {"two discs", two,
        "broad_phase narrow_phase kick contact_hold drift turn push_out contact_relax check watch"},
       {"they bounce", bouncing,
-       "broad_phase narrow_phase kick restitution contact_hold drift turn push_out contact_relax check watch"},
+       "broad_phase narrow_phase kick restitution contact_hold drift turn push_out contact_relax check "
+       "watch"},
       {"a filter keeps them apart", never_touching(bouncing), "kick drift check watch"},
       {"a joint keeps them apart", excluded, "kick joint_hold drift turn joint_relax check watch"},
       {"friction", rubbing,
