@@ -10,6 +10,7 @@
 
 #include "engine/scene/text.h"
 #include "engine/simulation/simulation.h"
+#include "engine/simulation/stages.h"
 #include "reference/backend.h"
 #include "reference/support/settings.h"
 
@@ -145,8 +146,9 @@ class RealtimeBackend final : public PlumbBackend {
 
   Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
     const Realtime chosen = realtime(settings);
+    // Towers may have more, which shows when they are seen.
     Settings out{{"dt", shortest(chosen.dt)},
-                 {"substeps", std::to_string(chosen.substeps)},
+                 {"substeps", std::to_string(plan_realtime(scene, chosen, false).substeps)},
                  {"integrator", std::string(name_of(chosen.integrator))},
                  {"joint_solver", std::string(name_of(chosen.joint_solver))},
                  {"iterations", std::to_string(chosen.iterations)},

@@ -181,6 +181,18 @@ TEST(Settings, EffectiveSettingsShowWhatWasAskedFor) {
   }
 }
 
+// What is printed is what runs: a spring of 20 rad a step has 80 substeps of a quarter of a rad, not 4.
+TEST(Registry, SubstepsThatTheSceneNeedsArePrinted) {
+  Scene scene = testing::head_on();
+  scene.forces.push_back(SpringForce{.body_a = std::string(kWorld),
+                                     .body_b = scene.bodies[0].name,
+                                     .stiffness = scene.bodies[0].mass * 1200 * 1200});
+  const auto printed = find_backend("plumb").effective_settings(scene, {});
+  EXPECT_EQ(std::find_if(printed.begin(), printed.end(), [](const auto& s) { return s.first == "substeps"; })
+                ->second,
+            "80");
+}
+
 TEST(Methods, SchemesAndOrders) {
   const auto method = [](const char* name, const char* integrator) {
     return find_backend(name).method({.options = {{"integrator", integrator}}});
