@@ -44,8 +44,8 @@ void sweep(std::vector<Contact<Real>>& contacts, const std::vector<int>& active,
         if (!point.in_pass) continue;
         ContactImpulse<Real>& impulse = changing(point);
         const ContactImpulse<Real> earlier = before(point);
-        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T)
-        const Real limit = contact.friction * (impulse.normal + earlier.normal);
+        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T); what a pass took back may leave a rounding below 0.
+        const Real limit = contact.friction * std::max(impulse.normal + earlier.normal, Real{0});
         const Real speed = dot(relative_velocity(point, pair.a, pair.b), tangent);
         const Real total =
             std::clamp(impulse.friction + earlier.friction - point.tangent_mass * speed, -limit, limit);
