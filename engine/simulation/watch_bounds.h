@@ -29,7 +29,7 @@ inline constexpr double kEnergy = 0.04;
 /// The same where nothing takes any, when it stays so far off for `kDriftSteps` on end: the method's own
 /// error comes and goes with the motion, what roundings add up to stays.
 inline constexpr double kDrift = 0.008;
-inline constexpr int kDriftSteps = 10'000;
+inline constexpr int kDriftSteps = 1'000'000;
 
 /// Steps for which a bound must be missed before it is said: what dissolves sooner is the passing error of an
 /// impact that goes through a heap.
