@@ -280,7 +280,7 @@ std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy) {
   if (const std::string feature = unusual_feature(scene); !feature.empty())
     return feature + ", which Realtime does not have; 'plumb-world' runs it";
   const SubstepPlan substeps = plan_substeps(scene, accuracy, false);
-  if (substeps.count > kMostSubsteps)
+  if (substeps.count > std::max(kMostNeeded, accuracy.substeps))
     return substeps.why +
            ", too fast for fixed steps of this dt; 'plumb-world' and 'plumb-precise' may run it";
   if (accuracy.precision != Precision::Float) return "";

@@ -22,8 +22,9 @@ constexpr double kDamped = 0.5;
 /// swings pulls with up to three times its weight, which is 3^(1/2) in w.
 constexpr double kEndangered = 1.4, kHeld = 1;
 
-/// How far what rests may fall in a substep, g h^2/2, of its width.
-constexpr double kFall = 0.002;
+/// How far what rests may fall in a substep, g h^2/2, of its width; in as many substeps as are worth it: what
+/// falls faster has fallen through its neighbours before they meet.
+constexpr double kFall = 0.002, kMostForFall = 1000;
 
 /// 1/s^2: g over the width of the narrowest shape that falls.
 double fall_rate(const Scene& scene) {
@@ -107,7 +108,8 @@ SubstepPlan plan_substeps(const Scene& scene, const Realtime& accuracy, bool tou
       ask(modes.link, kHeld, "links that carry a load have a frequency");
   }
   if (touching)
-    ask(std::sqrt(fall_rate(scene) / (2 * kFall)), 1, "what rests would fall into others at a rate");
+    ask(std::min(std::sqrt(fall_rate(scene) / (2 * kFall)), kMostForFall / accuracy.dt), 1,
+        "what rests would fall into others at a rate");
   plan.count = std::min(plan.count, 2.0 * kMostSubsteps);
   return plan;
 }

@@ -44,11 +44,12 @@ void sweep(std::vector<Contact<Real>>& contacts, const std::vector<int>& active,
         if (!point.in_pass) continue;
         ContactImpulse<Real>& impulse = changing(point);
         const ContactImpulse<Real> earlier = before(point);
-        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T); what a pass took back may leave a rounding below 0.
-        const Real limit = contact.friction * std::max(impulse.normal + earlier.normal, Real{0});
+        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T). What a pass took back may leave P_n a rounding
+        // below 0, and std::clamp wants its bounds in order.
+        const Real limit = contact.friction * (impulse.normal + earlier.normal);
         const Real speed = dot(relative_velocity(point, pair.a, pair.b), tangent);
-        const Real total =
-            std::clamp(impulse.friction + earlier.friction - point.tangent_mass * speed, -limit, limit);
+        const Real wanted = impulse.friction + earlier.friction - point.tangent_mass * speed;
+        const Real total = std::min(std::max(wanted, -limit), limit);
         const Real change = (total - earlier.friction) - impulse.friction;
         impulse.friction += change;
         push(contact, point, change * tangent, pair);

@@ -21,7 +21,7 @@ TEST(Interrupt, EndsEveryLongCommandAtOnce) {
   const Long all[] = {{{"compare", "--engine", "plumb"}, "results.jsonl"},
                       {{"sweep", "--engine", "plumb"}, "sweep.jsonl"},
                       {{"stress", "--engine", "plumb-world"}, "stress.jsonl"},
-                      {{"thresholds", "--engine", "plumb-world"}, "thresholds.jsonl"},
+                      {{"thresholds", "--engine", "plumb-precise"}, "thresholds.jsonl"},
                       {{"tune", "pendulum_chain", "--tolerance", "1e-9"}, ""}};
   for (const Long& each : all) {
     for (const int signal : {SIGINT, SIGTERM}) {

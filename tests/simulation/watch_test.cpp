@@ -180,6 +180,15 @@ TEST(Watch, RestoredRunsEndAtTheSameStep) {
   EXPECT_EQ(restored.hash(), whole.hash());
 }
 
+// What no number of substeps would hold has a thousand, and a step ends.
+TEST(Substeps, AreNotAsManyAsAnyGravityAsksFor) {
+  Scene scene = with(empty_scene({1e30, 0}), {disc("one", {0, 0}, 0.5), disc("other", {0, 3}, 0.5)});
+  EXPECT_EQ(compile(scene).plan().substeps, 1000);
+  scene.gravity = {0, -1e4};
+  // g h^2 / 2 of at most 0.002 m.
+  EXPECT_EQ(compile(scene).plan().substeps, static_cast<int>(std::ceil(std::sqrt(1e4 / 0.004) / 60)));
+}
+
 // w h <= 1/4: energy off by 1/64 at most (velocity Verlet, Hairer, Lubich and Wanner 2006, ch. I.5).
 TEST(Substeps, SpringsAreFollowed) {
   for (const double turn : {2.0, 10.0, 1000.0}) {
