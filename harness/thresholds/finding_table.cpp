@@ -59,10 +59,11 @@ std::string row(const Finding& finding, const Style& style) {
       finding.setting == "default" ? finding.engine : fmt::format("{} {}", finding.engine, finding.setting);
   const int before = 2 + kEngineWidth + kFoundWidth + kExactWidth + kDifferenceWidth;
   const bool refused = finding.outcome == Finding::Outcome::Refused;
-  const std::string figures =
-      refused ? pad_right("cannot run it", kFoundWidth + kExactWidth + kDifferenceWidth)
-              : pad_right(found_text(finding) + ' ', kFoundWidth) + pad_right(exact_text(finding), kExactWidth) +
-                    pad_right(difference_text(finding), kDifferenceWidth);
+  const std::string figures = refused
+                                  ? pad_right("cannot run it", kFoundWidth + kExactWidth + kDifferenceWidth)
+                                  : pad_right(found_text(finding) + ' ', kFoundWidth) +
+                                        pad_right(exact_text(finding), kExactWidth) +
+                                        pad_right(difference_text(finding), kDifferenceWidth);
   // What is before the reason counts as part of its first word.
   const std::string reason = wrap(std::string(static_cast<std::size_t>(before), '-') + finding.reason,
                                   std::max(before + 20, style.width), before)
