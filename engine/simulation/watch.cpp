@@ -290,7 +290,8 @@ void Watch<Real>::write(SnapshotWriter& out) const {
   for (const Real sag : sag_) out.put(sag);
   for (const int misses : sag_misses_) out.put(misses);
   out.put(static_cast<std::uint64_t>(deep_.size()));
-  for (const DeepPair& deep : deep_) out.put(deep);
+  // Field by field: what pads them is not state.
+  for (const DeepPair& deep : deep_) out.put(deep.pair), out.put(deep.misses);
   for (const int misses : {energy_misses_, drift_misses_, tower_misses_}) out.put(misses);
   energy_.write(out);
 }
@@ -303,8 +304,8 @@ void Watch<Real>::read(SnapshotReader& in) {
   for (Real& excess : excess_) excess = in.get<Real>();
   for (Real& sag : sag_) sag = in.get<Real>();
   for (int& misses : sag_misses_) misses = in.get<int>();
-  deep_.resize(in.count(sizeof(DeepPair)));
-  for (DeepPair& deep : deep_) deep = in.get<DeepPair>();
+  deep_.resize(in.count(sizeof(PairKey) + sizeof(int)));
+  for (DeepPair& deep : deep_) deep.pair = in.get<PairKey>(), deep.misses = in.get<int>();
   for (int* const misses : {&energy_misses_, &drift_misses_, &tower_misses_}) *misses = in.get<int>();
   energy_.read(in);
 }
