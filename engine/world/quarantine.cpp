@@ -102,13 +102,16 @@ void mend_static_bodies(WorldData<Real>& w) {
   }
 }
 
-// Contacts and joints of the body start from nothing.
+// Contacts and joints of the body start from nothing; what substeps carried on in them is not finite either.
 template <class Real>
 void forget_impulses(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
-    for (int i = 0; i < 2; ++i) c.normal_impulse[i] = c.expected_impulse[i] = c.peak_impulse[i] = 0;
+    for (int i = 0; i < 2; ++i) {
+      c.normal_impulse[i] = c.expected_impulse[i] = c.peak_impulse[i] = c.approach[i] = 0;
+      c.now[i] = c.separation[i];
+    }
     c.tangent_impulse = c.rolling_impulse = 0;
   });
   forget_manifolds(w, body);
