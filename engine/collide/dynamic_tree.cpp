@@ -25,10 +25,12 @@ int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
     append(slots_, kNone);
+    append(boxes_, box);
     free_proxies_.reserve(slots_.capacity());
   } else {
     proxy = free_proxies_.back();
     free_proxies_.pop_back();
+    boxes_[proxy] = box;
   }
   insert_leaf({box, category, ~proxy, user, kNone});
   return proxy;
@@ -45,7 +47,7 @@ template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
   const Aabb<Real> wanted = box;  // which may be another leaf's, that moves when this one is taken out
   Node leaf = take_leaf(proxy);
-  leaf.box = wanted;
+  leaf.box = boxes_[proxy] = wanted;
   insert_leaf(leaf);
 }
 
@@ -56,7 +58,7 @@ void DynamicTree<Real>::enlarge(int proxy, const Aabb<Real>& box) {
     move(proxy, box);
     return;
   }
-  leaf.box = box;
+  leaf.box = boxes_[proxy] = box;
   ++enlargements_;
   for (int slot = leaf.parent; slot != kNone;) {
     Node& above = node(slot);
@@ -89,6 +91,7 @@ template <class Real>
 void DynamicTree<Real>::clear() {
   pairs_.clear();
   slots_.clear();
+  boxes_.clear();
   free_pairs_.clear();
   free_proxies_.clear();
   size_ = 0;
@@ -101,6 +104,7 @@ void DynamicTree<Real>::reserve(int leaves) {
   const std::size_t count = static_cast<std::size_t>(std::max(leaves, 0)) + 1;  // pair 0 holds none
   pairs_.reserve(count);
   slots_.reserve(count);
+  boxes_.reserve(count);
   free_pairs_.reserve(count);
   free_proxies_.reserve(count);
   loose_pairs_.reserve(count);

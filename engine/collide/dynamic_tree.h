@@ -40,7 +40,7 @@ class DynamicTree {
   bool holds(int proxy) const {
     return proxy >= 0 && proxy < static_cast<int>(slots_.size()) && slots_[proxy] != kNone;
   }
-  const Aabb<Real>& box(int proxy) const { return node(slots_[proxy]).box; }
+  const Aabb<Real>& box(int proxy) const { return boxes_[proxy]; }
   int user(int proxy) const { return node(slots_[proxy]).tag; }
   std::uint32_t category(int proxy) const { return node(slots_[proxy]).category; }
 
@@ -154,6 +154,9 @@ class DynamicTree {
 
   std::vector<Pair> pairs_;  // pair 0 holds the root and an unused node
   std::vector<int> slots_;   // proxy -> slot of its leaf
+  // Proxy -> its leaf's box again. Leaves lie in the order of queries: who looks at a million proxies, one
+  // after the other, would wait for each.
+  std::vector<Aabb<Real>> boxes_;
   std::vector<int> free_pairs_, free_proxies_;
   int size_ = 0;
   std::int64_t enlargements_ = 0, marks_ = 0;  // since the last rebuild

@@ -70,14 +70,16 @@ bool DynamicTree<Real>::inner_is_sound(int slot) const {
 template <class Real>
 bool DynamicTree<Real>::leaf_is_sound(int slot) const {
   const Node& here = node(slot);
-  return here.proxy() < static_cast<int>(slots_.size()) && slots_[here.proxy()] == slot &&
-         here.box.lower.x <= here.box.upper.x && here.box.lower.y <= here.box.upper.y;
+  if (here.proxy() >= static_cast<int>(slots_.size()) || slots_[here.proxy()] != slot) return false;
+  const Aabb<Real>& box = boxes_[here.proxy()];
+  return box.lower == here.box.lower && box.upper == here.box.upper && here.box.lower.x <= here.box.upper.x &&
+         here.box.lower.y <= here.box.upper.y;
 }
 
 template <class Real>
 bool DynamicTree<Real>::valid() const {
   const std::size_t pairs = pairs_.size(), size = static_cast<std::size_t>(size_);
-  if (size_ < 0 || size > slots_.size() || size > pairs) return false;
+  if (size_ < 0 || size > slots_.size() || size > pairs || boxes_.size() != slots_.size()) return false;
   std::vector<bool> pair_used(pairs, false), proxy_used(slots_.size(), false);
   if (pairs > 0) pair_used[0] = true;
   std::size_t leaves = 0;
@@ -133,6 +135,10 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   reader.values(copy.slots_, "leaves of a tree of boxes");
   reader.values(copy.free_pairs_, "free nodes of a tree of boxes");
   reader.values(copy.free_proxies_, "free leaves of a tree of boxes");
+  for (const int slot : copy.slots_) {
+    const bool known = slot >= 0 && slot >> 1 < static_cast<int>(copy.pairs_.size());
+    copy.boxes_.push_back(known ? copy.node(slot).box : Aabb<Real>{});
+  }
   ByteReader::require(copy.valid(), "tree of boxes", "is damaged");
   // Copies, so that the room of this tree stays and later steps allocate nothing.
   size_ = copy.size_;
@@ -141,6 +147,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   usual_ = copy.usual_;
   pairs_.assign(copy.pairs_.begin(), copy.pairs_.end());
   slots_.assign(copy.slots_.begin(), copy.slots_.end());
+  boxes_.assign(copy.boxes_.begin(), copy.boxes_.end());
   free_pairs_.assign(copy.free_pairs_.begin(), copy.free_pairs_.end());
   free_proxies_.assign(copy.free_proxies_.begin(), copy.free_proxies_.end());
   in = reader.rest();
