@@ -82,6 +82,7 @@ class RealtimeDriver final : public Driver {
   int sweeps_for_loads() const;
 
   void set_motion(std::size_t body, const BodyState& state);
+  void put_back_motion();
   void roll_back();
   std::string after_this_step() const;
   std::span<const SolidShape<Real>> shapes() const {

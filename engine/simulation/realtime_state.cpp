@@ -97,12 +97,18 @@ std::string RealtimeDriver<Real>::after_this_step() const {
          " s); the world is left as it was before that step";
 }
 
+/// Allocates nothing.
 template <class Real>
-void RealtimeDriver<Real>::roll_back() {
+void RealtimeDriver<Real>::put_back_motion() {
   bodies_.pose = last_pose_;
   bodies_.angle = last_angle_;
   bodies_.twist = last_twist_;
   remainder_ = last_remainder_;
+}
+
+template <class Real>
+void RealtimeDriver<Real>::roll_back() {
+  put_back_motion();
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     if (finder_) finder_->touch(static_cast<int>(body));
   for (Contact<Real>& contact : contacts_) {
@@ -115,10 +121,7 @@ void RealtimeDriver<Real>::roll_back() {
 /// Allocates nothing.
 template <class Real>
 void RealtimeDriver<Real>::abandon_step() {
-  bodies_.pose = last_pose_;
-  bodies_.angle = last_angle_;
-  bodies_.twist = last_twist_;
-  remainder_ = last_remainder_;
+  put_back_motion();
   abandoned_ = true;
 }
 

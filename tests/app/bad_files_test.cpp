@@ -9,14 +9,6 @@
 namespace plumb::app {
 namespace {
 
-void expect_refused(const Ran& ran, const std::string& what) {
-  EXPECT_EQ(ran.code, 2) << what << "\n" << ran.err;
-  EXPECT_EQ(ran.out, "") << what;
-  const std::vector<std::string> lines = lines_of(ran.err);
-  EXPECT_EQ(lines.size(), 1u) << what << "\n" << ran.err;
-  EXPECT_TRUE(lines.empty() || lines.back().starts_with("plumb:")) << what << "\n" << ran.err;
-}
-
 /// Texts that are no scene, and no results either.
 std::map<std::string, std::string> bad_files() {
   using namespace std::string_literals;

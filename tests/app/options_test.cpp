@@ -65,14 +65,6 @@ std::vector<std::string> complete(const std::string& subcommand, const std::stri
   return arguments;
 }
 
-void expect_refused(const Ran& ran, const std::string& what) {
-  EXPECT_EQ(ran.code, 2) << what << "\n" << ran.err;
-  EXPECT_EQ(ran.out, "") << what;
-  const std::vector<std::string> lines = lines_of(ran.err);
-  EXPECT_EQ(lines.size(), 1u) << what << "\n" << ran.err;
-  EXPECT_TRUE(lines.empty() || lines.back().starts_with("plumb:")) << what << "\n" << ran.err;
-}
-
 bool is_number(const std::string& type) {
   static const std::set<std::string> kNumbers{"N", "X", "T", "S", "HZ", "US", "DT", "INT", "FLOAT", "UINT"};
   return kNumbers.count(type.substr(0, type.find(':'))) > 0;

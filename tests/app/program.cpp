@@ -1,6 +1,7 @@
 #include "tests/app/program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,6 +96,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+void expect_refused(const Ran& ran, const std::string& what) {
+  EXPECT_EQ(ran.code, 2) << what << "\n" << ran.err;
+  EXPECT_EQ(ran.out, "") << what;
+  const std::vector<std::string> lines = lines_of(ran.err);
+  EXPECT_EQ(lines.size(), 1u) << what << "\n" << ran.err;
+  EXPECT_TRUE(lines.empty() || lines.back().starts_with("plumb:")) << what << "\n" << ran.err;
 }
 
 }  // namespace plumb::app

@@ -41,4 +41,7 @@ class Folder {
 
 std::vector<std::string> lines_of(const std::string& text);
 
+/// Bad usage: exit code 2, nothing on stdout, one line on stderr. `what` was run, for the message.
+void expect_refused(const Ran& ran, const std::string& what);
+
 }  // namespace plumb::app
