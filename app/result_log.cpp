@@ -4,26 +4,31 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
 
 namespace plumb::app {
 namespace {
 
-// What is left of a writer that was stopped within a line, or of a disk that was full.
-void drop_half_a_line(const std::string& path) {
+// Of a writer that was stopped within a line, or of a disk that was full, half a record is left, which goes.
+// A whole one, or somebody's own text, lacks no more than the line's end.
+void end_last_line(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) return;
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  std::streamoff end = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  const std::streamoff size = end;
-  for (; end > 0; --end) {
-    file.seekg(end - 1);
-    if (file.get() == '\n') break;
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::size_t begin = text.rfind('\n') + 1;  // 0 where there is none
+  const std::string last = text.substr(begin);
+  if (last.empty()) return;
+  if (last.front() == '{' && !nlohmann::json::accept(last)) {
+    std::filesystem::resize_file(path, begin, code);
+  } else {
+    std::ofstream(path, std::ios::binary | std::ios::app) << '\n';
   }
-  if (end < size) std::filesystem::resize_file(path, static_cast<std::uintmax_t>(end), code);
 }
 
 }  // namespace
@@ -35,7 +40,7 @@ ResultLog::ResultLog(const std::string& folder)
   if (code)
     throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
                 fmt::format("cannot be made: {}; name another with --out", code.message()));
-  drop_half_a_line(path_);
+  end_last_line(path_);
   file_.reset(std::fopen(path_.c_str(), "a"));
   if (!file_)
     throw Error(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",

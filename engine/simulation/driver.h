@@ -78,7 +78,7 @@ class Driver {
   virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off
   virtual Statistics statistics() const = 0;
   /// A step could not be finished for want of memory: what `read` gives is the state before it, where the
-  /// driver keeps that. It does not step again.
+  /// driver keeps that. It is not asked for another.
   virtual void abandon_step() {}
   /// The first promise that a step broke, of a run that goes on all the same; or null.
   virtual const Error* doubt() const { return nullptr; }

@@ -47,7 +47,7 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
       gravity_(scene.gravity.as<Real>()),
       forces_(scene),
       contact_solver_(contact_settings<Real>(scene, accuracy, plan_)) {
-  accuracy_.substeps = plan_.substeps;
+  accuracy_.substeps = asked_substeps_ = plan_.substeps;
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
     dynamic_.push_back(body.type == BodyType::Dynamic);
@@ -65,7 +65,8 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
   if (is_active(plan_, Forces)) wrenches_.resize(bodies_.size()), predicted_.resize(bodies_.size());
   if (contacts_active()) finder_ = std::make_unique<ContactFinder<Real>>(scene, bodies_);
   if (is_active(plan_, Restitution)) impacts_ = std::make_unique<ImpactStage<Real>>();
-  if (is_active(plan_, Watch))
+  // The Euler schemes promise nothing.
+  if (is_active(plan_, Watch) && accuracy.integrator == Integrator::VelocityVerlet)
     watch_ = std::make_unique<plumb::Watch<Real>>(scene, names_, bodies_, contacts_active());
   Real lightest = 0, heaviest = std::numeric_limits<Real>::max();  // 1/kg
   for (const Real inverse : bodies_.inverse_mass)
@@ -81,13 +82,11 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
 
 template <class Real>
 void RealtimeDriver<Real>::step() {
-  if (abandoned_)
-    throw Error(Error::Kind::Run, "simulation", "memory", "", "there was not enough of it for a step");
   last_pose_ = bodies_.pose, last_angle_ = bodies_.angle, last_twist_ = bodies_.twist;
   last_remainder_ = remainder_;
   detect(static_cast<Real>(accuracy_.dt));
-  if (watch_ && watch_->starts_anew()) {
-    watch_->begin(bodies_, contacts_, shapes());
+  if (watch_) {
+    if (watch_->starts_anew()) watch_->begin(bodies_, contacts_, shapes());
     plan_for_towers();
   }
   load_sweeps_ = masses_differ_ ? sweeps_for_loads() : 0;
@@ -116,14 +115,17 @@ void RealtimeDriver<Real>::step() {
 /// More substeps where a tower stands that the sweeps of those asked for do not hold straight.
 template <class Real>
 void RealtimeDriver<Real>::plan_for_towers() {
-  const double sway = watch_->sway(contacts_, accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
+  const auto sway = [&] {
+    return watch_->sway(contacts_, accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
+  };
+  const double now = sway();
+  if (now <= bounds::kSway) return;
   // It falls with h^2.
-  const double times = std::sqrt(sway / bounds::kSteadySway);
-  if (sway <= bounds::kSway || times > bounds::kMostForTowers) return;
-  accuracy_.substeps =
-      static_cast<int>(std::min(std::ceil(times * accuracy_.substeps), double{kMostSubsteps}));
-  plan_.substeps = accuracy_.substeps;
+  const double needed = std::ceil(std::sqrt(now / bounds::kSteadySway) * accuracy_.substeps);
+  if (needed > std::min(bounds::kMostForTowers * asked_substeps_, double{kMostSubsteps})) return;
+  accuracy_.substeps = plan_.substeps = static_cast<int>(needed);
   plan_.substeps_why = "a tower stands that fewer would let sway";
+  sway();
 }
 
 /// A sweep leaves R / (R + 1) of the error of a load that rests on something R times lighter (the two

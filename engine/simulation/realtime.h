@@ -111,10 +111,10 @@ class RealtimeDriver final : public Driver {
   std::vector<Real> last_angle_;
   std::vector<Twist<Real>> last_twist_;
   std::int64_t step_ = 0;
+  int asked_substeps_ = 0;      // as planned before anything moved
   int load_sweeps_ = 0;         // that heavy loads on light bodies need in this step
   bool masses_differ_ = false;  // so far that there may be such
   bool profiling_ = false;
-  bool abandoned_ = false;        // a step was not finished
   bool contacts_changed_ = true;  // since the impact stage looked at them
   Statistics statistics_;
   std::unique_ptr<plumb::Watch<Real>> watch_;

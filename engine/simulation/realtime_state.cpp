@@ -77,13 +77,13 @@ void RealtimeDriver<Real>::check() {
 /// A step that broke a promise is taken back, or noted.
 template <class Real>
 void RealtimeDriver<Real>::watch() {
-  const std::optional<Error> found =
-      watch_->look(bodies_, contacts_, shapes(), accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
+  if (!watch_ || doubt_) return;
+  const std::optional<Error> found = watch_->look(bodies_, contacts_, shapes());
   if (!found) return;
   const Error error(found->kind(), found->subject(), found->field(), found->value(),
                     found->problem() + ". After " + after_this_step());
-  if (accuracy_.on_doubt == OnDoubt::Report || accuracy_.integrator != Integrator::VelocityVerlet) {
-    if (!doubt_) doubt_ = error;
+  if (accuracy_.on_doubt == OnDoubt::Report) {
+    doubt_ = error;
     return;
   }
   roll_back();
@@ -122,7 +122,6 @@ void RealtimeDriver<Real>::roll_back() {
 template <class Real>
 void RealtimeDriver<Real>::abandon_step() {
   put_back_motion();
-  abandoned_ = true;
 }
 
 template <class Real>

@@ -64,9 +64,13 @@ Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, s
 void Simulation::step(int count) {
   if (count < 0)
     throw Error(Error::Kind::Value, "simulation", "count", std::to_string(count), "must not be negative");
+  if (abandoned_)
+    throw Error(Error::Kind::Run, "simulation", "memory", "",
+                "there was not enough of it for an earlier step; compile the scene anew");
   try {
     for (int i = 0; i < count; ++i) driver_->step();
   } catch (const std::bad_alloc&) {
+    abandoned_ = true;
     driver_->abandon_step();
     throw Error(Error::Kind::Run, "simulation", "memory", "",
                 "there is not enough of it for a step; fewer bodies, or fewer that touch, need less");

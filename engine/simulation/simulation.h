@@ -47,6 +47,7 @@ class Simulation {
   std::unique_ptr<Driver> driver_;
   std::size_t body_count_;
   std::uint64_t identity_;  ///< of scene and accuracy, stamped on snapshots
+  bool abandoned_ = false;  ///< a step was not finished
 };
 
 struct CompileOptions {

@@ -16,7 +16,7 @@ constexpr double kTouches = 0.01;
 
 template <class Real>
 Tower TowerFinder<Real>::tallest(std::span<const Contact<Real>> contacts, std::span<const char> dynamic,
-                                 Vec2<Real> up) {
+                                 std::span<const Real> width, Vec2<Real> up) {
   of_.assign(dynamic.size(), {});
   for (const Contact<Real>& contact : contacts) {
     if (contact.count == 0 || contact.points[0].separation > Real(kTouches) * contact.reach) continue;
@@ -30,10 +30,11 @@ Tower TowerFinder<Real>::tallest(std::span<const Contact<Real>> contacts, std::s
     const int ground = of_[foot].below;
     if (ground < 0 || dynamic[ground] || !dynamic[foot]) continue;
     int levels = 0, top = foot;
+    Real widest = 0;
     for (int body = foot; body >= 0 && of_[body].touching == 1 + (of_[body].above >= 0);
          body = of_[body].above)
-      ++levels, top = body;
-    if (levels > tallest.levels) tallest = {levels, top};
+      ++levels, top = body, widest = std::max(widest, width[body]);
+    if (levels > tallest.levels) tallest = {levels, top, static_cast<double>(widest)};
   }
   return tallest;
 }

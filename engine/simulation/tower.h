@@ -10,15 +10,17 @@ namespace plumb {
 /// A column of bodies, each of which stands on one other and carries at most one, and touches nothing else.
 struct Tower {
   int levels = 0;
-  int top = 0;  ///< body
+  int top = 0;       ///< body
+  double width = 0;  ///< m, of its widest
 };
 
 /// Finds the tallest tower of a scene.
 template <class Real>
 class TowerFinder {
  public:
-  /// `dynamic` by body. `up` is a unit vector.
-  Tower tallest(std::span<const Contact<Real>> contacts, std::span<const char> dynamic, Vec2<Real> up);
+  /// `dynamic` and `width`, m, by body. `up` is a unit vector.
+  Tower tallest(std::span<const Contact<Real>> contacts, std::span<const char> dynamic,
+                std::span<const Real> width, Vec2<Real> up);
 
  private:
   struct Neighbours {

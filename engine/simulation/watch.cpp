@@ -40,8 +40,22 @@ constexpr std::size_t kLeastTower = 6;
 
 /// Whether a bound that is missed `times` over is to be said; `misses` counts the steps in a row.
 bool lasts(double times, int& misses) {
-  misses = times > 1 ? misses + 1 : 0;
+  misses = times > 1 ? std::min(misses + 1, bounds::kLasting) : 0;
   return misses >= bounds::kLasting || times > bounds::kAtOnce;
+}
+
+/// Counts a step that misses a bound, or that is one for the better. True when `most` steps have missed it.
+bool mounts(bool better, int most, int& misses) {
+  most *= bounds::kRecurrence;
+  misses = better ? std::max(misses - 1, 0) : std::min(misses + bounds::kRecurrence, most);
+  return misses >= most;
+}
+
+/// Of an overlap or sag beyond its bound that is `now` and was `before`.
+template <class Real>
+bool stays(Real now, Real before, double bound, int& misses) {
+  const bool dissolves = now < Real(bounds::kDissolving) * before;
+  return mounts(dissolves, bounds::kSettling, misses) || now > Real(bounds::kAtOnce * bound);
 }
 
 }  // namespace
@@ -128,21 +142,19 @@ void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real
 template <class Real>
 void Watch<Real>::note_excess(std::span<const Contact<Real>> contacts,
                               std::span<const SolidShape<Real>> shapes) {
-  std::vector<Real> deepest;
+  deepest_.clear();
   for (const Contact<Real>& contact : contacts) {
     if (contact.count == 0) continue;
     const Real depth = depth_of(contact);
-    const Real width =
-        std::min(width_of(shapes[first_of(contact.pair)]), width_of(shapes[second_of(contact.pair)]));
-    if (!(depth > Real(bounds::kOverlap) * width)) continue;
-    deepest.resize(names_->size(), 0);
+    if (!(depth > Real(bounds::kOverlap) * width_between(contact, shapes))) continue;
+    deepest_.resize(names_->size(), 0);
     for (const int body : {contact.a, contact.b})
-      if (dynamic_[body]) deepest[body] = std::max(deepest[body], depth);
+      if (dynamic_[body]) deepest_[body] = std::max(deepest_[body], depth);
   }
-  if (!excess_.empty() && !deepest.empty())
-    for (std::size_t body = 0; body < deepest.size(); ++body)
-      deepest[body] = std::min(deepest[body], excess_[body]);
-  excess_.swap(deepest);
+  if (!excess_.empty() && !deepest_.empty())
+    for (std::size_t body = 0; body < deepest_.size(); ++body)
+      deepest_[body] = std::min(deepest_[body], excess_[body]);
+  excess_.swap(deepest_);
 }
 
 /// Where bodies may meet others that move, or are tied; what is on its own has its energy to tell.
@@ -172,29 +184,44 @@ std::optional<Error> Watch<Real>::look_at_joints(const Bodies<Real>& bodies) {
   return {};
 }
 
-/// What stands on something has sunk as far as that, and as far as it lies in it.
+/// The narrower one of what moves: a thin ground is no reason to be stricter with what stands on it.
 template <class Real>
-void Watch<Real>::note_sag(const Contact<Real>& contact, Real depth) {
+Real Watch<Real>::width_between(const Contact<Real>& contact,
+                                std::span<const SolidShape<Real>> shapes) const {
+  Real width = std::numeric_limits<Real>::max();
+  for (const int place : {first_of(contact.pair), second_of(contact.pair)})
+    if (dynamic_[shapes[place].body]) width = std::min(width, width_of(shapes[place]));
+  return width;
+}
+
+/// What stands on something has sunk as far as that, and as far as it lies in it, of the width of the wider
+/// one: a pebble on a tower has not sunk by its own size. A cage stands on its ground and not, by its lid, on
+/// what is inside: of two that move the one whose centre is higher stands on the other.
+template <class Real>
+void Watch<Real>::note_sag(const Bodies<Real>& bodies, const Contact<Real>& contact, Real depth) {
   const Real upward = dot(contact.normal, up_);
-  if (upward > Real(0.5)) {
-    sag_[contact.b] = std::max(sag_[contact.b], sag_before_[contact.a] + depth);
-  } else if (upward < Real(-0.5)) {
-    sag_[contact.a] = std::max(sag_[contact.a], sag_before_[contact.b] + depth);
-  }
+  if (std::abs(upward) <= Real(0.5)) return;
+  const int lower = upward > 0 ? contact.a : contact.b, upper = upward > 0 ? contact.b : contact.a;
+  const Vec2<Real> way = bodies.pose[upper].position - bodies.pose[lower].position;
+  if (!dynamic_[upper] || (dynamic_[lower] && !(dot(way, up_) > 0))) return;
+  const Real width = dynamic_[lower] ? std::max(width_[lower], width_[upper]) : width_[upper];
+  sag_[upper] = std::max(sag_[upper], sag_before_[lower] + depth / width);
 }
 
 template <class Real>
-bool Watch<Real>::lies_too_deep(PairKey pair, double times) {
-  int misses = 0;
-  for (const DeepPair& before : deep_before_)
-    if (before.pair == pair) misses = before.misses;
-  const bool said = lasts(times, misses);
-  deep_.push_back({pair, misses});
+bool Watch<Real>::lies_too_deep(PairKey pair, Real depth, Real bound) {
+  DeepPair now{pair, depth, 0};
+  Real before = 0;
+  for (const DeepPair& each : deep_before_)
+    if (each.pair == pair) now.misses = each.misses, before = each.depth;
+  const bool said = stays(depth, before, static_cast<double>(bound), now.misses);
+  deep_.push_back(now);
   return said;
 }
 
 template <class Real>
-std::optional<Error> Watch<Real>::look_at_overlaps(std::span<const Contact<Real>> contacts,
+std::optional<Error> Watch<Real>::look_at_overlaps(const Bodies<Real>& bodies,
+                                                   std::span<const Contact<Real>> contacts,
                                                    std::span<const SolidShape<Real>> shapes) {
   deep_.swap(deep_before_);
   deep_.clear();
@@ -204,11 +231,10 @@ std::optional<Error> Watch<Real>::look_at_overlaps(std::span<const Contact<Real>
     if (contact.count == 0) continue;
     const Real depth = depth_of(contact);
     if (depth < 0) continue;
-    if (!sag_.empty()) note_sag(contact, depth);
-    Real bound = Real(bounds::kOverlap) * std::min(width_of(shapes[first_of(contact.pair)]),
-                                                   width_of(shapes[second_of(contact.pair)]));
+    if (!sag_.empty()) note_sag(bodies, contact, depth);
+    Real bound = Real(bounds::kOverlap) * width_between(contact, shapes);
     if (!excess_.empty()) bound += std::max(excess_[contact.a], excess_[contact.b]);
-    if (depth > bound && lies_too_deep(contact.pair, static_cast<double>(depth / bound)))
+    if (depth > bound && lies_too_deep(contact.pair, depth, bound))
       return broken("body '" + (*names_)[contact.a] + "'", "overlap", depth, bound, " m",
                     "with body '" + (*names_)[contact.b] + "'; it was to stay within");
   }
@@ -218,13 +244,13 @@ std::optional<Error> Watch<Real>::look_at_overlaps(std::span<const Contact<Real>
 template <class Real>
 std::optional<Error> Watch<Real>::look_at_sag() {
   for (std::size_t body = 0; body < sag_.size(); ++body) {
-    const Real bound = Real(bounds::kSag) * width_[body];
-    if (sag_[body] <= bound || !dynamic_[body]) {
+    const Real bound = Real(bounds::kSag);
+    if (sag_[body] <= bound) {
       sag_misses_[body] = 0;
       continue;
     }
-    if (!lasts(static_cast<double>(sag_[body] / bound), sag_misses_[body])) continue;
-    return broken("body '" + (*names_)[body] + "'", "sag", sag_[body], bound, " m",
+    if (!stays(sag_[body], sag_before_[body], bounds::kSag, sag_misses_[body])) continue;
+    return broken("body '" + (*names_)[body] + "'", "sag", sag_[body], bound, " of the width",
                   "with all that it stands on; it was to stay within");
   }
   return {};
@@ -232,19 +258,19 @@ std::optional<Error> Watch<Real>::look_at_sag() {
 
 template <class Real>
 double Watch<Real>::sway(std::span<const Contact<Real>> contacts, double h, int sweeps) {
-  tallest_ = {};
+  tallest_ = {}, sway_ = 0;
   if (sag_.empty() || contacts.size() < kLeastTower) return 0;
-  tallest_ = towers_.tallest(contacts, dynamic_, up_);
-  return sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(width_[tallest_.top]), sweeps);
+  tallest_ = towers_.tallest(contacts, dynamic_, width_, up_);
+  if (tallest_.levels > 0)
+    sway_ = sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(tallest_.width), sweeps);
+  return sway_;
 }
 
 template <class Real>
-std::optional<Error> Watch<Real>::look_at_towers(std::span<const Contact<Real>> contacts, double h,
-                                                 int sweeps) {
-  const double expected = sway(contacts, h, sweeps);
-  if (!lasts(expected / bounds::kSway, tower_misses_)) return {};
+std::optional<Error> Watch<Real>::look_at_towers() {
+  if (!lasts(sway_ / bounds::kSway, tower_misses_)) return {};
   return broken(
-      "body '" + (*names_)[tallest_.top] + "'", "sway", expected, bounds::kSway, " of its width",
+      "body '" + (*names_)[tallest_.top] + "'", "sway", sway_, bounds::kSway, " of its width",
       "is to be expected on a tower of " + std::to_string(tallest_.levels) + "; it was to stay within");
 }
 
@@ -252,18 +278,18 @@ template <class Real>
 std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
   if (!energy_.active()) return {};
   const double change = energy_.change(bodies);
-  if (!excess_.empty()) energy_.forgive();
+  const bool sunk = std::any_of(sag_.begin(), sag_.end(), [](Real sag) { return sag > Real(bounds::kSag); });
+  if (!excess_.empty() || sunk) energy_.forgive();
   const double wrong = energy_.falls() ? change : std::abs(change);
   const auto broken_by = [&](double bound, const char* promise) {
     return broken("the scene", change > 0 ? "energy gained" : "energy lost", std::abs(change), bound,
                   " of what was in motion", promise);
   };
-  drift_misses_ = !energy_.falls() && wrong > bounds::kDrift ? drift_misses_ + 1 : 0;
+  drift_misses_ =
+      !energy_.falls() && wrong > bounds::kDrift ? std::min(drift_misses_ + 1, bounds::kDriftSteps) : 0;
   if (drift_misses_ >= bounds::kDriftSteps)
     return broken_by(bounds::kDrift, "has gone by degrees; it was to stay within");
-  energy_misses_ =
-      wrong > bounds::kEnergy ? energy_misses_ + bounds::kEnergyRecurrence : std::max(energy_misses_ - 1, 0);
-  if (energy_misses_ < bounds::kEnergyRecurrence * bounds::kLasting &&
+  if (!mounts(!(wrong > bounds::kEnergy), bounds::kLasting, energy_misses_) &&
       !(wrong > bounds::kAtOnce * bounds::kEnergy))
     return {};
   return broken_by(bounds::kEnergy, "it was to stay within");
@@ -271,12 +297,12 @@ std::optional<Error> Watch<Real>::look_at_energy(const Bodies<Real>& bodies) {
 
 template <class Real>
 std::optional<Error> Watch<Real>::look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
-                                       std::span<const SolidShape<Real>> shapes, double h, int sweeps) {
+                                       std::span<const SolidShape<Real>> shapes) {
   if (auto found = look_at_positions(bodies)) return found;
   if (auto found = look_at_joints(bodies)) return found;
-  if (auto found = look_at_overlaps(contacts, shapes)) return found;
+  if (auto found = look_at_overlaps(bodies, contacts, shapes)) return found;
   if (auto found = look_at_sag()) return found;
-  if (auto found = look_at_towers(contacts, h, sweeps)) return found;
+  if (auto found = look_at_towers()) return found;
   if (!excess_.empty()) note_excess(contacts, shapes);
   return look_at_energy(bodies);
 }
@@ -291,7 +317,7 @@ void Watch<Real>::write(SnapshotWriter& out) const {
   for (const int misses : sag_misses_) out.put(misses);
   out.put(static_cast<std::uint64_t>(deep_.size()));
   // Field by field: what pads them is not state.
-  for (const DeepPair& deep : deep_) out.put(deep.pair), out.put(deep.misses);
+  for (const DeepPair& deep : deep_) out.put(deep.pair), out.put(deep.depth), out.put(deep.misses);
   for (const int misses : {energy_misses_, drift_misses_, tower_misses_}) out.put(misses);
   energy_.write(out);
 }
@@ -304,8 +330,11 @@ void Watch<Real>::read(SnapshotReader& in) {
   for (Real& excess : excess_) excess = in.get<Real>();
   for (Real& sag : sag_) sag = in.get<Real>();
   for (int& misses : sag_misses_) misses = in.get<int>();
-  deep_.resize(in.count(sizeof(PairKey) + sizeof(int)));
-  for (DeepPair& deep : deep_) deep.pair = in.get<PairKey>(), deep.misses = in.get<int>();
+  deep_.resize(in.count(sizeof(PairKey) + sizeof(Real) + sizeof(int)));
+  for (DeepPair& deep : deep_) {
+    deep.pair = in.get<PairKey>(), deep.depth = in.get<Real>();
+    deep.misses = in.get<int>();
+  }
   for (int* const misses : {&energy_misses_, &drift_misses_, &tower_misses_}) *misses = in.get<int>();
   energy_.read(in);
 }

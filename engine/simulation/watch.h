@@ -32,12 +32,13 @@ class Watch {
   void begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
              std::span<const SolidShape<Real>> shapes);
 
-  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width.
+  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width. `look`
+  /// holds the last one to its bound.
   double sway(std::span<const Contact<Real>> contacts, double h, int sweeps);
 
   /// The first promise that is found broken; its problem says what was promised, and not after which step.
   std::optional<Error> look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
-                            std::span<const SolidShape<Real>> shapes, double h, int sweeps);
+                            std::span<const SolidShape<Real>> shapes);
 
   void write(SnapshotWriter& out) const;
   void read(SnapshotReader& in);
@@ -54,19 +55,21 @@ class Watch {
   };
   struct DeepPair {
     PairKey pair = 0;
+    Real depth = 0;  // m
     int misses = 0;
   };
 
   Real gap_of(const WatchedJoint& joint, const Bodies<Real>& bodies) const;
   std::optional<Error> look_at_positions(const Bodies<Real>& bodies) const;
   std::optional<Error> look_at_joints(const Bodies<Real>& bodies);
-  std::optional<Error> look_at_overlaps(std::span<const Contact<Real>> contacts,
+  std::optional<Error> look_at_overlaps(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
                                         std::span<const SolidShape<Real>> shapes);
   std::optional<Error> look_at_sag();
-  std::optional<Error> look_at_towers(std::span<const Contact<Real>> contacts, double h, int sweeps);
+  std::optional<Error> look_at_towers();
   std::optional<Error> look_at_energy(const Bodies<Real>& bodies);
-  bool lies_too_deep(PairKey pair, double times);
-  void note_sag(const Contact<Real>& contact, Real depth);
+  Real width_between(const Contact<Real>& contact, std::span<const SolidShape<Real>> shapes) const;
+  bool lies_too_deep(PairKey pair, Real depth, Real bound);
+  void note_sag(const Bodies<Real>& bodies, const Contact<Real>& contact, Real depth);
   void note_excess(std::span<const Contact<Real>> contacts, std::span<const SolidShape<Real>> shapes);
 
   const std::vector<std::string>* names_;
@@ -76,12 +79,14 @@ class Watch {
       farthest_;  // m, by body: from the origin, where positions are still fine enough; empty where none meet
   std::vector<WatchedJoint> joints_;
   std::vector<Real> excess_;            // m, by body, overlap from the start; empty where nothing overlapped
-  std::vector<Real> sag_, sag_before_;  // m, by body
+  std::vector<Real> deepest_;           // its next values
+  std::vector<Real> sag_, sag_before_;  // of widths, by body
   std::vector<DeepPair> deep_, deep_before_;  // by pair
   std::vector<int> sag_misses_;               // by body
   int energy_misses_ = 0, drift_misses_ = 0, tower_misses_ = 0;
   TowerFinder<Real> towers_;
   Tower tallest_;
+  double sway_ = 0;     // of its width
   double gravity_ = 0;  // m/s^2
   Vec2<Real> up_{};
   EnergyWatch<Real> energy_;

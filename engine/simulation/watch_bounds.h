@@ -8,10 +8,10 @@ namespace plumb::bounds {
 /// direct solver closes joints to rounding.
 inline constexpr double kGap = 0.005;
 
-/// How deep two shapes may lie in each other, of the width of the narrower one.
+/// How deep two shapes may lie in each other, of the width of the narrower one that moves.
 inline constexpr double kOverlap = 0.008;
 
-/// How deep what a body stands on may have sunk, down to the ground, of the body's own width.
+/// How deep what a body stands on may have sunk, down to the ground, each of the width of the wider one.
 inline constexpr double kSag = 0.03;
 
 /// How far the top of a tower may sway, of its width, by what the sweeps leave (`sway_of`); and what substeps
@@ -31,12 +31,17 @@ inline constexpr double kEnergy = 0.04;
 inline constexpr double kDrift = 0.008;
 inline constexpr int kDriftSteps = 1'000'000;
 
-/// Steps for which a bound must be missed before it is said: what dissolves sooner is the passing error of an
-/// impact that goes through a heap.
-inline constexpr int kLasting = 15;
+/// Steps for which a bound must be missed before it is said; and an overlap or sag, as a column's bodies land
+/// one after the other.
+inline constexpr int kLasting = 15, kSettling = 30;
 
-/// Energy comes and goes with the motion: one step in so many may be within the bound.
-inline constexpr int kEnergyRecurrence = 4;
+/// Energy comes and goes with the motion, and an impact that goes through a heap leaves overlaps that take a
+/// second to dissolve: a step with energy within its bound, or with less of an overlap, takes back a quarter
+/// of one that misses.
+inline constexpr int kRecurrence = 4;
+
+/// What dissolves is a step later no more than this share of what it was.
+inline constexpr double kDissolving = 0.998;
 
 /// How many times over a bound may be missed for that while.
 inline constexpr double kAtOnce = 60;

@@ -48,7 +48,8 @@ class EnergyWatch {
   double kinetic(const Bodies<Real>& bodies) const;
   double potential(const Bodies<Real>& bodies) const;
 
-  bool active_ = false, falls_ = false, tied_ = false;
+  bool active_ = false, falls_ = false, tied_ = false, jointed_ = false;
+  bool fresh_ = false;  // the next step is the first one
   Vec2d gravity_{};
   std::vector<Mover> movers_;
   std::vector<SpringForceLaw<double>> springs_;

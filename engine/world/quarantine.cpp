@@ -72,13 +72,18 @@ bool fits(const BodyVelocity<Real>& v) {
 }
 
 template <class Real>
+void place_rotation(WorldData<Real>& w, int body) {
+  const Rotation<double> q = rotation_of(w.bodies[body].angle);
+  w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+}
+
+template <class Real>
 void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   BodyMotion<Real>& motion = w.motion[body];
   const BodyVelocity<Real> sound = fits(start) ? start : BodyVelocity<Real>{};
   motion.velocity = sound.velocity, motion.angular_velocity = sound.angular_velocity;
   motion.moved = {}, motion.turned = 0;
-  const Rotation<double> q = rotation_of(w.bodies[body].angle);
-  w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+  place_rotation(w, body);
   w.bodies[body].still_for = 0;
   w.loads.renew(body, w.bodies.size());
   w.enlarged[body] = 0;
@@ -97,8 +102,10 @@ BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
 template <class Real>
 void mend_static_bodies(WorldData<Real>& w) {
   for (int body = 0; body < w.bodies.size(); ++body) {
-    if (w.bodies.used(body) && w.bodies[body].type == BodyType::Static && !w.bodies[body].quarantined)
-      w.motion[body] = {};
+    if (!w.bodies.used(body) || w.bodies[body].type != BodyType::Static || w.bodies[body].quarantined)
+      continue;
+    w.motion[body] = {};
+    place_rotation(w, body);
   }
 }
 
@@ -127,8 +134,7 @@ void move_on(WorldData<Real>& w, int body, double dt) {
   motion.moved = t * motion.velocity, motion.turned = t * motion.angular_velocity;
   w.position[body] += motion.moved.template as<double>();
   w.bodies[body].angle += static_cast<double>(motion.turned);
-  const Rotation<double> q = rotation_of(w.bodies[body].angle);
-  w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+  place_rotation(w, body);
   const Real turned = std::abs(motion.turned) * w.extents[body];
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
     refresh_box(w, shape, t, turned);

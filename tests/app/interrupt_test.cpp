@@ -56,5 +56,22 @@ TEST(Interrupt, HalfALineOfResultsIsDropped) {
   EXPECT_EQ(plumb({"compare", folder.path("out"), folder.path("out")}).code, 0);
 }
 
+// Some editors leave out the last line's end; nothing of what was there is lost.
+TEST(Interrupt, AWholeLastLineWithoutItsEndStays) {
+  const Folder folder;
+  const std::vector<std::string> command{"compare", "free_fall/vacuum", "--engine", "plumb", "--no-cost",
+                                         "--out",   folder.path("out")};
+  ASSERT_EQ(plumb(command).code, 0);
+  const std::string whole = folder.read("out/results.jsonl");
+  for (const std::string& text : {whole.substr(0, whole.size() - 1), std::string("my notes")}) {
+    folder.write("out/results.jsonl", text);
+    ASSERT_EQ(plumb(command).code, 0);
+    const std::vector<std::string> lines = lines_of(folder.read("out/results.jsonl"));
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], text);
+    EXPECT_EQ(lines[1].front(), '{');
+  }
+}
+
 }  // namespace
 }  // namespace plumb::app

@@ -116,6 +116,7 @@ TEST(Plan, DerivedAndEveryStageGiveTheSameBits) {
       with(empty_scene(), {plane(0), box("a", {0, 0.7}, 1, 1, 0), disc("b", {1, 2})}),
       rods(4),
       pile(27, 0.5),
+      tower(12),
   };
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const Integrator integrator :

@@ -58,6 +58,13 @@ inline Scene with(Scene scene, std::vector<Body> bodies) {
   return scene;
 }
 
+/// Boxes of 1 m, one on the other.
+inline Scene tower(int boxes) {
+  Scene scene = with(empty_scene(), {plane()});
+  for (int i = 0; i < boxes; ++i) scene.bodies.push_back(box("box " + std::to_string(i), {0, i + 0.5}, 1, 1));
+  return scene;
+}
+
 /// `count` uniform rods of 1 m and 1 kg in a row from the origin along +x, hinged to each other and to the
 /// world.
 inline Scene rods(int count) {
