@@ -26,6 +26,17 @@ Real depth_of(const Contact<Real>& contact) {
   return depth;
 }
 
+/// How far rounding may have moved two bodies towards each other, m.
+template <class Real>
+Real rounding_of(const Contact<Real>& contact, const Bodies<Real>& bodies) {
+  Real far = 0;
+  for (const int body : {contact.a, contact.b}) {
+    const Vec2<Real> position = bodies.pose[body].position;
+    far += std::max(std::abs(position.x), std::abs(position.y));
+  }
+  return std::numeric_limits<Real>::epsilon() / 2 * far;
+}
+
 std::string figure_of(double value, const char* unit) { return shortest(value) + unit; }
 
 template <class Real>
@@ -51,11 +62,11 @@ bool mounts(bool better, int most, int& misses) {
   return misses >= most;
 }
 
-/// Of an overlap or sag beyond its bound that is `now` and was `before`.
+/// Of an overlap or sag that is `now` and was `before`; above `at_once` there is no waiting.
 template <class Real>
-bool stays(Real now, Real before, double bound, int& misses) {
-  const bool dissolves = now < Real(bounds::kDissolving) * before;
-  return mounts(dissolves, bounds::kSettling, misses) || now > Real(bounds::kAtOnce * bound);
+bool stays(Real now, Real before, double bound, double at_once, int& misses) {
+  const bool better = now <= Real(bound) || now < Real(bounds::kDissolving) * before;
+  return mounts(better, bounds::kSettling, misses) || now > Real(at_once);
 }
 
 }  // namespace
@@ -129,7 +140,7 @@ void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real
   anew_ = false;
   for (WatchedJoint& joint : joints_) joint.excess = gap_of(joint, bodies);
   excess_.clear();
-  note_excess(contacts, shapes);
+  note_excess(bodies, contacts, shapes);
   std::fill(sag_.begin(), sag_.end(), Real{0});
   std::fill(sag_misses_.begin(), sag_misses_.end(), 0);
   for (WatchedJoint& joint : joints_) joint.misses = 0;
@@ -138,14 +149,15 @@ void Watch<Real>::begin(const Bodies<Real>& bodies, std::span<const Contact<Real
   energy_.begin(bodies);
 }
 
-/// Bodies that lie in others from the start, and how deep.
+/// Bodies that lie in others from the start, and how deep: what rounding brings about is no choice of the
+/// scene's.
 template <class Real>
-void Watch<Real>::note_excess(std::span<const Contact<Real>> contacts,
+void Watch<Real>::note_excess(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
                               std::span<const SolidShape<Real>> shapes) {
   deepest_.clear();
   for (const Contact<Real>& contact : contacts) {
     if (contact.count == 0) continue;
-    const Real depth = depth_of(contact);
+    const Real depth = depth_of(contact) - rounding_of(contact, bodies);
     if (!(depth > Real(bounds::kOverlap) * width_between(contact, shapes))) continue;
     deepest_.resize(names_->size(), 0);
     for (const int body : {contact.a, contact.b})
@@ -210,12 +222,14 @@ void Watch<Real>::note_sag(const Bodies<Real>& bodies, const Contact<Real>& cont
 
 template <class Real>
 bool Watch<Real>::lies_too_deep(PairKey pair, Real depth, Real bound) {
-  DeepPair now{pair, depth, 0};
-  Real before = 0;
-  for (const DeepPair& each : deep_before_)
-    if (each.pair == pair) now.misses = each.misses, before = each.depth;
-  const bool said = stays(depth, before, static_cast<double>(bound), now.misses);
-  deep_.push_back(now);
+  DeepPair now{pair, 0, 0};
+  for (const DeepPair& before : deep_before_)
+    if (before.pair == pair) now = before;
+  if (depth <= bound && now.misses == 0) return false;
+  const bool said = stays(depth, now.depth, static_cast<double>(bound),
+                          bounds::kAtOnce * static_cast<double>(bound), now.misses);
+  now.depth = depth;
+  if (now.misses > 0) deep_.push_back(now);
   return said;
 }
 
@@ -229,12 +243,13 @@ std::optional<Error> Watch<Real>::look_at_overlaps(const Bodies<Real>& bodies,
   std::fill(sag_.begin(), sag_.end(), Real{0});
   for (const Contact<Real>& contact : contacts) {
     if (contact.count == 0) continue;
-    const Real depth = depth_of(contact);
+    Real depth = depth_of(contact);
     if (depth < 0) continue;
     if (!sag_.empty()) note_sag(bodies, contact, depth);
     Real bound = Real(bounds::kOverlap) * width_between(contact, shapes);
     if (!excess_.empty()) bound += std::max(excess_[contact.a], excess_[contact.b]);
-    if (depth > bound && lies_too_deep(contact.pair, depth, bound))
+    depth += rounding_of(contact, bodies);
+    if ((depth > bound || !deep_before_.empty()) && lies_too_deep(contact.pair, depth, bound))
       return broken("body '" + (*names_)[contact.a] + "'", "overlap", depth, bound, " m",
                     "with body '" + (*names_)[contact.b] + "'; it was to stay within");
   }
@@ -244,13 +259,8 @@ std::optional<Error> Watch<Real>::look_at_overlaps(const Bodies<Real>& bodies,
 template <class Real>
 std::optional<Error> Watch<Real>::look_at_sag() {
   for (std::size_t body = 0; body < sag_.size(); ++body) {
-    const Real bound = Real(bounds::kSag);
-    if (sag_[body] <= bound) {
-      sag_misses_[body] = 0;
-      continue;
-    }
-    if (!stays(sag_[body], sag_before_[body], bounds::kSag, sag_misses_[body])) continue;
-    return broken("body '" + (*names_)[body] + "'", "sag", sag_[body], bound, " of the width",
+    if (!stays(sag_[body], sag_before_[body], bounds::kSag, bounds::kSunk, sag_misses_[body])) continue;
+    return broken("body '" + (*names_)[body] + "'", "sag", sag_[body], Real(bounds::kSag), " of the width",
                   "with all that it stands on; it was to stay within");
   }
   return {};
@@ -303,7 +313,7 @@ std::optional<Error> Watch<Real>::look(const Bodies<Real>& bodies, std::span<con
   if (auto found = look_at_overlaps(bodies, contacts, shapes)) return found;
   if (auto found = look_at_sag()) return found;
   if (auto found = look_at_towers()) return found;
-  if (!excess_.empty()) note_excess(contacts, shapes);
+  if (!excess_.empty()) note_excess(bodies, contacts, shapes);
   return look_at_energy(bodies);
 }
 

@@ -70,7 +70,8 @@ class Watch {
   Real width_between(const Contact<Real>& contact, std::span<const SolidShape<Real>> shapes) const;
   bool lies_too_deep(PairKey pair, Real depth, Real bound);
   void note_sag(const Bodies<Real>& bodies, const Contact<Real>& contact, Real depth);
-  void note_excess(std::span<const Contact<Real>> contacts, std::span<const SolidShape<Real>> shapes);
+  void note_excess(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
+                   std::span<const SolidShape<Real>> shapes);
 
   const std::vector<std::string>* names_;
   std::vector<char> dynamic_;  // by body

@@ -13,6 +13,8 @@ inline constexpr double kOverlap = 0.008;
 
 /// How deep what a body stands on may have sunk, down to the ground, each of the width of the wider one.
 inline constexpr double kSag = 0.03;
+/// What has sunk so far is no matter of time.
+inline constexpr double kSunk = 0.5;
 
 /// How far the top of a tower may sway, of its width, by what the sweeps leave (`sway_of`); and what substeps
 /// are chosen for.
