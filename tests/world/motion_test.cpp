@@ -112,6 +112,25 @@ TYPED_TEST(Motion, KinematicBodiesMoveAsToldAndPush) {
   EXPECT_NEAR(world.angle(pusher), 0.5, 1e-6);
 }
 
+// Neither gravity nor forces reach what is not dynamic, in free flight or among contacts.
+TYPED_TEST(Motion, OnlyDynamicBodiesFall) {
+  BasicWorld<TypeParam> world;
+  const BodyId still = world.create_body({.type = BodyType::Static}, {.geometry = Box{4, 1}});
+  const BodyId told = world.create_body({.type = BodyType::Kinematic, .position = {9, 0}, .velocity = {1, 0}},
+                                        {.geometry = Box{4, 1}});
+  const BodyId box = add_box(world, {9, 1}), falling = add_box(world, {30, 0});
+  for (int i = 0; i < 60; ++i) {
+    for (const BodyId each : {still, told}) world.apply_force(each, {0, -100}), world.apply_torque(each, 5);
+    world.step();
+  }
+  EXPECT_EQ(world.position(still), Vec2d{});
+  EXPECT_NEAR(world.position(told).x, 10, 1e-5);
+  EXPECT_EQ(world.position(told).y, 0);
+  EXPECT_EQ(world.angle(told), 0);
+  EXPECT_NEAR(world.position(box).y, 1, 1e-3);
+  EXPECT_NEAR(world.position(falling).y, -kGravity / 2, 1e-4);
+}
+
 TYPED_TEST(Motion, SpinKeepsItsRateAndCountsTurns) {
   BasicWorld<TypeParam> world(weightless());
   BodyDefinition definition;
