@@ -195,5 +195,5 @@ FEATURES = [
     feature("Quarantine of bodies that go bad", WORLD + "quarantine.cpp",
             "if (!w.settings.quarantine) report(why);", "report(why);", "world/quarantine"),
     feature("No allocation in a warm step", WORLD + "step.cpp", "const double h = dt / substeps;",
-            "const double h = dt / substeps; w.scratch.fractions = std::vector<double>(8);", "world/world"),
+            "const double h = dt / substeps; w.scratch.bad_bodies = std::vector<int>(8);", "world/world"),
 ]
