@@ -119,7 +119,7 @@ MUTATIONS = [
     Mutation("substeps for half of a spring's frequency", "engine/simulation/substeps.cpp",
              "rates.frequency = std::sqrt(curved);", "rates.frequency = std::sqrt(curved) / 2;", "realtime"),
     Mutation("substeps for a tenth of what links carry", "engine/simulation/hinge_modes.cpp",
-             "g * above.load / length", "g * above.load / (100 * length)", "realtime"),
+             "kZigzag * stiffness / mass", "kZigzag * stiffness / (100 * mass)", "realtime"),
 
     # The real-time world.
     Mutation("world: a limit pulls", "engine/solve/joint_rule.h",
