@@ -257,20 +257,30 @@ double WorldPlayer<Real>::draw_dt() {
   return kDts[which % std::size(kDts)];
 }
 
+// The course's sweeps feed errors back whole: joints that nothing can close (a pulley whose other end is
+// carried off) make them faster from step to step. docs/limits.md says so.
+template <class Real>
+bool WorldPlayer<Real>::is_everyday() {
+  const bool sweeps = world_.solver() == Solver::Jakobsen || world_.solver() == Solver::SequentialImpulses;
+  fed_back_ = fed_back_ || (sweeps && world_.counts().joints > 0);
+  return !in_.extreme() && !fed_back_;
+}
+
 template <class Real>
 bool WorldPlayer<Real>::step() {
   const int count = 1 + in_.below(8), substeps = 1 + in_.below(6);
   const double dt = draw_dt();
+  const bool everyday = is_everyday();
   for (int i = 0; i < count; ++i) {
     const StepCheck<Real> check(world_);
     try {
       world_.step(dt, substeps);
     } catch (const Error& error) {
       if (error.kind() == Error::Kind::Value && in_.extreme()) return true;  // of dt: nothing has changed
-      if (!in_.extreme()) fail("an everyday world takes every step", error.what());
+      if (everyday) fail("an everyday world takes every step", error.what());
       return false;
     }
-    check.check(world_, !in_.extreme());
+    check.check(world_, everyday);
     check_world(world_);
   }
   return true;
@@ -283,11 +293,12 @@ bool WorldPlayer<Real>::repeat() {
   Rollback<Real> rollback(world_, 2);
   rollback.save();
   const std::int64_t start = world_.step_count();
+  const bool everyday = is_everyday();
   const auto future = [&]() -> std::optional<std::uint64_t> {
     try {
       for (int i = 0; i < 3; ++i) world_.step();
     } catch (const Error& error) {
-      if (!in_.extreme()) fail("an everyday world takes every step", error.what());
+      if (everyday) fail("an everyday world takes every step", error.what());
       return std::nullopt;
     }
     return world_.hash();

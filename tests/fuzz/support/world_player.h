@@ -47,11 +47,13 @@ class WorldPlayer {
     return all.empty() ? Id{} : all[static_cast<std::size_t>(in_.byte()) % all.size()];
   }
   double draw_dt();
+  bool is_everyday();
 
   static constexpr std::size_t kMost = 40;  // bodies: a run takes milliseconds
 
   ByteSource& in_;
   BasicWorld<Real> world_;
+  bool fed_back_ = false;  // errors that grow may have
   // Everything that was ever made: what is gone has to be refused.
   std::vector<BodyId> bodies_;
   std::vector<ShapeId> shapes_;
