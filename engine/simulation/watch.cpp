@@ -223,8 +223,10 @@ void Watch<Real>::note_sag(const Bodies<Real>& bodies, const Contact<Real>& cont
 template <class Real>
 bool Watch<Real>::lies_too_deep(PairKey pair, Real depth, Real bound) {
   DeepPair now{pair, 0, 0};
-  for (const DeepPair& before : deep_before_)
-    if (before.pair == pair) now = before;
+  // Contacts come in the order of their pairs, and so do these.
+  const auto before = std::lower_bound(deep_before_.begin(), deep_before_.end(), pair,
+                                       [](const DeepPair& deep, PairKey key) { return deep.pair < key; });
+  if (before != deep_before_.end() && before->pair == pair) now = *before;
   if (depth <= bound && now.misses == 0) return false;
   const bool said = stays(depth, now.depth, static_cast<double>(bound),
                           bounds::kAtOnce * static_cast<double>(bound), now.misses);

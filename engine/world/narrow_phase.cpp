@@ -275,31 +275,32 @@ ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const Conta
   return c;
 }
 
+namespace {
+
 template <class Real>
-void update_contacts(WorldData<Real>& w, Real dt) {
-  std::vector<int>&lost = w.scratch.lost_contacts, &ended = w.scratch.ended_contacts,
-  &changed = w.scratch.touch_changes;
-  lost.clear(), ended.clear(), changed.clear();
-  w.scratch.begun_contacts.clear();
-  w.scratch.bouncing.clear();
+ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Real reach = reach_of(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+  if (boxes_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
+  return manifold_of(w, contact, reach);
+}
 
-  const auto new_manifold = [&](const ContactRecord& contact) {
-    const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-    const Real reach = reach_of(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-    if (boxes_apart(w, contact.shape_a, contact.shape_b, reach)) return ContactManifold<Real>{};
-    return manifold_of(w, contact, reach);
-  };
-  const auto parted = [&](const ContactRecord& contact) {
-    return (w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && stored_boxes_apart(w, contact);
-  };
+// Whether a hook of the user's says that a contact is to be passed over in this step.
+template <class Real>
+bool is_waived(WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
+  return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);
+}
 
+// Of the contacts without points, those that get some begin, and those whose boxes have parted are lost.
+template <class Real>
+void look_at_near(WorldData<Real>& w, Real dt) {
   for (const int id : w.near) {
     const ContactRecord& contact = w.contacts[id];
-    if (parted(contact)) {
-      lost.push_back(id);
+    if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && stored_boxes_apart(w, contact)) {
+      w.scratch.lost_contacts.push_back(id);
       continue;
     }
-    const ContactManifold<Real> manifold = new_manifold(contact);
+    const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
     ContactConstraint<Real> c;
     if (manifold.count > 0) {
       rebuild(w, contact, manifold, c);
@@ -308,44 +309,53 @@ void update_contacts(WorldData<Real>& w, Real dt) {
     }
     c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
     mix_materials(w, contact, c);
-    if (contact.pre_solve && w.pre_solve && !w.pre_solve(id, c)) continue;
+    if (is_waived(w, contact, c)) continue;
     begin_step(w, c, dt);
     w.scratch.begun_contacts.push_back(c);
   }
+}
 
-  for (int nth = 0; nth <= ContactGraph<Real>::kColours; ++nth) {
-    for (ContactConstraint<Real>& c : w.graph.colour(w.graph.order(nth))) {
-      // Also of what is gone again since.
-      if (const bool touching = touches(c); touching != c.touching) {
-        c.touching = touching;
-        changed.push_back(c.contact);
-      }
-      if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
-        if (stored_boxes_apart(w, w.contacts[c.contact])) {
-          lost.push_back(c.contact);
-          continue;
-        }
-      }
-      if (!carry_on(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
-        const ContactRecord& contact = w.contacts[c.contact];
-        const ContactManifold<Real> manifold = new_manifold(contact);
-        rebuild(w, contact, manifold, c);
-        if (c.count == 0 || (contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c))) {
-          ended.push_back(c.contact);
-          continue;
-        }
-      }
-      begin_step(w, c, dt);
+// A contact with points is carried on, or made anew where its bodies have moved too much for that.
+template <class Real>
+void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+  // Also of what is gone again since.
+  if (const bool touching = touches(c); touching != c.touching) {
+    c.touching = touching;
+    w.scratch.touch_changes.push_back(c.contact);
+  }
+  if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
+    if (stored_boxes_apart(w, w.contacts[c.contact])) {
+      w.scratch.lost_contacts.push_back(c.contact);
+      return;
     }
   }
+  if (!carry_on(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
+    const ContactRecord& contact = w.contacts[c.contact];
+    rebuild(w, contact, new_manifold(w, contact, dt), c);
+    if (c.count == 0 || is_waived(w, contact, c)) {
+      w.scratch.ended_contacts.push_back(c.contact);
+      return;
+    }
+  }
+  begin_step(w, c, dt);
+}
 
-  for (const int id : changed) {
+}  // namespace
+
+template <class Real>
+void update_contacts(WorldData<Real>& w, Real dt) {
+  auto& scratch = w.scratch;
+  scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
+  scratch.begun_contacts.clear(), scratch.bouncing.clear();
+  look_at_near(w, dt);
+  w.graph.for_each([&](ContactConstraint<Real>& c) { look_at_constraint(w, c, dt); });
+  for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     note_touching(w, c, c.touching);
   }
-  for (const int id : lost) destroy_contact(w, id);
-  for (const int id : ended) end_contact(w, id);
-  for (ContactConstraint<Real>& c : w.scratch.begun_contacts) {
+  for (const int id : scratch.lost_contacts) destroy_contact(w, id);
+  for (const int id : scratch.ended_contacts) end_contact(w, id);
+  for (ContactConstraint<Real>& c : scratch.begun_contacts) {
     const int id = c.contact;
     const bool touching = touches(c);
     begin_contact(w, id, c);

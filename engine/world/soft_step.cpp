@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <vector>
+
 #include "engine/solve/bounce_crowds.h"
 #include "engine/world/bouncing.h"
 #include "engine/world/constants.h"
@@ -29,10 +32,22 @@ void turn_back(WorldData<Real>& w) {
   }
 }
 
+// Whether free flight and mechanisms were all that there is.
+template <class Real>
+bool nothing_left(const WorldData<Real>& w) {
+  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
+}
+
 }  // namespace
 
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
+  prepare_kicks(w, h, substeps, FreeFlight::Exact);
+  move_hinge_trees(w, h, substeps);
+  const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
+  if (!jointed && nothing_left(w)) return;
+
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
   ContactStep<Real> contacts{.h = static_cast<Real>(h),
                              .inverse_h = static_cast<Real>(1 / h),
@@ -48,10 +63,6 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
-  const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
-
-  prepare_kicks(w, h, substeps, FreeFlight::Exact);
-  move_hinge_trees(w, h, substeps);
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w, joints);
   find_bounces(w);

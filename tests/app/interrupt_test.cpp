@@ -40,12 +40,16 @@ TEST(Interrupt, EndsEveryLongCommandAtOnce) {
   }
 }
 
+// One scenario on one engine, which is done at once.
+std::vector<std::string> compare_into(const std::string& folder) {
+  return {"compare", "free_fall/vacuum", "--engine", "plumb", "--no-cost", "--out", folder};
+}
+
 // A writer that was killed, or a disk that was full, leaves half a line: the next one begins a line of its
 // own.
 TEST(Interrupt, HalfALineOfResultsIsDropped) {
   const Folder folder;
-  const std::vector<std::string> command{"compare", "free_fall/vacuum", "--engine", "plumb", "--no-cost",
-                                         "--out",   folder.path("out")};
+  const std::vector<std::string> command = compare_into(folder.path("out"));
   ASSERT_EQ(plumb(command).code, 0);
   const std::string whole = folder.read("out/results.jsonl");
   std::ofstream(folder.path("out/results.jsonl"), std::ios::app) << whole.substr(0, whole.size() / 2);
@@ -59,8 +63,7 @@ TEST(Interrupt, HalfALineOfResultsIsDropped) {
 // Some editors leave out the last line's end; nothing of what was there is lost.
 TEST(Interrupt, AWholeLastLineWithoutItsEndStays) {
   const Folder folder;
-  const std::vector<std::string> command{"compare", "free_fall/vacuum", "--engine", "plumb", "--no-cost",
-                                         "--out",   folder.path("out")};
+  const std::vector<std::string> command = compare_into(folder.path("out"));
   ASSERT_EQ(plumb(command).code, 0);
   const std::string whole = folder.read("out/results.jsonl");
   for (const std::string& text : {whole.substr(0, whole.size() - 1), std::string("my notes")}) {

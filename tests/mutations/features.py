@@ -130,8 +130,8 @@ FEATURES = [
     feature("Hits", WORLD + "narrow_phase.cpp", "-static_cast<double>(c.approach[hardest])",
             "static_cast<double>(c.approach[hardest])", "world/contacts"),
     feature("Pre-solve hook (one-way platforms)", WORLD + "narrow_phase.cpp",
-            "(contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c))",
-            "(contact.pre_solve && w.pre_solve && w.pre_solve(c.contact, c) && false)", "world/contacts"),
+            "return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);",
+            "return contact.pre_solve && w.pre_solve && w.pre_solve(c.contact, c) && false;", "world/contacts"),
     feature("Sensors", WORLD + "sensors.cpp", "may_touch(w.shapes[shape].filter, w.shapes[other].filter) && "
             "overlap(w, shape, other)", "may_touch(w.shapes[shape].filter, w.shapes[other].filter)", "world/contacts"),
     feature("Category, mask, group", "engine/scene/scene.cpp",
