@@ -69,8 +69,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   bool strikes = false;
   const auto place = [&] {
     strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
-    if (strikes)
-      resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+    if (!strikes) return;
+    resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+    hold_locks(w);  // impacts know masses alone, and move bodies back
   };
   for (int substep = 0; substep < substeps; ++substep) {
     const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);

@@ -76,6 +76,24 @@ TEST(Impacts, RacksGainNoEnergy) {
   }
 }
 
+// Impacts that are handed on move bodies back to where they met.
+TEST(Impacts, LockedDiscsOfARackStayOnTheirLines) {
+  std::mt19937 from(2);
+  for (int i = 0; i < 40; ++i) {
+    World world({.gravity = {0, 0}, .sleeping = false});
+    build_rack(world, from, 6, 0, {0.6, 0.9});
+    const std::vector<BodyId> discs = world.bodies();
+    const BodyId in_x = discs[i % 6], in_y = discs[(i + 3) % 6];
+    world.set_locks(in_x, true, false, false), world.set_locks(in_y, false, true, false);
+    const double x = world.position(in_x).x, y = world.position(in_y).y;
+    for (int step = 0; step < 60; ++step) {
+      world.step();
+      ASSERT_EQ(world.position(in_x).x, x) << i << " " << step;
+      ASSERT_EQ(world.position(in_y).y, y) << i << " " << step;
+    }
+  }
+}
+
 // Two equal smooth discs; the target is thrown along the line of centres at contact, from the one that comes
 // at v along x with its centre b beside it: sin(a) = b / 2 R, u = (1 + e)/2 v cos(a).
 TEST(Impacts, ObliqueOnesThrowAlongTheLineOfCentres) {
