@@ -355,12 +355,12 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   }
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
-  for (ContactConstraint<Real>& c : scratch.begun_contacts) {
+  scratch.begun_contacts.use_up([&](const ContactConstraint<Real>& c) {
     const int id = c.contact;
     const bool touching = touches(c);
     begin_contact(w, id, c);
     if (touching) note_touching(w, constraint_of(w, w.contacts[id]), true);
-  }
+  });
 }
 
 template <class Real>

@@ -15,6 +15,7 @@
 #include "engine/solve/direct_rows.h"
 #include "engine/solve/hinge_tree.h"
 #include "engine/solve/joint_set.h"
+#include "engine/world/burst_list.h"
 #include "engine/world/corner_pool.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
@@ -206,7 +207,7 @@ struct Scratch {
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<char> meets;  ///< by proxy of the moving tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  std::vector<ContactConstraint<Real>> begun_contacts;
+  BurstList<ContactConstraint<Real>> begun_contacts;
   std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;  ///< theirs at the step's start
   std::vector<int> bad_bodies;             ///< whose motion in the step is not to be used
