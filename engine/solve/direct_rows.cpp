@@ -18,7 +18,10 @@ constexpr int kTries = 4;
 // that contradict each other (a body pushed out of two walls at once) answer with up to 1 / kSharing; a load
 // on something lighter answers with the ratio of the masses, and has more.
 constexpr double kContradiction = 1e5;
-// The ratio of masses beyond which the two follow it.
+// Where much is asked for the contradiction shows in what rows miss of it: by more than this share of the
+// speed that contacts push with, and by impulses that are this many times what is asked for.
+constexpr double kMissed = 0.1, kInVain = 1e3;
+// The ratio of masses beyond which they follow it.
 constexpr double kFarApart = 1e3;
 // The rows beyond which both follow the square of their number: so much does a tower make of a velocity that
 // is asked for at its top.
@@ -160,7 +163,7 @@ void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
 }
 
 template <class Real>
-bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
+bool DirectRows<Real>::find(BodyMotion<Real>* motion, double push_speed) {
   x_.resize(rows.size());
   double asked = 0;
   for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -184,7 +187,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
     }
     if (!pulls) break;
     if (attempt + 1 == kTries) {
-      contradicted_ = contradicts(asked);
+      contradicted_ = contradicts(asked, push_speed);
       return false;
     }
     // What is taken out gives back what it had.
@@ -197,14 +200,17 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion) {
     }
     factorise(motion);
   }
-  contradicted_ = contradicts(asked);
+  contradicted_ = contradicts(asked, push_speed);
   return !contradicted_;
 }
 
 template <class Real>
-bool DirectRows<Real>::contradicts(double asked) const {
+bool DirectRows<Real>::contradicts(double asked, double push_speed) const {
+  // What a row misses is kSharing / apart_ of what its impulse gives by itself.
+  const double most =
+      std::min(kContradiction * asked, std::max(kInVain * asked, kMissed / kSharing * push_speed));
   for (int i = 0; i < matrix_.size(); ++i) {
-    if (std::abs(x_[i]) * matrix_.at(i, i) > kContradiction * apart_ * asked) return true;
+    if (std::abs(x_[i]) * matrix_.at(i, i) > most * apart_) return true;
   }
   return false;
 }
@@ -219,7 +225,7 @@ bool DirectRows<Real>::correct() {
     asked = std::max(asked, std::abs(x_[i]));
   }
   matrix_.solve(x_.data());
-  return !contradicts(asked);
+  return !contradicts(asked, std::numeric_limits<double>::infinity());
 }
 
 // Each body's impulses are summed before its velocity is rounded: between a heavy load and the ground those

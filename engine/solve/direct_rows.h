@@ -52,8 +52,9 @@ class DirectRows {
   /// Factorises for the bodies' masses and the rows' Jacobians as they are.
   void factorise(const BodyMotion<Real>* motion);
   /// Finds the impulses that are missing; false, and no more than pulls are taken out, when no set of
-  /// pressing rows was found in a few tries, or the rows contradict each other.
-  bool find(BodyMotion<Real>* motion);
+  /// pressing rows was found in a few tries, or the rows contradict each other. `push_speed`, m/s: what rows
+  /// push with out of overlaps.
+  bool find(BodyMotion<Real>* motion, double push_speed);
   /// Whether `find` met rows that cannot hold together, as those of a body that is pushed out of two walls at
   /// once: what it found is no answer.
   bool contradicted() const { return contradicted_; }
@@ -68,7 +69,7 @@ class DirectRows {
   void move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const;
 
  private:
-  bool contradicts(double asked) const;
+  bool contradicts(double asked, double push_speed) const;
   void note_masses(const BodyMotion<Real>* motion);
 
   std::pmr::vector<int> sequence_;  // place -> row

@@ -291,7 +291,9 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
     if (island.system.rows.empty()) continue;  // left to the sweeps
     refresh_joints(w, island);
     std::size_t next = static_cast<std::size_t>(island.joint_rows);
+    double push_speed = island.contacts.empty() ? std::numeric_limits<double>::infinity() : 0;
     for (ContactConstraint<Real>* c : island.contacts) {
+      push_speed = std::max(push_speed, static_cast<double>(c->push_speed));
       for (int k = 0; k < c->count; ++k) {
         if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
           continue;
@@ -308,10 +310,10 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
       island.system.factorise(w.motion.data());
       close_gaps(w, island, joints.h);
     }
-    bool found = island.system.find(w.motion.data());
+    bool found = island.system.find(w.motion.data(), push_speed);
     if (push && found && add_missing_loads(w, island, joints.h)) {
       island.system.factorise(w.motion.data());
-      found = island.system.find(w.motion.data());
+      found = island.system.find(w.motion.data(), push_speed);
     }
     if (found) island.system.apply(w.motion.data());
     if (!found && island.system.contradicted()) give_up(w, island);
