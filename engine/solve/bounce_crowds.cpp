@@ -18,6 +18,9 @@ constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
 // Most bounces that are looked at in all rounds of a substep.
 constexpr int kLooks = 1 << 17;
+// Most rounds of a substep in which no time passes, and as many more for each bounce of the crowd: to the far
+// end and back in a few of them. More is a body that friction or a second wall presses back at once.
+constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 template <class Real>
 bool gives_way(const BodyMotion<Real>& body) {
@@ -212,19 +215,32 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
 }
 
+// Whether what is struck next comes after what was struck before.
+template <class Real>
+bool time_passes(const CrowdRoom<Real>& room) {
+  return std::any_of(room.struck.begin(), room.struck.end(), [&](const StruckPoint<Real>& at) {
+    const ContactConstraint<Real>& c = *at.bounce->contact;
+    return at.time > std::max(room.last[c.body_a], room.last[c.body_b]);
+  });
+}
+
 }  // namespace
 
 template <class Real>
-void resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
-                    const ContactStep<Real>& step, CrowdRoom<Real>& room) {
+int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
+                   const ContactStep<Real>& step, CrowdRoom<Real>& room) {
   const Real fastest = fastest_strike(motion, bounces);
   find_crowd(motion, bounces, 2 * step.h * fastest, room);
-  if (room.crowd.empty()) return;
+  if (room.crowd.empty()) return 0;
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
-  const int rounds = std::max(kLooks / static_cast<int>(room.crowd.size()), 8);
-  for (int round = 0; round < rounds; ++round) {
+  const int size = static_cast<int>(room.crowd.size());
+  const int rounds = std::max(kLooks / size, 8);
+  int at_one_time = kAtOneTime + kAtOneTimeEach * size;
+  int round = 0;
+  for (; round < rounds && at_one_time > 0; ++round) {
     find_struck(motion, least, step.h, room);
     if (room.struck.empty()) break;
+    if (!time_passes(room)) --at_one_time;
     exchange(motion, room.struck, fastest);
     for (const StruckPoint<Real>& at : room.struck) finish_impact(motion, rotation, at, room);
   }
@@ -242,11 +258,12 @@ void resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vec
     }
     bounce->closes = bounce->closes && open;
   }
+  return round;
 }
 
-#define PLUMB_FOR(Real)                                                                        \
-  template void resolve_crowds(BodyMotion<Real>*, Rotation<Real>*, std::vector<Bounce<Real>>&, \
-                               const ContactStep<Real>&, CrowdRoom<Real>&);
+#define PLUMB_FOR(Real)                                                                       \
+  template int resolve_crowds(BodyMotion<Real>*, Rotation<Real>*, std::vector<Bounce<Real>>&, \
+                              const ContactStep<Real>&, CrowdRoom<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -37,8 +37,11 @@ struct CrowdRoom {
 ///
 /// An impulse at the time t moves a body by (h - t) of the change in velocity: bodies are moved back by what
 /// the substep's motion has too much.
+///
+/// Returns the rounds that it took. They end, and the rest is left to the constraints, when no time passes
+/// for many of them: between two walls that both push, a body would bounce for ever.
 template <class Real>
-void resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
-                    const ContactStep<Real>& step, CrowdRoom<Real>& room);
+int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
+                   const ContactStep<Real>& step, CrowdRoom<Real>& room);
 
 }  // namespace plumb
