@@ -33,7 +33,8 @@ bool masses_alike(const WorldData<Real>& w) {
 
 template <class Real>
 bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
-  return joint.active && !in_hinge_tree(w, w.gives_way(joint.body_a) ? joint.body_a : joint.body_b);
+  const bool a = w.gives_way(joint.body_a), b = w.gives_way(joint.body_b);
+  return joint.active && (a || b) && !in_hinge_tree(w, a ? joint.body_a : joint.body_b);
 }
 
 // Joints that no mechanism holds.

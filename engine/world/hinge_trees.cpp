@@ -53,8 +53,8 @@ void find_sets(WorldData<Real>& w) {
     if (w.gives_way(body)) bad[sets.find(body)] = 1;
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!joint.active) return;
     const bool a = w.gives_way(joint.body_a), b = w.gives_way(joint.body_b);
+    if (!joint.active || !(a || b)) return;
     const int set_a = a ? sets.find(joint.body_a) : kNone, set_b = b ? sets.find(joint.body_b) : kNone;
     if (a && b) {
       const bool spoilt = set_a == set_b || bad[set_a] || bad[set_b] || (grounded[set_a] && grounded[set_b]);

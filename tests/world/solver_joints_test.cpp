@@ -29,6 +29,29 @@ TEST_P(SolverJoints, DistanceKeepsItsLength) {
   EXPECT_LT(worst, 5 * test::tangent_drift(std::sqrt(2 * kGravity), 1, kH));
 }
 
+// Bodies may cease to be dynamic while joints hold them: those between two that do not give way do nothing.
+TEST_P(SolverJoints, BetweenBodiesThatNoLongerGiveWayHoldNothing) {
+  for (const BodyType type : {BodyType::Static, BodyType::Kinematic}) {
+    DoubleWorld world(with(GetParam())), alone(with(GetParam()));
+    const BodyId arm = add_mass(world, {1, 0}, 2, 1), hook = add_hook(world);
+    const JointId hinge = world.create_joint(
+        hook, arm, {.kind = RevoluteDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}}});
+    world.create_joint(hook, arm, {.kind = WeldDefinition{.anchor_a = {1, 0}}});
+    const test::Chain chain = test::add_chain(world, 3), same = test::add_chain(alone, 3);
+    world.step(kH, 1);
+    alone.step(kH, 1);
+    const Vec2d place = world.position(arm);
+    world.set_type(arm, type);
+    world.set_velocity(arm, {});
+    run(world, 60, kH, 1);
+    run(alone, 60, kH, 1);
+    EXPECT_EQ(world.position(arm), place);
+    EXPECT_EQ(world.position(chain.links[2]), alone.position(same.links[2]));
+    world.set_type(arm, BodyType::Dynamic);
+    EXPECT_LT(test::run_gap(world, {hinge}, 240), test::tangent_drift(std::sqrt(2 * kGravity), 1, kH));
+  }
+}
+
 TEST_P(SolverJoints, RopesAreSlackUntilTheyAreTaut) {
   DoubleWorld world(with(GetParam()));
   const BodyId mass = add_mass(world, {0, -0.5}, 2, 1);
