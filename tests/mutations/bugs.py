@@ -141,6 +141,8 @@ MUTATIONS = [
              "is_struck(bounce) && hands_on", "is_struck(bounce) && hands_on && within < 0", "world"),
     Mutation("world: an impact at its time moves bodies from the substep's start", "engine/solve/bounce_crowds.cpp",
              "way = -at.time * (", "way = Real(0) * (", "world"),
+    Mutation("world: what is pressed back at once bounces on for ever", "engine/solve/bounce_crowds.cpp",
+             "round < rounds && at_one_time > 0", "round < rounds", "world"),
     Mutation("world: continuous collision slows what it stops", "engine/world/continuous.cpp",
              "flight.stop(next.fraction,",
              "w.motion[flight.body].velocity *= static_cast<Real>(next.fraction); flight.stop(next.fraction,", "world"),
