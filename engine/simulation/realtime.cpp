@@ -73,6 +73,7 @@ RealtimeDriver<Real>::RealtimeDriver(const Scene& scene, const Realtime& accurac
     if (inverse > 0) lightest = std::max(lightest, inverse), heaviest = std::min(heaviest, inverse);
   masses_differ_ = contacts_active() && lightest > Real(constants::kHeavyLoad) * heaviest;
   if (!joints_active()) return;
+  joint_count_ = static_cast<int>(scene.joints.size());
   if (accuracy.joint_solver == JointSolver::Direct) {
     joints_ = std::make_unique<DirectJoints<Real>>(scene, bodies_);
   } else {
@@ -89,7 +90,7 @@ void RealtimeDriver<Real>::step() {
     if (watch_->starts_anew()) watch_->begin(bodies_, contacts_, shapes());
     plan_for_towers();
   }
-  load_sweeps_ = masses_differ_ ? sweeps_for_loads() : 0;
+  sweeps_ = sweeps_a_pass();
   const double h = accuracy_.dt / accuracy_.substeps;
   const double start = time();
   for (int substep = 0; substep < accuracy_.substeps; ++substep) {
@@ -128,6 +129,17 @@ void RealtimeDriver<Real>::plan_for_towers() {
   sway();
 }
 
+/// Those asked for; more in the first step, which has no impulses to start from, and where loads need them.
+template <class Real>
+int RealtimeDriver<Real>::sweeps_a_pass() const {
+  const double share = std::min(1.0, double{constants::kSweptSubsteps} / accuracy_.substeps);
+  const double cold = step_ == 0 ? share * constants::kColdSweeps : 1;
+  const double loads = masses_differ_ ? share * sweeps_for_loads() : 0;
+  const double most = std::numeric_limits<int>::max();
+  return std::max(accuracy_.iterations,
+                  static_cast<int>(std::clamp(cold * accuracy_.iterations, loads, most)));
+}
+
 /// A sweep leaves R / (R + 1) of the error of a load that rests on something R times lighter (the two
 /// contacts' a12^2 / (a11 a22)): R sweeps a pass take it to 1/e, and what is left the next substeps' do.
 template <class Real>
@@ -143,7 +155,8 @@ int RealtimeDriver<Real>::sweeps_for_loads() const {
     if (above > 0 && below > Real(constants::kHeavyLoad) * above) most = std::max(most, below / above);
   }
   if (most == 0) return 0;
-  return static_cast<int>(std::min(most, static_cast<Real>(constants::kLoadWork / touching)));
+  return static_cast<int>(
+      std::min(most, static_cast<Real>(constants::kLoadWork / (touching + joint_count_))));
 }
 
 template <class Real>
@@ -225,7 +238,7 @@ void RealtimeDriver<Real>::hold(Real h) {
   stage(ContactHold, [&] { contact_solver_.begin_hold(contacts_, finder_->shapes(), bodies_, h); });
   const bool touching = contacts_active() && !contact_solver_.idle();
   const bool iterated = joints_active() && (touching || accuracy_.joint_solver == JointSolver::Iterative);
-  for (int i = 0; i < sweeps() && (touching || iterated); ++i) {
+  for (int i = 0; i < sweeps_ && (touching || iterated); ++i) {
     stage(ContactHold, [&] { contact_solver_.sweep_hold(contacts_, bodies_); });
     if (iterated) stage(JointHold, [&] { joints_->sweep_hold(bodies_, h); });
   }
@@ -248,7 +261,7 @@ void RealtimeDriver<Real>::relax(Real h) {
   stage(JointRelax, [&] { joints_->begin_relax(bodies_); });
   stage(ContactRelax, [&] { contact_solver_.begin_relax(contacts_, finder_->shapes(), bodies_, h); });
   const bool touching = contacts_active() && !contact_solver_.idle();
-  const int rounds = touching || accuracy_.joint_solver == JointSolver::Iterative ? sweeps() : 1;
+  const int rounds = touching || accuracy_.joint_solver == JointSolver::Iterative ? sweeps_ : 1;
   for (int i = 0; i < rounds; ++i) {
     if (touching) stage(ContactRelax, [&] { contact_solver_.sweep_relax(contacts_, bodies_); });
     stage(JointRelax, [&] { joints_->sweep_relax(bodies_); });
@@ -262,7 +275,7 @@ void RealtimeDriver<Real>::collide(Real h) {
   stage(ContactHold, [&] {
     contact_solver_.begin_collide(contacts_, finder_->shapes(), bodies_, h, is_active(plan_, Restitution));
   });
-  for (int i = 0; i < sweeps(); ++i) {
+  for (int i = 0; i < sweeps_; ++i) {
     stage(ContactHold, [&] { contact_solver_.sweep_hold(contacts_, bodies_); });
     stage(JointHold, [&] { joints_->sweep_follow(bodies_); });
   }

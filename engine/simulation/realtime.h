@@ -74,11 +74,7 @@ class RealtimeDriver final : public Driver {
   void check();
   void watch();
 
-  /// The first step has no impulses to start from, and makes up for it.
-  int sweeps() const {
-    return std::max(load_sweeps_,
-                    step_ == 0 ? constants::kColdSweeps * accuracy_.iterations : accuracy_.iterations);
-  }
+  int sweeps_a_pass() const;
   int sweeps_for_loads() const;
 
   void set_motion(std::size_t body, const BodyState& state);
@@ -111,8 +107,9 @@ class RealtimeDriver final : public Driver {
   std::vector<Real> last_angle_;
   std::vector<Twist<Real>> last_twist_;
   std::int64_t step_ = 0;
-  int asked_substeps_ = 0;      // as planned before anything moved
-  int load_sweeps_ = 0;         // that heavy loads on light bodies need in this step
+  int asked_substeps_ = 0;  // as planned before anything moved
+  int sweeps_ = 1;          // over contacts and joints, of each pass in this step
+  int joint_count_ = 0;
   bool masses_differ_ = false;  // so far that there may be such
   bool profiling_ = false;
   bool contacts_changed_ = true;  // since the impact stage looked at them

@@ -60,9 +60,13 @@ inline constexpr int kImpactsAtLeast = 1 << 17;
 inline constexpr int kColdSweeps = 20;
 
 /// How many times heavier than what it rests on a load must be to be given more sweeps, and how many contacts
-/// a pass then works on at most in all its sweeps.
+/// and joints a pass then works on at most in all its sweeps.
 inline constexpr double kHeavyLoad = 30;
 inline constexpr int kLoadWork = 4000;
+
+/// Of how many substeps a step makes these additional sweeps in full; more share what so many make, as each
+/// begins with the impulses of the one before. What a step costs is bounded so.
+inline constexpr int kSweptSubsteps = 16;
 
 /// Newton iterations for the time of a contact; they converge quadratically and end at rounding.
 inline constexpr int kTimeIterations = 12;

@@ -34,6 +34,8 @@ MUTATIONS = [
     # Time stepping.
     Mutation("a lost substep", "engine/simulation/realtime.cpp",
              "substep < accuracy_.substeps;", "substep + 1 < accuracy_.substeps;"),
+    Mutation("each of a thousand substeps sweeps as often as four", "engine/simulation/realtime.cpp",
+             "std::min(1.0, double{constants::kSweptSubsteps} / accuracy_.substeps)", "1.0"),
     Mutation("the second half kick is missing", "engine/simulation/velocity_verlet.cpp",
              "kick(half); }); // v += a' h/2", "}); // v += a' h/2"),
     Mutation("a wrong digit in a Runge-Kutta weight", "engine/integrate/dop853_coefficients.h",

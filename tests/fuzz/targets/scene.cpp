@@ -18,7 +18,7 @@
 namespace plumb::fuzz {
 namespace {
 
-constexpr int kSteps = 3, kMostSubsteps = 100;
+constexpr int kSteps = 3, kMostSubsteps = 1000;
 constexpr std::size_t kMostParts = 30;  // of scenes that are run: milliseconds each
 
 bool is_finite(const BodyState& state) {
@@ -44,8 +44,7 @@ void run_simulation(const Scene& scene, const Accuracy& accuracy) {
     const std::string reason = unsupported(scene, accuracy);
     Simulation simulation = compile(scene, accuracy);
     require(reason.empty(), "what is not supported is not compiled");
-    // Where springs or the gravity need more, a step takes seconds: each may sweep as often as it is allowed
-    // to.
+    // Where springs or joints need more, a step takes seconds.
     const bool quick = simulation.plan().substeps <= kMostSubsteps;
     for (int i = 0; quick && i < kSteps; ++i) simulation.step();
     for (std::size_t body = 0; body < simulation.body_count(); ++body)
