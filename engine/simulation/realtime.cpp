@@ -91,6 +91,7 @@ void RealtimeDriver<Real>::step() {
     plan_for_towers();
   }
   sweeps_ = sweeps_a_pass();
+  if (impacts_) impacts_->begin_step(contacts_);
   const double h = accuracy_.dt / accuracy_.substeps;
   const double start = time();
   for (int substep = 0; substep < accuracy_.substeps; ++substep) {
@@ -132,7 +133,7 @@ void RealtimeDriver<Real>::plan_for_towers() {
 /// Those asked for; more in the first step, which has no impulses to start from, and where loads need them.
 template <class Real>
 int RealtimeDriver<Real>::sweeps_a_pass() const {
-  const double share = std::min(1.0, double{constants::kSweptSubsteps} / accuracy_.substeps);
+  const double share = std::min(1.0, double{constants::kFullSubsteps} / accuracy_.substeps);
   const double cold = step_ == 0 ? share * constants::kColdSweeps : 1;
   const double loads = masses_differ_ ? share * sweeps_for_loads() : 0;
   const double most = std::numeric_limits<int>::max();

@@ -55,6 +55,11 @@ inline constexpr double kGapSpeed = 4;
 inline constexpr int kImpactsPerContact = 16;
 inline constexpr int kImpactsAtLeast = 1 << 17;
 
+/// Most impacts a substep at the time of the impact before, in all and for each contact: what is struck
+/// passes it on through a rack and back. Where friction or a second wall presses back at once what an impact
+/// has turned back, there is no end of them, and what is left is resolved as rest, too.
+inline constexpr int kImpactsAtOnce = 64, kImpactsAtOnceEach = 8;
+
 /// How many times as many sweeps the first step makes, which starts without impulses of a step before: a
 /// stack that is built at rest stays there.
 inline constexpr int kColdSweeps = 20;
@@ -64,9 +69,9 @@ inline constexpr int kColdSweeps = 20;
 inline constexpr double kHeavyLoad = 30;
 inline constexpr int kLoadWork = 4000;
 
-/// Of how many substeps a step makes these additional sweeps in full; more share what so many make, as each
-/// begins with the impulses of the one before. What a step costs is bounded so.
-inline constexpr int kSweptSubsteps = 16;
+/// Of how many substeps a step has these additional sweeps, and its impacts, in full; more share what so many
+/// have, as each begins with the impulses of the one before. What a step costs is bounded so.
+inline constexpr int kFullSubsteps = 16;
 
 /// Newton iterations for the time of a contact; they converge quadratically and end at rounding.
 inline constexpr int kTimeIterations = 12;

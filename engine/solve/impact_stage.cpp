@@ -35,6 +35,19 @@ void ImpactStage<Real>::index(const std::vector<Contact<Real>>& contacts, std::s
   jump_.resize(bodies);
 }
 
+template <class Real>
+auto ImpactStage<Real>::allowance_of(const std::vector<Contact<Real>>& contacts) -> Allowance {
+  const auto count = static_cast<std::int64_t>(contacts.size());
+  return {constants::kImpactsAtLeast + constants::kImpactsPerContact * count,
+          constants::kImpactsAtOnce + constants::kImpactsAtOnceEach * count};
+}
+
+template <class Real>
+void ImpactStage<Real>::begin_step(const std::vector<Contact<Real>>& contacts) {
+  const Allowance substep = allowance_of(contacts);
+  allowance_ = {constants::kFullSubsteps * substep.impacts, constants::kFullSubsteps * substep.at_once};
+}
+
 /// Puts the contact's next impact at or after `from` among the events, if there is one in this substep.
 template <class Real>
 void ImpactStage<Real>::predict(Call& call, int index, Real from) {
@@ -176,15 +189,20 @@ int ImpactStage<Real>::resolve(std::vector<Contact<Real>>& contacts, std::span<c
   events_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) predict(call, static_cast<int>(i), Real{0});
 
-  const int most =
-      constants::kImpactsAtLeast + constants::kImpactsPerContact * static_cast<int>(contacts.size());
+  const Allowance most = allowance_of(contacts);
+  std::int64_t left = std::min(most.impacts, allowance_.impacts),
+               left_at_once = std::min(most.at_once, allowance_.at_once);
+  allowance_.impacts -= left, allowance_.at_once -= left_at_once;
   int impacts = 0;
-  while (!events_.empty() && impacts < most) {
+  Real last = -1;
+  while (!events_.empty() && left > 0 && left_at_once > 0) {
     std::pop_heap(events_.begin(), events_.end(), later);
     const Event event = events_.back();
     events_.pop_back();
     if (event.version != version_[event.contact] || !strike(call, event.contact, event.time)) continue;
-    ++impacts;
+    ++impacts, --left;
+    if (!(event.time > last)) --left_at_once;
+    last = event.time;
     bool more = false;
     for (const int body : struck_) more = found(body, event.time) || more;
     if (more) index(contacts, bodies.size());
@@ -195,6 +213,7 @@ int ImpactStage<Real>::resolve(std::vector<Contact<Real>>& contacts, std::span<c
       }
     }
   }
+  allowance_.impacts += left, allowance_.at_once += left_at_once;
   return impacts;
 }
 

@@ -22,6 +22,9 @@ class ImpactStage {
   /// The contacts by body, rebuilt when contacts change.
   void index(const std::vector<Contact<Real>>& contacts, std::size_t bodies);
 
+  /// Before the first substep of a step.
+  void begin_step(const std::vector<Contact<Real>>& contacts);
+
   /// `found(body, t)` is called for each body whose motion changed at `t`; it may append contacts, and then
   /// returns true. Returns how many impacts there were.
   int resolve(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
@@ -35,6 +38,12 @@ class ImpactStage {
     std::uint32_t version = 0;
   };
 
+  // How many impacts there may be, and how many of them at the time of the one before.
+  struct Allowance {
+    std::int64_t impacts = 0, at_once = 0;
+  };
+  static Allowance allowance_of(const std::vector<Contact<Real>>& contacts);
+
   struct Call;  // what one call of `resolve` works on
 
   void predict(Call& call, int index, Real from);
@@ -46,6 +55,7 @@ class ImpactStage {
   void clear_jump(const Call& call, const Contact<Real>& contact);
   void shift(Bodies<Real>& bodies, int body, Real t) const;
 
+  Allowance allowance_;                  // left of the step
   std::vector<Event> events_;            // a heap: the earliest first
   std::vector<std::uint32_t> version_;   // by contact: events of an older version are void
   std::vector<int> first_, contact_of_;  // contacts of body i: contact_of_[first_[i] .. first_[i + 1])

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -142,10 +143,10 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
     const bool is_a = (edge & 1) == 0;
+    if (!pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    if (w.forms[shape].chain || !pass_fast(w, body, w.shapes[other].body)) return;
-    note_meeting(w, way, shape, other, first);
+    if (!w.forms[shape].chain) note_meeting(w, way, shape, other, first);
   });
 }
 
@@ -169,6 +170,29 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
     w.moving_tree.query(swept, mask, visit);
   }
 }
+
+// The contacts of a body lie anywhere in memory: those of the flights to come are asked for in time, one of
+// each flight's at a time.
+class ContactsAhead {
+ public:
+  ContactsAhead() { edges_.fill(kNone); }
+
+  template <class Real>
+  void advance(const WorldData<Real>& w, std::size_t place) {
+    const auto ask_for = [&](int edge) {
+      if (edge != kNone) __builtin_prefetch(&w.contacts[edge / 2]);
+      return edge;
+    };
+    for (int& edge : edges_)
+      if (edge != kNone) edge = ask_for(w.contacts[edge / 2].next[edge & 1]);
+    const std::size_t coming = place + edges_.size();
+    if (coming < w.scratch.flights.size())
+      edges_[place % edges_.size()] = ask_for(w.bodies[w.scratch.flights[coming].body].first_contact);
+  }
+
+ private:
+  std::array<int, 8> edges_;
+};
 
 // What a flight meets first from a fraction of the step on.
 template <class Real>
@@ -293,7 +317,9 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
   }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
   bool rebounds = false;
+  ContactsAhead ahead;
   for (std::size_t i = 0; i < flights.size(); ++i) {
+    ahead.advance(w, i);
     const Meeting first = first_meeting(w, static_cast<int>(i), 0);
     if (!(first.fraction < 1)) continue;
     meetings.push_back(first);

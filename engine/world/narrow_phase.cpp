@@ -136,20 +136,16 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   rebuild(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(), c);
 }
 
-// Where the shapes are going to meet in the step, if they do; separations are those of now. Whether it has
-// points.
+// Where the shapes are going to meet in the step; separations are those of now.
 template <class Real>
-bool build_ahead(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
+void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
                  ContactConstraint<Real>& c) {
-  const Encounter<Real> at = find_encounter(w, contact, dt);
-  if (at.manifold.count == 0) return false;
   rebuild(w, contact, at.manifold, at.rotation, at.between, c);
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
     c.separation[i] -= at.time * (along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
   }
-  return true;
 }
 
 // What a rule of the user's says, when it can be a coefficient.
@@ -291,27 +287,53 @@ bool is_waived(WorldData<Real>& w, const ContactRecord& contact, ContactConstrai
   return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);
 }
 
+// A contact gets points: `build` makes them.
+template <class Real, class Build>
+void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
+  const ContactRecord& contact = w.contacts[id];
+  ContactConstraint<Real> c;
+  build(c);
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
+  mix_materials(w, contact, c);
+  if (is_waived(w, contact, c)) return;
+  begin_step(w, c, dt);
+  w.scratch.begun_contacts.push_back(c);
+}
+
+// Records of contacts, and of what they are between, lie anywhere in memory: the memory is asked for them so
+// many contacts ahead, the latter once the former are there. GCC 12 drops calls of a function that does
+// nothing else, unless they are expanded first.
+template <class Real>
+[[gnu::always_inline]] inline void ask_for_near(const WorldData<Real>& w, std::size_t i) {
+  constexpr std::size_t kRecords = 16, kShapes = 8;
+  if (i + kRecords < w.near.size()) __builtin_prefetch(&w.contacts[w.near[i + kRecords]]);
+  if (i + kShapes >= w.near.size()) return;
+  const ContactRecord& contact = w.contacts[w.near[i + kShapes]];
+  for (const int body : {contact.body_a, contact.body_b})
+    __builtin_prefetch(&w.bodies[body]), __builtin_prefetch(&w.motion[body]);
+  for (const int shape : {contact.shape_a, contact.shape_b})
+    __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
+}
+
 // Of the contacts without points, those that get some begin, and those whose boxes have parted are lost.
 template <class Real>
 void look_at_near(WorldData<Real>& w, Real dt) {
-  for (const int id : w.near) {
+  for (std::size_t i = 0; i < w.near.size(); ++i) {
+    ask_for_near(w, i);
+    const int id = w.near[i];
     const ContactRecord& contact = w.contacts[id];
     if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && stored_boxes_apart(w, contact)) {
       w.scratch.lost_contacts.push_back(id);
       continue;
     }
     const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-    ContactConstraint<Real> c;
     if (manifold.count > 0) {
-      rebuild(w, contact, manifold, c);
-    } else if (!build_ahead(w, contact, dt, c)) {
+      begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { rebuild(w, contact, manifold, c); });
       continue;
     }
-    c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
-    mix_materials(w, contact, c);
-    if (is_waived(w, contact, c)) continue;
-    begin_step(w, c, dt);
-    w.scratch.begun_contacts.push_back(c);
+    const Encounter<Real> at = find_encounter(w, contact, dt);
+    if (at.manifold.count > 0)
+      begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { build_ahead(w, contact, at, c); });
   }
 }
 

@@ -21,6 +21,9 @@ bool mark_meetings(WorldData<Real>& w) {
   return 8 * lone >= 7 * moved && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
 }
 
+// Places in the set of pairs lie anywhere in memory: they are asked for so many pairs ahead.
+constexpr std::size_t kAhead = 8;
+
 }  // namespace
 
 template <class Real>
@@ -35,8 +38,7 @@ void find_pairs(WorldData<Real>& w) {
     const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
     const auto visit = [&](int other, int) {
       // Of two that moved, one finds the other.
-      if (other == shape || (w.shapes[other].moved && other < shape)) return true;
-      if (!w.pairs.contains(shape, other) && may_collide(w, shape, other)) found.emplace_back(shape, other);
+      if (other != shape && !(w.shapes[other].moved && other < shape)) found.emplace_back(shape, other);
       return true;
     };
     const std::uint32_t mask = seen_by(record.filter);
@@ -47,8 +49,10 @@ void find_pairs(WorldData<Real>& w) {
   }
   for (const int shape : w.moved_shapes) w.shapes[shape].moved = false;
   w.moved_shapes.clear();
-  for (const auto& [a, b] : found) {
-    if (!w.pairs.contains(a, b)) create_contact(w, a, b);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i + kAhead < found.size()) w.pairs.ask_for(found[i + kAhead].first, found[i + kAhead].second);
+    const auto [a, b] = found[i];
+    if (!w.pairs.contains(a, b) && may_collide(w, a, b)) create_contact(w, a, b);
   }
 }
 
