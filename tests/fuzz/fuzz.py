@@ -31,7 +31,8 @@ SEEDS = HERE / "corpus"
 
 # Bytes of the longest input: short ones run often.
 LONGEST = {"scene": 3000, "worker": 3000, "host": 2000, "world": 600, "snapshot": 500, "recording": 600}
-JSON = {"scene", "worker", "host"}
+DICTIONARIES = {"scene": "json.dict", "worker": "json.dict", "host": "json.dict",
+                "snapshot": "lengths.dict", "recording": "lengths.dict"}
 SLOWEST = 60  # s that one input may take, on a machine that does other things too
 MEMORY = 2048  # MB
 KEPT_FILES, KEPT_BYTES = 45, 150_000  # a target, at most
@@ -74,7 +75,7 @@ class Run:
         self.before = self.found()
         self.begin = time.monotonic()
         seeds = [SEEDS / self.target] if (SEEDS / self.target).is_dir() else []
-        words = [f"-dict={HERE / 'json.dict'}"] if self.target in JSON else []
+        words = [f"-dict={HERE / DICTIONARIES[self.target]}"] if self.target in DICTIONARIES else []
         command = [program(self.build, self.target), self.corpus, *seeds, *words,
                    f"-max_total_time={max(1, round(self.seconds))}", f"-max_len={LONGEST.get(self.target, 1000)}",
                    f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", "-print_final_stats=1",
