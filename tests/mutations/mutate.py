@@ -70,7 +70,7 @@ def mismatches(root, mutations):
 SUITES = {
     "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
     "precise": (["test_simulation"], ["-L", "unit", "-R", "^simulation/Precise"]),
-    "realtime": (["test_simulation"], ["-L", "unit", "-R", "^simulation/(Watch|Substeps)"]),
+    "realtime": (["test_simulation"], ["-L", "unit", "-R", "^simulation/(Watch|Substeps|Contacts|Impacts)"]),
     "world": (["test_collide", "test_joints", "test_solve", "test_world"],
               ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
     "features": (["test_extremes", "test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
