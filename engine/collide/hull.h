@@ -87,8 +87,8 @@ inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rot
   out.count = out.edges = count;
   out.radius = shape.radius;
   using Lanes = Four<Real>;
-  const Lanes c = Lanes::spread(rotation.c), s = Lanes::spread(rotation.s);
-  const Lanes px = Lanes::spread(position.x), py = Lanes::spread(position.y);
+  const Lanes c = Lanes(rotation.c), s = Lanes(rotation.s);
+  const Lanes px = Lanes(position.x), py = Lanes(position.y);
   for (int i = 0; i < count; i += 4) {
     Lanes in[4];
     load_corners<kCount == 4>(shape, i, in);
@@ -105,7 +105,7 @@ inline void place(Hull<Real>& out, const Convex<Real>& shape, Vec2<Real> origin)
   out.count = out.edges = count;
   out.radius = shape.radius;
   using Lanes = Four<Real>;
-  const Lanes px = Lanes::spread(origin.x), py = Lanes::spread(origin.y);
+  const Lanes px = Lanes(origin.x), py = Lanes(origin.y);
   for (int i = 0; i < count; i += 4) {
     Lanes in[4];
     load_corners<kCount == 4>(shape, i, in);

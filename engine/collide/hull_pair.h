@@ -33,9 +33,8 @@ template <class Real>
 inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull<Real>& other, int count) {
   using Lanes = Four<Real>;
   const Lanes nx = Lanes::load(hull.nx + first), ny = Lanes::load(hull.ny + first);
-  Lanes out = nx * Lanes::spread(other.x[0]) + ny * Lanes::spread(other.y[0]);
-  for (int j = 1; j < count; ++j)
-    out = least(nx * Lanes::spread(other.x[j]) + ny * Lanes::spread(other.y[j]), out);
+  Lanes out = nx * Lanes(other.x[0]) + ny * Lanes(other.y[0]);
+  for (int j = 1; j < count; ++j) out = least(nx * Lanes(other.x[j]) + ny * Lanes(other.y[j]), out);
   out = out - (nx * Lanes::load(hull.x + first) + ny * Lanes::load(hull.y + first));
   Real s[4];
   out.store(s);
@@ -69,8 +68,7 @@ inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
   if (kCount == 4) {
     using Lanes = Four<Real>;
     Real s[4];
-    (Lanes::spread(direction.x) * Lanes::load(hull.x) + Lanes::spread(direction.y) * Lanes::load(hull.y))
-        .store(s);
+    (Lanes(direction.x) * Lanes::load(hull.x) + Lanes(direction.y) * Lanes::load(hull.y)).store(s);
     const Real least_low = smaller(s[0], s[1]), least_high = smaller(s[2], s[3]);
     const int low = s[1] < s[0], high = 2 + (s[3] < s[2]);
     return least_high < least_low ? high : low;

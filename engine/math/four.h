@@ -16,18 +16,22 @@ struct Four {
   static constexpr int kParts = static_cast<int>(4 * sizeof(Real) / sizeof(Part));
   Part part[kParts];
 
+  Four() = default;
+  /// The same number in all lanes.
+  Four(Real value) {
+    for (int k = 0; k < kParts; ++k) part[k] = value - Part{};
+  }
   static Four load(const Real* from) {
     Four out;
     std::memcpy(out.part, from, 4 * sizeof(Real));
     return out;
   }
-  /// The same number in all lanes.
-  static Four spread(Real value) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = value - Part{};
-    return out;
-  }
   void store(Real* to) const { std::memcpy(to, part, 4 * sizeof(Real)); }
+  /// From and to a multiple of 16 bytes.
+  static Four load_aligned(const Real* from) {
+    return load(static_cast<const Real*>(__builtin_assume_aligned(from, 16)));
+  }
+  void store_aligned(Real* to) const { store(static_cast<Real*>(__builtin_assume_aligned(to, 16))); }
 
   friend Four operator+(const Four& a, const Four& b) {
     Four out;
@@ -44,6 +48,19 @@ struct Four {
     for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] * b.part[k];
     return out;
   }
+  friend Four operator/(const Four& a, const Four& b) {
+    Four out;
+    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] / b.part[k];
+    return out;
+  }
+  friend Four operator-(const Four& a) {
+    Four out;
+    for (int k = 0; k < kParts; ++k) out.part[k] = -a.part[k];
+    return out;
+  }
+  Four& operator+=(const Four& b) { return *this = *this + b; }
+  Four& operator-=(const Four& b) { return *this = *this - b; }
+  Four& operator*=(const Four& b) { return *this = *this * b; }
   friend Four least(const Four& a, const Four& b) {
     Four out;
     for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] < b.part[k] ? a.part[k] : b.part[k];
@@ -53,7 +70,7 @@ struct Four {
 
 /// Rows become columns: lane i of out k is lane k of row i.
 template <class Real>
-inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
+[[gnu::always_inline]] inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
 #if defined(__GNUC__) && !defined(PLUMB_SCALAR)
   using Part = typename Four<Real>::Part;
   if constexpr (sizeof(Real) == 4) {
@@ -76,6 +93,55 @@ inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 4; ++i) out[k].part[i] = row[i].part[k];
 #endif
+}
+
+/// Whether a > b in all four lanes.
+template <class Real>
+[[gnu::always_inline]] inline bool all_greater(const Four<Real>& a, const Four<Real>& b) {
+#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
+  bool all = true;
+  for (int k = 0; k < Four<Real>::kParts; ++k) {
+    const auto greater = a.part[k] > b.part[k];  // lanes of ones or zeros
+    long long half[2];
+    std::memcpy(half, &greater, sizeof half);
+    all = all && (half[0] & half[1]) == -1;
+  }
+  return all;
+#else
+  for (int k = 0; k < 4; ++k)
+    if (!(a.part[k] > b.part[k])) return false;
+  return true;
+#endif
+}
+
+/// Four numbers at each of four places, multiples of 16 bytes, as the four firsts, the four seconds and so
+/// on.
+template <class Real>
+[[gnu::always_inline]] inline void load_rows(const Real* const (&from)[4], Four<Real> (&out)[4]) {
+  Four<Real> rows[4];
+  for (int i = 0; i < 4; ++i) rows[i] = Four<Real>::load_aligned(from[i]);
+  transpose(rows, out);
+}
+
+/// Two numbers at each of four places, as the four firsts and the four seconds.
+template <class Real>
+[[gnu::always_inline]] inline void load_pairs(const Real* const (&from)[4], Four<Real> (&out)[2]) {
+#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
+  using Part = typename Four<Real>::Part;
+  if constexpr (sizeof(Real) == 4) {
+    typedef double Pairs __attribute__((vector_size(16)));  // of which none is a number
+    double pair[4];
+    for (int i = 0; i < 4; ++i) std::memcpy(&pair[i], from[i], sizeof(double));
+    const Part low = reinterpret_cast<Part>(Pairs{pair[0], pair[1]});
+    const Part high = reinterpret_cast<Part>(Pairs{pair[2], pair[3]});
+    out[0].part[0] = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    out[1].part[0] = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+    return;
+  }
+#endif
+  Real lanes[2][4];
+  for (int i = 0; i < 4; ++i) lanes[0][i] = from[i][0], lanes[1][i] = from[i][1];
+  for (int k = 0; k < 2; ++k) out[k] = Four<Real>::load(lanes[k]);
 }
 
 }  // namespace plumb

@@ -42,7 +42,7 @@ constexpr std::size_t kLanes = 4;
 /// 1e-17.
 void near_turn(const double* angle, double* cosine, double* sine) {
   using Four = Four<double>;
-  const auto all = [](double x) { return Four::spread(x); };
+  const auto all = [](double x) { return Four(x); };
   const Four to_integer = all(0x1.8p52),
              over_pi = all(0x1.45f306dc9c883p-2);  // adding it rounds to an integer
   const Four x = Four::load(angle);

@@ -9,7 +9,7 @@ namespace plumb {
 /// What a solver of the real-time world reads and writes of a body: half a cache line in float. Bodies that
 /// are not dynamic have no inverse mass; they move as they are told.
 template <class Real>
-struct BodyMotion {
+struct alignas(16) BodyMotion {
   Vec2<Real> velocity{};      ///< m/s, of the centre of mass
   Real angular_velocity = 0;  ///< rad/s
   Vec2<Real> moved{};         ///< m, of the centre of mass since the step's start
@@ -22,6 +22,12 @@ struct BodyMotion {
     angular_velocity += inverse_inertia * angular_impulse;
   }
 };
+
+/// Whether impulses change the body's velocity.
+template <class Real>
+bool gives_way(const BodyMotion<Real>& motion) {
+  return motion.inverse_mass + motion.inverse_inertia > 0;
+}
 
 /// The bodies of a world as solvers see them, indexed by body: awake ones, static ones and all others alike.
 template <class Real>

@@ -23,7 +23,7 @@ constexpr int kLooks = 1 << 17;
 constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 template <class Real>
-bool gives_way(const BodyMotion<Real>& body) {
+bool has_mass(const BodyMotion<Real>& body) {
   return body.inverse_mass > 0;
 }
 
@@ -83,7 +83,7 @@ template <class Real>
 bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, CrowdRoom<Real>& room) {
   bool more = false;
   for (const int body : {c.body_a, c.body_b}) {
-    if (!gives_way(motion[body]) || room.reached[body]) continue;
+    if (!has_mass(motion[body]) || room.reached[body]) continue;
     room.reached[body] = 1;
     more = true;
   }
@@ -102,7 +102,7 @@ void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounc
   for (const Bounce<Real>& bounce : bounces) {
     if (is_near(bounce)) ++room.near[bounce.contact->body_a], ++room.near[bounce.contact->body_b];
   }
-  const auto has_others = [&](int body) { return gives_way(motion[body]) && room.near[body] > 1; };
+  const auto has_others = [&](int body) { return has_mass(motion[body]) && room.near[body] > 1; };
   bool more = false;
   for (const Bounce<Real>& bounce : bounces) {
     const ContactConstraint<Real>& c = *bounce.contact;
@@ -146,7 +146,7 @@ void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<R
       const Real wanted = placed ? bounce->speed[i] : c.restitution * closing;
       room.struck.push_back({bounce, i, time, wanted, -closing, 0});
       for (const int body : {c.body_a, c.body_b}) {
-        if (gives_way(motion[body])) room.earliest[body] = std::min(room.earliest[body], time);
+        if (has_mass(motion[body])) room.earliest[body] = std::min(room.earliest[body], time);
       }
     }
   }
@@ -209,7 +209,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
     moving.moved += (sign * moving.inverse_mass) * way;
     const Real turn = -sign * at.time * moving.inverse_inertia * angular;
     if (turn != 0) moving.turned += turn, rotation[body] = turned_by(rotation[body], turn);
-    if (gives_way(moving)) room.last[body] = std::max(room.last[body], at.time);
+    if (has_mass(moving)) room.last[body] = std::max(room.last[body], at.time);
   };
   move_back(c.body_a, -1, at.impulse * c.arm_a[at.point] + friction * c.arm_tangent_a);
   move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);

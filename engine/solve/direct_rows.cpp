@@ -27,11 +27,6 @@ constexpr double kFarApart = 1e3;
 // is asked for at its top.
 constexpr double kMany = 512;
 
-template <class Real>
-bool gives_way(const BodyMotion<Real>& body) {
-  return body.inverse_mass > 0 || body.inverse_inertia > 0;
-}
-
 // J_r M^-1 J_s^T, the part by one body that both act on.
 template <class Real>
 double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,

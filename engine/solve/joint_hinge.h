@@ -8,19 +8,46 @@
 
 namespace plumb {
 
+/// Where the two anchors of a plain revolute joint are, in numbers or in fours of them.
+template <class Number>
+struct HingeArms {
+  Vec2<Number> a{}, b{};  ///< m, from the centres of mass to the middle of the gap: see AnchorPoint::middle
+  Vec2<Number> gap{};     ///< m, anchor b less anchor a
+};
+
+/// From the centres' distance at the step's start, their ways since, and the anchors as they are turned now.
+template <class Number>
+[[gnu::always_inline]] inline HingeArms<Number> hinge_arms(Vec2<Number> offset, Vec2<Number> moved_a,
+                                                           Vec2<Number> moved_b, Vec2<Number> to_a,
+                                                           Vec2<Number> to_b) {
+  const Vec2<Number> gap = offset + (moved_b - moved_a) + (to_b - to_a), half = Number(0.5f) * gap;
+  return {to_a + half, to_b - half, gap};
+}
+
+/// The impulse that takes back what the joint's bodies move apart at, and some of the gap.
+template <class Number, class Real>
+[[gnu::always_inline]] inline Vec2<Number> soft_impulse(const Symmetric2<Number>& mass, Vec2<Number> rate,
+                                                        Vec2<Number> gap, Vec2<Number> impulse, Number share,
+                                                        const Softness<Real>& soft) {
+  return -(Number(soft.mass_scale) * (mass * (rate + (share * Number(soft.bias_rate)) * gap)) +
+           Number(soft.impulse_scale) * impulse);
+}
+
 /// The plain revolute joint, without limits, motor or spring: by far the most frequent one, and compact.
+/// Four numbers each lie together: four joints at a time load and store them whole.
 template <class Real>
-struct HingeConstraint {
-  int joint = 0, a = 0, b = 0;
-  bool held = false;  ///< another solves it
-  Real share = 1;     ///< of its impulses that it applies at a time
-  Real known_h = 0;   ///< nothing here depends on it
+struct alignas(16) HingeConstraint {
   Vec2<Real> anchor_a{}, anchor_b{};
-  Vec2<Real> offset{};  ///< m, at the step's start
   Vec2<Real> impulse{};
-  Vec2<Real> arm_a{}, arm_b{};
   Vec2<Real> gap{};  ///< m, anchor b less anchor a
+  Vec2<Real> arm_a{}, arm_b{};
   Symmetric2<Real> mass{};
+  Real share = 1;       ///< of its impulses that it applies at a time
+  Vec2<Real> offset{};  ///< m, at the step's start
+  Real known_h = 0;     ///< nothing here depends on it
+  int joint = 0, a = 0, b = 0;
+  bool held = false;   ///< another solves it
+  bool alone = false;  ///< not four at a time: it is held, or one of its bodies does not give way
 
   using Definition = RevoluteDefinition;
 
@@ -35,6 +62,7 @@ struct HingeConstraint {
   std::pair<Vec2<Real>, Real> reaction() const { return {impulse, 0}; }
 
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+    alone = held || !gives_way(bodies.motion[a]) || !gives_way(bodies.motion[b]);
     if (held) return;
     offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
     impulse *= step.warm_start;
@@ -53,9 +81,7 @@ struct HingeConstraint {
     if (held) return;
     BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointVelocities<Real> v(motion_a, motion_b);
-    const Vec2<Real> delta =
-        -(step.softness.mass_scale * (mass * (v.at(arm_a, arm_b) + (share * step.softness.bias_rate) * gap)) +
-          step.softness.impulse_scale * impulse);
+    const Vec2<Real> delta = soft_impulse(mass, v.at(arm_a, arm_b), gap, impulse, share, step.softness);
     impulse += delta;
     v.apply(delta, arm_a, arm_b);
     v.store(motion_a, motion_b);
@@ -85,16 +111,12 @@ struct HingeConstraint {
   // In numbers of its own, written once: a pair that is stored by halves and loaded as one stalls.
   [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const BodyMotion<Real>& motion_a,
                                        const BodyMotion<Real>& motion_b, const JointVelocities<Real>& v) {
-    const Vec2<Real> to_a = bodies.rotation[a] * anchor_a, to_b = bodies.rotation[b] * anchor_b;
-    const Real gap_x = offset.x + (motion_b.moved.x - motion_a.moved.x) + (to_b.x - to_a.x);
-    const Real gap_y = offset.y + (motion_b.moved.y - motion_a.moved.y) + (to_b.y - to_a.y);
-    // Both arms lead to the middle of the gap, as AnchorPoint::middle says.
-    const Real half_x = Real(0.5) * gap_x, half_y = Real(0.5) * gap_y;
-    const Vec2<Real> new_a{to_a.x + half_x, to_a.y + half_y}, new_b{to_b.x - half_x, to_b.y - half_y};
-    gap.x = gap_x, gap.y = gap_y;
-    arm_a.x = new_a.x, arm_a.y = new_a.y;
-    arm_b.x = new_b.x, arm_b.y = new_b.y;
-    const Symmetric2<Real> now = point_mass(v, new_a, new_b, share);
+    const HingeArms<Real> arms = hinge_arms(offset, motion_a.moved, motion_b.moved,
+                                            bodies.rotation[a] * anchor_a, bodies.rotation[b] * anchor_b);
+    gap.x = arms.gap.x, gap.y = arms.gap.y;
+    arm_a.x = arms.a.x, arm_a.y = arms.a.y;
+    arm_b.x = arms.b.x, arm_b.y = arms.b.y;
+    const Symmetric2<Real> now = point_mass(v, arms.a, arms.b, share);
     mass.xx = now.xx, mass.xy = now.xy, mass.yy = now.yy;
   }
 };

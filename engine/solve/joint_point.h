@@ -18,27 +18,43 @@ struct Symmetric2 {
   }
 };
 
-/// `share` of the effective mass of a point that two bodies share, the inverse of
+/// What resists an impulse at a point that two bodies share:
 ///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
 /// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
-/// cancels. Where it is as good as 0 (nothing but turning is free, about one arm) the trace stands in: a
-/// short step.
+/// cancels.
+template <class Number>
+struct PointResponse {
+  Number xx, xy, yy, determinant;
+};
+
+template <class Number>
+[[gnu::always_inline]] inline PointResponse<Number> point_response(const JointVelocities<Number>& v,
+                                                                   Vec2<Number> arm_a, Vec2<Number> arm_b) {
+  const Number m = v.m_a + v.m_b;
+  const Vec2<Number> a = v.i_a * arm_a, b = v.i_b * arm_b;
+  const Number xx = m + (a.y * arm_a.y + b.y * arm_b.y);
+  const Number yy = m + (a.x * arm_a.x + b.x * arm_b.x);
+  const Number xy = -(a.x * arm_a.y + b.x * arm_b.y);
+  return {xx, xy, yy, m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b)};
+}
+
+/// `share` of the effective mass, the inverse of K. Where the determinant is as good as 0 (nothing but
+/// turning is free, about one arm) the trace stands in: a short step.
 template <class Real>
-[[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
-                                                          Vec2<Real> arm_b, Real share) {
-  const Real m = v.m_a + v.m_b;
-  const Vec2<Real> a = v.i_a * arm_a, b = v.i_b * arm_b;
-  const Real xx = m + (a.y * arm_a.y + b.y * arm_b.y);
-  const Real yy = m + (a.x * arm_a.x + b.x * arm_b.x);
-  const Real xy = -(a.x * arm_a.y + b.x * arm_b.y);
-  const Real determinant = m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b);
-  const Real trace = xx + yy;
-  if (determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
-    const Real inverse = share / determinant;
-    return {inverse * yy, -inverse * xy, inverse * xx};
+[[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real share) {
+  const Real trace = k.xx + k.yy;
+  if (k.determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
+    const Real inverse = share / k.determinant;
+    return {inverse * k.yy, -inverse * k.xy, inverse * k.xx};
   }
   const Real inverse = trace > 0 ? share / trace : 0;
   return {inverse, 0, inverse};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
+                                                          Vec2<Real> arm_b, Real share) {
+  return mass_of(point_response(v, arm_a, arm_b), share);
 }
 
 /// Traces of both bodies' parts of K.

@@ -13,6 +13,7 @@
 
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
+#include "engine/solve/hinge_sweeps.h"
 #include "engine/solve/joint_parts.h"
 #include "engine/solve/joint_share.h"
 
@@ -56,6 +57,27 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
       f(constraint.impulse);
     }
   });
+}
+
+template <class Parts, class F>
+[[gnu::noinline]] void sweep_run(Parts& parts, JointRun run, F f) {
+  parts.with(run.form, [&](auto& lists) {
+    for (auto& constraint : lists[run.colour]) f(constraint);
+  });
+}
+
+/// All active joints in the order in which they are solved, plain revolute ones colour by colour. `others` is
+/// apart from them: what it takes of the stack, and of time to set that up, would be theirs too.
+template <class Real, class Parts, class Hinges, class Others>
+[[gnu::always_inline]] inline void sweep(Parts& parts, Hinges&& hinges, Others&& others) {
+  for (const JointRun& run : parts.runs) {
+    if (run.form == kHinge) {
+      auto& list = std::get<kHinge>(parts.store)[run.colour];
+      hinges(HingeRun<Real>{list.data(), static_cast<int>(list.size()), run.colour != kOverflowColour});
+    } else {
+      sweep_run(parts, run, others);
+    }
+  }
 }
 
 }  // namespace
@@ -277,17 +299,23 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
 
 template <class Real>
 void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
-  parts_->for_each_active([bodies](const auto& constraint) { constraint.warm_start(bodies); });
+  sweep<Real>(
+      *parts_, [&](auto hinges) { warm_start_hinges(hinges, bodies); },
+      [bodies](auto& joint) { joint.warm_start(bodies); });
 }
 
 template <class Real>
 void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  parts_->for_each_active([bodies, step](auto& constraint) { constraint.solve(bodies, step); });
+  sweep<Real>(
+      *parts_, [&](auto hinges) { solve_hinges(hinges, bodies, step); },
+      [bodies, step](auto& joint) { joint.solve(bodies, step); });
 }
 
 template <class Real>
 void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  parts_->for_each_active([bodies, step](auto& constraint) { constraint.relax(bodies, step); });
+  sweep<Real>(
+      *parts_, [&](auto hinges) { relax_hinges(hinges, bodies, step); },
+      [bodies, step](auto& joint) { joint.relax(bodies, step); });
 }
 
 // ---- What slots say

@@ -24,18 +24,33 @@ TYPED_TEST(FourLanes, EachLaneIsTheSumOfSingleNumbers) {
   expect_lanes(a + b, {x[0] + y[0], x[1] + y[1], x[2] + y[2], x[3] + y[3]});
   expect_lanes(a - b, {x[0] - y[0], x[1] - y[1], x[2] - y[2], x[3] - y[3]});
   expect_lanes(a * b, {x[0] * y[0], x[1] * y[1], x[2] * y[2], x[3] * y[3]});
+  expect_lanes(a / b, {x[0] / y[0], x[1] / y[1], x[2] / y[2], x[3] / y[3]});
+  expect_lanes(-a, {-x[0], -x[1], -x[2], -x[3]});
+  EXPECT_FALSE(all_greater(a, b));
+  for (int lane = 0; lane < 4; ++lane) {
+    Real less[4] = {Real(0.05), -4, Real(1e9), Real(1e-21)};
+    EXPECT_TRUE(all_greater(a, Four<Real>::load(less)));
+    less[lane] = x[lane];
+    EXPECT_FALSE(all_greater(a, Four<Real>::load(less))) << lane;
+  }
   expect_lanes(least(a, b), {x[0], x[1], y[2], x[3]});
-  expect_lanes(Four<Real>::spread(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
+  expect_lanes(Four<Real>(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
 }
 
 TYPED_TEST(FourLanes, RowsBecomeColumns) {
   using Real = TypeParam;
-  const Real rows[4][4] = {{0, 1, 2, 3}, {10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}};
+  alignas(16) const Real rows[4][4] = {{0, 1, 2, 3}, {10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}};
   const Four<Real> in[4] = {Four<Real>::load(rows[0]), Four<Real>::load(rows[1]), Four<Real>::load(rows[2]),
                             Four<Real>::load(rows[3])};
   Four<Real> out[4];
   transpose(in, out);
   for (int k = 0; k < 4; ++k) expect_lanes(out[k], {rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
+  Four<Real> loaded[4], pairs[2];
+  load_rows({rows[0], rows[1], rows[2], rows[3]}, loaded);
+  for (int k = 0; k < 4; ++k) expect_lanes(loaded[k], {rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
+  load_pairs({rows[0] + 1, rows[1], rows[2] + 2, rows[3]}, pairs);
+  for (int k = 0; k < 2; ++k)
+    expect_lanes(pairs[k], {rows[0][k + 1], rows[1][k], rows[2][k + 2], rows[3][k]});
 }
 
 }  // namespace

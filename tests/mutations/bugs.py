@@ -75,6 +75,13 @@ MUTATIONS = [
              "contact.friction * (impulse.normal + earlier.normal)", "contact.friction * earlier.normal"),
     Mutation("product for the geometric mean", "engine/scene/scene.cpp",
              "return std::sqrt(a * b);", "return a * b;"),
+    Mutation("of four hinges the first loses its gap", "engine/solve/hinge_sweeps.cpp",
+             "arms.gap.x, arms.gap.y});", "arms.gap.x, arms.gap.x});", "world", ("solve/hinge_sweeps",)),
+    Mutation("hinges that share a body, four at a time", "engine/solve/hinge_sweeps.cpp",
+             "run.apart ? hinge + run.count % 4 : end", "hinge + run.count % 4", "world",
+             ("solve/hinge_sweeps",)),
+    Mutation("hinges that another holds, four at a time", "engine/solve/joint_hinge.h",
+             "alone = held || !gives_way", "alone = !gives_way", "world", ("solve/hinge_sweeps",)),
 
     # Precise.
     Mutation("precise: a hinge's push turns its body the wrong way", "engine/simulation/precise_hinges.cpp",

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/solve/joint_hinge.h"
+
+namespace plumb {
+
+/// Plain revolute joints of one colour, in order. Fits into two registers.
+template <class Real>
+struct HingeRun {
+  HingeConstraint<Real>* first = nullptr;
+  int count = 0;
+  bool apart = true;  ///< no two have a body in common that gives way
+};
+
+// The three sweeps of JointSet over such a run: four joints at a time where they are apart, each with the
+// bits that it has by itself.
+template <class Real>
+void warm_start_hinges(HingeRun<Real> run, const SolverBodies<Real>& bodies);
+template <class Real>
+void solve_hinges(HingeRun<Real> run, const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+template <class Real>
+void relax_hinges(HingeRun<Real> run, const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+
+}  // namespace plumb
