@@ -64,7 +64,7 @@ def hunt(folder, target, seconds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--work", type=pathlib.Path)
+    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--only", action="append", metavar="TARGET")
     parser.add_argument("--seconds", type=float, default=180)
     parser.add_argument("-j", dest="jobs", type=int, default=len(os.sched_getaffinity(0)))

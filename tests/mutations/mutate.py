@@ -194,7 +194,7 @@ def self_test():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--work", type=pathlib.Path)
+    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--only", action="append", metavar="NAME")
     parser.add_argument("--compiler", default=os.environ.get("CXX", "c++"))
     parser.add_argument("-j", dest="jobs", type=int, default=len(os.sched_getaffinity(0)))
