@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <memory>
 
 namespace plumb {
 
@@ -28,10 +29,8 @@ struct Four {
   }
   void store(Real* to) const { std::memcpy(to, part, 4 * sizeof(Real)); }
   /// From and to a multiple of 16 bytes.
-  static Four load_aligned(const Real* from) {
-    return load(static_cast<const Real*>(__builtin_assume_aligned(from, 16)));
-  }
-  void store_aligned(Real* to) const { store(static_cast<Real*>(__builtin_assume_aligned(to, 16))); }
+  static Four load_aligned(const Real* from) { return load(std::assume_aligned<16>(from)); }
+  void store_aligned(Real* to) const { store(std::assume_aligned<16>(to)); }
 
   friend Four operator+(const Four& a, const Four& b) {
     Four out;
