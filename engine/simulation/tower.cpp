@@ -44,6 +44,11 @@ double sway_of(int levels, double fall, int sweeps) {
   return kSwayOfTwo * fall * height * height * std::sqrt(height / sweeps);
 }
 
+double sway_by_rounding(int levels, double epsilon) {
+  const double height = levels;
+  return 0.5 * epsilon * height * height * std::sqrt(height);
+}
+
 template class TowerFinder<float>;
 template class TowerFinder<double>;
 

@@ -35,5 +35,10 @@ class TowerFinder {
 /// towers of 5 to 200 boxes, steps of 1/60 to 1 s, 4 to 16 substeps and sweeps; within a factor of three.
 /// `fall` is g h^2 over the width.
 double sway_of(int levels, double fall, int sweeps);
+/// What roundings add to that, whatever the step: each contact's separation is rounded by half a unit in the
+/// last place of the tower's height, which tilts what stands on it by as much of its width; tilts are of
+/// either sign, and the height is their lever: epsilon / 2 levels^2.5. 6 mm of 100 boxes of 1 m in float, 34
+/// mm of 200.
+double sway_by_rounding(int levels, double epsilon);
 
 }  // namespace plumb

@@ -273,9 +273,11 @@ double Watch<Real>::sway(std::span<const Contact<Real>> contacts, double h, int 
   tallest_ = {}, sway_ = 0;
   if (sag_.empty() || contacts.size() < kLeastTower) return 0;
   tallest_ = towers_.tallest(contacts, dynamic_, width_, up_);
-  if (tallest_.levels > 0)
-    sway_ = sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(tallest_.width), sweeps);
-  return sway_;
+  if (tallest_.levels == 0) return 0;
+  const double swept =
+      sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(tallest_.width), sweeps);
+  sway_ = swept + sway_by_rounding(tallest_.levels, std::numeric_limits<Real>::epsilon());
+  return swept;
 }
 
 template <class Real>

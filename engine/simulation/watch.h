@@ -32,8 +32,8 @@ class Watch {
   void begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
              std::span<const SolidShape<Real>> shapes);
 
-  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width. `look`
-  /// holds the last one to its bound.
+  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width, but for
+  /// what roundings add. `look` holds the last one to its bound, with what they add.
   double sway(std::span<const Contact<Real>> contacts, double h, int sweeps);
 
   /// The first promise that is found broken; its problem says what was promised, and not after which step.
