@@ -30,6 +30,7 @@ namespace {
 
 using namespace plumb::testing;
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 /// How many runs failed, each for want of another allocation of step `step`.
 int failures(const Scene& scene, const Accuracy& accuracy, int step) {
   int failed = 0;
@@ -57,6 +58,7 @@ int failures(const Scene& scene, const Accuracy& accuracy, int step) {
   }
   return failed;
 }
+#endif
 
 TEST(Memory, AStepThatHasTooLittleIsAnErrorAndTheLastOne) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
