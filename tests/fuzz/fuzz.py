@@ -3,6 +3,7 @@
 
     fuzz.py [TARGET...] [--minutes M | --seconds S] [--jobs N] [--build DIR]
     fuzz.py --list              names the targets
+    fuzz.py --reduce [TARGET...]  leaves out of DIR/corpus what reaches nothing of its own: less to read for the next run
     fuzz.py --keep [TARGET...]  makes the few inputs that reach most the corpus in tests/fuzz/corpus
 
 `./plumb fuzz` builds the fuzzers and calls this. Each target runs for the time given; as many run at once as there are
@@ -148,7 +149,6 @@ def clear_line():
 
 
 def fuzz(targets, build, seconds, jobs):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     waiting, running = [Run(target, build, seconds) for target in targets], []
     clean, done, interrupted = True, 0, False
     try:
@@ -173,6 +173,52 @@ def fuzz(targets, build, seconds, jobs):
             run.process.wait()
         print(f"interrupted; what was learnt is in {build / 'corpus'}", flush=True)
     return 130 if interrupted else 0 if clean else 1
+
+
+def merge(build, target, folders, out, notes):
+    """Copies to `out` the inputs of `folders` that together reach all that these reach; `notes` tells how far it is."""
+    command = [program(build, target), "-merge=1", f"-merge_control_file={notes}", f"-max_len={LONGEST.get(target, 1000)}",
+               f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", out, *folders]
+    return subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL, env=environment(), preexec_fn=end_with_parent)
+
+
+def show_merge(target, notes, count, begin):
+    """How many inputs a merge has read, and how long it takes at that rate: on terminals alone."""
+    if not sys.stderr.isatty() or not notes.exists():
+        return
+    read = notes.read_bytes().count(b"STARTED ")
+    left = (time.monotonic() - begin) / max(read, 1) * (count - read)
+    sys.stderr.write(f"\r\033[K{target}: {read} of {count} inputs read; {round(left)} s left")
+    sys.stderr.flush()
+
+
+def reduce(targets, build):
+    """Replaces the corpus of each target by fewer inputs that reach as much. Interrupted, it changes nothing."""
+    for target in targets:
+        corpus = build / "corpus" / target
+        before = len(list(corpus.iterdir())) if corpus.is_dir() else 0
+        if before == 0:
+            print(f"{target:10} nothing learnt so far")
+            continue
+        with tempfile.TemporaryDirectory(dir=build) as name:
+            out, notes = pathlib.Path(name) / "corpus", pathlib.Path(name) / "notes"
+            out.mkdir()
+            begin = time.monotonic()
+            process = merge(build, target, [corpus], out, notes)
+            while process.poll() is None:
+                time.sleep(0.2)
+                show_merge(target, notes, before, begin)
+            clear_line()
+            after = len(list(out.iterdir()))
+            if process.returncode != 0 or after == 0:
+                print(f"{target}: the merge ended with {process.returncode}; the {before} inputs are as they were",
+                      file=sys.stderr)
+                return 1
+            corpus.rename(pathlib.Path(name) / "replaced")
+            out.rename(corpus)
+        print(f"{target:10} {after} of {before} inputs kept", flush=True)
+    return 0
 
 
 def features(build, target, folders):
@@ -234,6 +280,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="fuzzers at a time: the cores")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "fuzz")
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--reduce", action="store_true")
     parser.add_argument("--keep", action="store_true")
     options = parser.parse_args()
     known = all_targets()
@@ -250,6 +297,14 @@ def main():
     if missing:
         print(f"not built: {', '.join(missing)}; ./plumb fuzz builds the fuzzers", file=sys.stderr)
         return 2
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if options.reduce:
+        try:
+            return reduce(targets, options.build)
+        except KeyboardInterrupt:
+            clear_line()
+            print("interrupted; the target at work is as it was", file=sys.stderr)
+            return 130
     if options.keep:
         return keep(targets, options.build)
     return fuzz(targets, options.build, seconds, options.jobs)
