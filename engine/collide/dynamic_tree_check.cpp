@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "engine/collide/dynamic_tree.h"
 #include "engine/scene/bytes.h"
@@ -16,6 +18,11 @@ bool lists_the_rest(const std::vector<int>& free, std::vector<bool>& used) {
     used[each] = true;
   }
   return std::find(used.begin(), used.end(), false) == used.end();
+}
+
+/// Whether it may have been counted: no run gets further, and there is room to double it.
+bool is_count(std::int64_t count) {
+  return count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 4;
 }
 
 }  // namespace
@@ -80,6 +87,7 @@ template <class Real>
 bool DynamicTree<Real>::valid() const {
   const std::size_t pairs = pairs_.size(), size = static_cast<std::size_t>(size_);
   if (size_ < 0 || size > slots_.size() || size > pairs || boxes_.size() != slots_.size()) return false;
+  if (!is_count(enlargements_) || !is_count(marks_)) return false;
   std::vector<bool> pair_used(pairs, false), proxy_used(slots_.size(), false);
   if (pairs > 0) pair_used[0] = true;
   std::size_t leaves = 0;

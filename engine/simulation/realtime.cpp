@@ -120,10 +120,12 @@ void RealtimeDriver<Real>::plan_for_towers() {
   const auto sway = [&] {
     return watch_->sway(contacts_, accuracy_.dt / accuracy_.substeps, accuracy_.iterations);
   };
-  const double now = sway();
-  if (now <= bounds::kSway) return;
+  const Sway now = sway();
+  const double room = bounds::kSway - now.rounded;  // for what the sweeps leave
+  if (now.all() <= bounds::kSway || room <= 0) return;
   // It falls with h^2.
-  const double needed = std::ceil(std::sqrt(now / bounds::kSteadySway) * accuracy_.substeps);
+  const double steady = room * (bounds::kSteadySway / bounds::kSway);
+  const double needed = std::ceil(std::sqrt(now.swept / steady) * accuracy_.substeps);
   if (needed > std::min(bounds::kMostForTowers * asked_substeps_, double{kMostSubsteps})) return;
   accuracy_.substeps = plan_.substeps = static_cast<int>(needed);
   plan_.substeps_why = "a tower stands that fewer would let sway";

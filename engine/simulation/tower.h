@@ -30,15 +30,21 @@ class TowerFinder {
   std::vector<Neighbours> of_;  // by body
 };
 
-/// How far the top of a tower moves aside while it should stand, as a share of its width: sweeps pass a load
-/// on from contact to contact, and carry it over a way that grows with the root of their number. Measured on
-/// towers of 5 to 200 boxes, steps of 1/60 to 1 s, 4 to 16 substeps and sweeps; within a factor of three.
-/// `fall` is g h^2 over the width.
+/// How far the top of a tower is to move aside while it should stand, as a share of its width.
+struct Sway {
+  double swept = 0;    ///< by what the sweeps leave; more substeps make it less
+  double rounded = 0;  ///< by roundings, whatever the step
+
+  double all() const { return swept + rounded; }
+};
+
+/// `Sway::swept`: sweeps pass a load on from contact to contact, and carry it over a way that grows with the
+/// root of their number. Measured on towers of 5 to 200 boxes, steps of 1/60 to 1 s, 4 to 16 substeps and
+/// sweeps; within a factor of three. `fall` is g h^2 over the width.
 double sway_of(int levels, double fall, int sweeps);
-/// What roundings add to that, whatever the step: each contact's separation is rounded by half a unit in the
-/// last place of the tower's height, which tilts what stands on it by as much of its width; tilts are of
-/// either sign, and the height is their lever: epsilon / 2 levels^2.5. 6 mm of 100 boxes of 1 m in float, 34
-/// mm of 200.
+/// `Sway::rounded`: each contact's separation is rounded by half a unit in the last place of the tower's
+/// height, which tilts what stands on it by as much of its width; tilts are of either sign, and the height is
+/// their lever: epsilon / 2 levels^2.5. 6 mm of 100 boxes of 1 m in float, 34 mm of 200.
 double sway_by_rounding(int levels, double epsilon);
 
 }  // namespace plumb

@@ -269,22 +269,22 @@ std::optional<Error> Watch<Real>::look_at_sag() {
 }
 
 template <class Real>
-double Watch<Real>::sway(std::span<const Contact<Real>> contacts, double h, int sweeps) {
-  tallest_ = {}, sway_ = 0;
-  if (sag_.empty() || contacts.size() < kLeastTower) return 0;
+Sway Watch<Real>::sway(std::span<const Contact<Real>> contacts, double h, int sweeps) {
+  tallest_ = {}, sway_ = {};
+  if (sag_.empty() || contacts.size() < kLeastTower) return sway_;
   tallest_ = towers_.tallest(contacts, dynamic_, width_, up_);
-  if (tallest_.levels == 0) return 0;
-  const double swept =
-      sway_of(tallest_.levels, gravity_ * h * h / static_cast<double>(tallest_.width), sweeps);
-  sway_ = swept + sway_by_rounding(tallest_.levels, std::numeric_limits<Real>::epsilon());
-  return swept;
+  if (tallest_.levels == 0) return sway_;
+  const double fall = gravity_ * h * h / static_cast<double>(tallest_.width);
+  sway_ = {.swept = sway_of(tallest_.levels, fall, sweeps),
+           .rounded = sway_by_rounding(tallest_.levels, std::numeric_limits<Real>::epsilon())};
+  return sway_;
 }
 
 template <class Real>
 std::optional<Error> Watch<Real>::look_at_towers() {
-  if (!lasts(sway_ / bounds::kSway, tower_misses_)) return {};
+  if (!lasts(sway_.all() / bounds::kSway, tower_misses_)) return {};
   return broken(
-      "body '" + (*names_)[tallest_.top] + "'", "sway", sway_, bounds::kSway, " of its width",
+      "body '" + (*names_)[tallest_.top] + "'", "sway", sway_.all(), bounds::kSway, " of its width",
       "is to be expected on a tower of " + std::to_string(tallest_.levels) + "; it was to stay within");
 }
 

@@ -32,9 +32,9 @@ class Watch {
   void begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
              std::span<const SolidShape<Real>> shapes);
 
-  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps, of its width, but for
-  /// what roundings add. `look` holds the last one to its bound, with what they add.
-  double sway(std::span<const Contact<Real>> contacts, double h, int sweeps);
+  /// How far the tallest tower would sway in substeps of `h`, s, with so many sweeps. `look` holds the last
+  /// one to its bound.
+  Sway sway(std::span<const Contact<Real>> contacts, double h, int sweeps);
 
   /// The first promise that is found broken; its problem says what was promised, and not after which step.
   std::optional<Error> look(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
@@ -87,7 +87,7 @@ class Watch {
   int energy_misses_ = 0, drift_misses_ = 0, tower_misses_ = 0;
   TowerFinder<Real> towers_;
   Tower tallest_;
-  double sway_ = 0;     // of its width
+  Sway sway_;
   double gravity_ = 0;  // m/s^2
   Vec2<Real> up_{};
   EnergyWatch<Real> energy_;

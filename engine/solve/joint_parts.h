@@ -26,6 +26,8 @@ struct JointSlot {
 struct BodyJoints {
   std::uint32_t colours = 0;  ///< a bit each
   std::int32_t count = 0;
+
+  bool operator==(const BodyJoints&) const = default;
 };
 
 /// A list that is not empty, with joints to solve.

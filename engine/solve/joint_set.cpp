@@ -349,6 +349,10 @@ std::pair<int, int> JointSet<Real>::bodies(int joint) const {
   return {parts_->slot(joint).a, parts_->slot(joint).b};
 }
 template <class Real>
+std::pair<bool, bool> JointSet<Real>::dynamic(int joint) const {
+  return {parts_->slot(joint).dynamic_a, parts_->slot(joint).dynamic_b};
+}
+template <class Real>
 int JointSet<Real>::colour(int joint) const {
   return parts_->slot(joint).colour;
 }

@@ -151,6 +151,8 @@ class JointSet {
   bool contains(int joint) const;
   bool active(int joint) const;
   std::pair<int, int> bodies(int joint) const;
+  /// Which of its bodies are said to give way.
+  std::pair<bool, bool> dynamic(int joint) const;
   /// Index of the joint's colour; joints of one colour share no dynamic body, but for those of the last one,
   /// `colours() - 1`, which hold what found no place.
   int colour(int joint) const;

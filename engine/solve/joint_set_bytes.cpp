@@ -189,6 +189,24 @@ void fields(const A& ar, JointConstraint<Real, Kind>& c) {
   if constexpr (Constraint::Rows::kPoint) ar(c.point.impulse);
 }
 
+/// Whether each body has the colours of its joints, and joints of one colour share none: they are solved side
+/// by side.
+template <class Parts>
+bool is_coloured(const Parts& p) {
+  std::vector<BodyJoints> taken(p.taken.size());
+  for (const JointSlot& s : p.slots) {
+    if (!s.used || s.colour == kParked) continue;
+    const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
+    for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
+      if (!moves) continue;
+      if ((taken[body].colours & bit) != 0) return false;
+      taken[body].colours |= bit;
+      ++taken[body].count;
+    }
+  }
+  return taken == p.taken;
+}
+
 /// Whether slots and lists are as a set of joints leaves them: nothing else may be solved.
 template <class Parts>
 bool is_whole(const Parts& p) {
@@ -218,7 +236,7 @@ bool is_whole(const Parts& p) {
     return joint >= 0 && joint < slots && !p.slot(joint).used;
   });
   return free && constraints == static_cast<std::size_t>(used) && used == p.count && active == p.active &&
-         used + static_cast<int>(p.free.size()) == slots;
+         used + static_cast<int>(p.free.size()) == slots && is_coloured(p);
 }
 
 }  // namespace

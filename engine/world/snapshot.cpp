@@ -189,7 +189,8 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   std::apply([&](auto&... each) { (read(each), ...); }, state_of(fresh));
   read.finish();
   check_state(fresh);
-  fresh.graph.find_bodies([&](int body) { return fresh.gives_way(body); });
+  ByteReader::require(fresh.graph.find_bodies([&](int body) { return fresh.gives_way(body); }), "contacts",
+                      "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
   // Nothing throws from here on. The hook and the room for a step's work stay.

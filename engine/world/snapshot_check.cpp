@@ -333,6 +333,9 @@ class Check {
       require(w_.joint_set.contains(record.slot) && w_.joint_set.active(record.slot) == record.active &&
                   w_.joint_set.bodies(record.slot) == std::pair{record.body_a, record.body_b},
               "joints", "are not those that are solved");
+      require(!record.active || w_.joint_set.dynamic(record.slot) ==
+                                    std::pair{w_.gives_way(record.body_a), w_.gives_way(record.body_b)},
+              "joints", "hold bodies of another type");
       require(!record.active || !lets_go(w_, record), "joints", "hold what is in quarantine");
     }
     require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");

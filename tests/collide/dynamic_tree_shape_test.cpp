@@ -370,6 +370,20 @@ TYPED_TEST(DynamicTreeShape, DamagedSnapshotsAreRefused) {
       << "users' numbers, boxes inside others, free nodes and counters are not checked";
 }
 
+// Which twice of would not be a number.
+TYPED_TEST(DynamicTreeShape, CountsThatNoRunReachesAreRefused) {
+  const std::vector<std::byte> good = bytes_of(tree_of(scattered<TypeParam>(30)));
+  for (const std::size_t highest : {11u, 19u}) {
+    for (const int flip : {0x80, 0x40}) {
+      std::vector<std::byte> bad = good;
+      bad[highest] ^= static_cast<std::byte>(flip);
+      DynamicTree<TypeParam> result;
+      std::span<const std::byte> in(bad);
+      EXPECT_THROW(result.restore(in), Error) << highest;
+    }
+  }
+}
+
 TYPED_TEST(DynamicTreeShape, ABoxOfTheTreeItselfMayBeGiven) {
   DynamicTree<TypeParam> two =
       tree_of(Boxes<TypeParam>{square<TypeParam>(0, 0, 1), square<TypeParam>(9, 9, 2)});

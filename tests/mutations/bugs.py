@@ -124,7 +124,7 @@ MUTATIONS = [
     Mutation("watch: positions are never too far", "engine/simulation/watch.cpp",
              "if (far <= farthest_[body]) continue;", "if (far <= 1e3 * farthest_[body]) continue;", "realtime"),
     Mutation("watch: towers may be as tall as they like", "engine/simulation/watch.cpp",
-             "if (!lasts(sway_ / bounds::kSway, tower_misses_)) return {};", "return {};", "realtime"),
+             "if (!lasts(sway_.all() / bounds::kSway, tower_misses_)) return {};", "return {};", "realtime"),
     Mutation("watch: what a run has met is forgotten in snapshots", "engine/simulation/watch.cpp",
              "deep.depth = in.get<Real>();\n    deep.misses = in.get<int>();",
              "deep.depth = in.get<Real>();\n    deep.misses = 0 * in.get<int>();", "realtime"),

@@ -7,14 +7,14 @@
 #include "engine/scene/error.h"
 #include "tests/simulation/scenes.h"
 
+// Sanitizers have an allocator of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace {
 
 long left = -1;  // allocations before one fails (others do not); below zero: none does
 
 }  // namespace
 
-// Sanitizers have an allocator of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* const memory = left == 0 ? nullptr : std::malloc(size > 0 ? size : 1);
   if (left >= 0) --left;

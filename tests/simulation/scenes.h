@@ -58,10 +58,11 @@ inline Scene with(Scene scene, std::vector<Body> bodies) {
   return scene;
 }
 
-/// Boxes of 1 m, one on the other.
-inline Scene tower(int boxes) {
+/// Boxes of an edge, m, one on the other.
+inline Scene tower(int boxes, double edge = 1) {
   Scene scene = with(empty_scene(), {plane()});
-  for (int i = 0; i < boxes; ++i) scene.bodies.push_back(box("box " + std::to_string(i), {0, i + 0.5}, 1, 1));
+  for (int i = 0; i < boxes; ++i)
+    scene.bodies.push_back(box("box " + std::to_string(i), {0, (i + 0.5) * edge}, edge, edge));
   return scene;
 }
 

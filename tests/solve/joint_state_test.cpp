@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <new>
 #include <set>
 #include <span>
@@ -315,6 +319,21 @@ TEST(JointState, BytesThatAreNoSetAreRefused) {
     ByteReader in(std::span<const std::byte>(bytes).first(size));
     EXPECT_THROW(bench.joints.restore(in), Error) << size;
   }
+  EXPECT_EQ(bytes_of(bench.joints), bytes);
+}
+
+// Joints of one colour are solved side by side: the colours that a body has are those of its joints.
+TEST(JointState, ColoursThatAreNotTheJointsAreRefused) {
+  JointBench<float> bench = net<float>(5);
+  const auto bytes = bytes_of(bench.joints);
+  const std::array<std::uint32_t, 2> of_two{3, 2}, of_one{1, 2};  // colours, a bit each, and joints of a body
+  const auto begin = std::as_bytes(std::span(of_two));
+  const auto at = std::search(bytes.begin(), bytes.end(), begin.begin(), begin.end());
+  ASSERT_NE(at, bytes.end());
+  auto changed = bytes;
+  std::memcpy(&changed[static_cast<std::size_t>(at - bytes.begin())], of_one.data(), sizeof of_one);
+  ByteReader in(changed);
+  EXPECT_THROW(bench.joints.restore(in), Error);
   EXPECT_EQ(bytes_of(bench.joints), bytes);
 }
 
