@@ -11,7 +11,6 @@ namespace plumb {
 namespace {
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-constexpr int kMaxIterations = 4096;  // the worst seen: two a radian, for rods that pass closely all the time
 
 /// q r: the rotation by both angles.
 constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
@@ -207,7 +206,8 @@ Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
 // of Newton's method.
 template <class Real, class Moving>
 ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
-                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance) {
+                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance,
+                                  int most_iterations) {
   using State = typename ImpactResult<Real>::State;
   Approach<Real> approach(a, sweep_a, b, sweep_b);
   double target = std::max(0.0, static_cast<double>(target_separation));
@@ -242,7 +242,7 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sw
   // Steps aim a little farther out than the target, because the last one ends with a rounding.
   const double aim = target + 0.25 * slack;
   while (separation > target + slack) {
-    if (result.iterations == kMaxIterations) return finish(State::Failed);
+    if (result.iterations >= most_iterations) return finish(State::Failed);
     ++result.iterations;
     const double step = approach.safe_step(aim, last - fraction);
     const double next = fraction + step;
@@ -256,7 +256,7 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sw
 
 #define PLUMB_INSTANTIATE(Real, Moving)                                                                      \
   template ImpactResult<Real> time_of_impact(const Convex<Real>&, const Sweep<Moving>&, const Convex<Real>&, \
-                                             const Sweep<Moving>&, Real, Real);
+                                             const Sweep<Moving>&, Real, Real, int);
 PLUMB_INSTANTIATE(float, float)
 PLUMB_INSTANTIATE(float, double)
 PLUMB_INSTANTIATE(double, double)

@@ -25,8 +25,8 @@ struct ImpactResult {
     Separated,   ///< they keep their distance through the whole interval; fraction 1
     Hit,         ///< they come as close as the target at `fraction`, and never before
     Overlapped,  ///< they overlap at the start; fraction 0
-    Failed  ///< 4096 iterations (thousands of radians within reach of each other) were too few: they keep
-            ///< their distance up to `fraction`; what follows is unknown
+    Failed  ///< the iterations allowed were too few: they keep their distance up to `fraction`; what follows
+            ///< is unknown
   };
   State state = State::Separated;
   Real fraction = 1;          ///< rounded towards 0
@@ -35,6 +35,10 @@ struct ImpactResult {
   Vec2<Real> normal{};        ///< unit, from a to b, in the world
   int iterations = 0;
 };
+
+/// Iterations that `time_of_impact` may take: the worst seen are two a radian, of rods that pass closely all
+/// the time.
+inline constexpr int kMostImpactIterations = 4096;
 
 /// When two moving shapes first come as close as `target_separation` (m, >= 0). At the fraction found they
 /// are between the target and the target + tolerance (m, > 0) apart; at no earlier time are they closer than
@@ -48,6 +52,7 @@ struct ImpactResult {
 /// way of a step is coarser in float than a bullet is large.
 template <class Real, class Moving = Real>
 ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
-                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance);
+                                  const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance,
+                                  int most_iterations = kMostImpactIterations);
 
 }  // namespace plumb

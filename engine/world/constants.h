@@ -123,6 +123,11 @@ inline constexpr double kGraze = 0.01;
 /// How near a fast body is brought to what it meets, as a share of the smaller extent.
 inline constexpr double kImpactTolerance = 1e-3;
 
+/// Iterations in the search for an impact that each may take, and how many more all of a step may: those that
+/// spin through thousands of radians beside each other. A search that ends without them is taken for an
+/// impact where it has come to: so far they are apart.
+inline constexpr int kImpactIterations = 64, kLongSearches = 4096;
+
 /// Impacts that a body may have in flight in a step; at one more it waits for the next step.
 inline constexpr int kImpactsInFlight = 8;
 /// Newton steps for the time at which two flights meet: they begin within g dt / v of it, and square that.

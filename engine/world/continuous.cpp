@@ -62,12 +62,17 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
 
 // The rest of a fast body's way, seen from where it starts.
 struct Way {
-  Way(const Flight& flight_, double from_)
-      : flight(flight_), from(from_), origin(flight_.start_at(from_)), sweep(flight_.sweep(from_, origin)) {}
+  Way(const Flight& flight_, double from_, int& long_searches_)
+      : flight(flight_),
+        from(from_),
+        origin(flight_.start_at(from_)),
+        sweep(flight_.sweep(from_, origin)),
+        long_searches(long_searches_) {}
   const Flight& flight;
   double from;
   Vec2d origin;
   Sweep<double> sweep;
+  int& long_searches;  // iterations left to all of the step, see kLongSearches
 };
 
 // How much of a shape is its core against another one. Two discs may not even graze each other unseen.
@@ -88,7 +93,10 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, i
   const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
   const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
   const auto meet = [&](const Convex<Real>& moving) {
-    return time_of_impact(obstacle, other_sweep, moving, way.sweep, tolerance, tolerance);
+    const Result found = time_of_impact(obstacle, other_sweep, moving, way.sweep, tolerance, tolerance,
+                                        tuning::kImpactIterations + way.long_searches);
+    way.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
+    return found;
   };
   const auto fraction = [&](const Result& result) {
     return way.from + result.exact_fraction * (1 - way.from);
@@ -196,11 +204,11 @@ class ContactsAhead {
 
 // What a flight meets first from a fraction of the step on.
 template <class Real>
-Meeting first_meeting(const WorldData<Real>& w, int place, double from) {
+Meeting first_meeting(const WorldData<Real>& w, int place, double from, int& long_searches) {
   const Flight& flight = w.scratch.flights[place];
   Meeting first{.flight = place, .version = flight.version};
   if (!w.gives_way(flight.body)) return first;
-  const Way way(flight, from);
+  const Way way(flight, from, long_searches);
   if (flight.covered && flight.impacts == 0) {
     meet_pairs(w, way, first);
   } else {
@@ -241,8 +249,8 @@ bool is_later(const Meeting& a, const Meeting& b) {
 }
 
 template <class Real>
-void look_ahead(WorldData<Real>& w, int place, double from) {
-  const Meeting next = first_meeting(w, place, from);
+void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) {
+  const Meeting next = first_meeting(w, place, from, long_searches);
   if (!(next.fraction < 1)) return;
   w.scratch.meetings.push_back(next);
   std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
@@ -262,13 +270,13 @@ Flight* flight_met(WorldData<Real>& w, int body) {
 
 // What was to meet next does so, unless either of both is on another way since.
 template <class Real>
-void meet(WorldData<Real>& w, const Meeting& next, double dt) {
+void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches) {
   std::vector<Flight>& flights = w.scratch.flights;
   if (flights[next.flight].version != next.version) return;
   Flight* other = flight_met(w, w.shapes[next.other].body);
   Flight& flight = flights[next.flight];
   if (other != nullptr && other->version != next.other_version) {
-    look_ahead(w, next.flight, next.fraction);
+    look_ahead(w, next.flight, next.fraction, long_searches);
     return;
   }
   if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
@@ -277,8 +285,9 @@ void meet(WorldData<Real>& w, const Meeting& next, double dt) {
     if (thrown) show_way(w, flight);
     const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
     if (other_too) show_way(w, *other);
-    look_ahead(w, next.flight, next.fraction);
-    if (other_too) look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction);
+    look_ahead(w, next.flight, next.fraction, long_searches);
+    if (other_too)
+      look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction, long_searches);
     return;
   }
   flight.stop(next.fraction, std::max(flight.time, next.fraction * dt));
@@ -286,7 +295,7 @@ void meet(WorldData<Real>& w, const Meeting& next, double dt) {
 
 // One impact after the other, until the step ends.
 template <class Real>
-void fly_on(WorldData<Real>& w, double dt) {
+void fly_on(WorldData<Real>& w, double dt, int& long_searches) {
   std::vector<Flight>& flights = w.scratch.flights;
   std::vector<Meeting>& meetings = w.scratch.meetings;
   w.scratch.flight_places.assign(w.bodies.size(), kNone);
@@ -297,7 +306,7 @@ void fly_on(WorldData<Real>& w, double dt) {
     std::pop_heap(meetings.begin(), meetings.end(), is_later);
     const Meeting next = meetings.back();
     meetings.pop_back();
-    meet(w, next, dt);
+    meet(w, next, dt, long_searches);
   }
   w.scratch.flight_places.clear();
 }
@@ -317,16 +326,17 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
   }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
   bool rebounds = false;
+  int long_searches = tuning::kLongSearches;
   ContactsAhead ahead;
   for (std::size_t i = 0; i < flights.size(); ++i) {
     ahead.advance(w, i);
-    const Meeting first = first_meeting(w, static_cast<int>(i), 0);
+    const Meeting first = first_meeting(w, static_cast<int>(i), 0, long_searches);
     if (!(first.fraction < 1)) continue;
     meetings.push_back(first);
     rebounds = rebounds || may_rebound(w, first.shape, first.other);
   }
   if (rebounds) {
-    fly_on(w, static_cast<double>(dt));
+    fly_on(w, static_cast<double>(dt), long_searches);
   } else {
     for (const Meeting& at : meetings)
       flights[at.flight].stop(at.fraction, at.fraction * static_cast<double>(dt));
