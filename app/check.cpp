@@ -68,7 +68,7 @@ int examine(const Options& options, const reference::Backend& engine) {
 int start(const Options& options) {
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
-        "give the command that starts your engine after `--`, or --engine with one that is built in; "
+        "give either the command that starts your engine after `--`, or --engine with one that is built in; "
         "see `plumb check --help`");
   const double seconds = parse_positive("--timeout", options.timeout);
   if (!options.engine.empty()) {
@@ -95,7 +95,13 @@ void add_check(CLI::App& app, Action& chosen) {
       ->type_name("COMMAND...");
   command->add_option("--engine", options->engine, "an engine that is built in, in place of a command")
       ->type_name("E");
-  command->add_option("--chapter", options->chapter, "only this chapter, 1 to 5")->type_name("N");
+  command->add_option("--chapter", options->chapter, "only this chapter, 1 to 5")
+      ->type_name("N")
+      ->check([](const std::string& text) -> std::string {
+        int number = 0;
+        return CLI::detail::lexical_cast(text, number) ? ""
+                                                       : fmt::format("'{}' is no chapter: give 1 to 5", text);
+      });
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
   command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
       ->type_name("T");

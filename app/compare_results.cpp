@@ -46,9 +46,12 @@ bool mean_results(const std::vector<std::string>& names) {
   const auto count = std::count_if(names.begin(), names.end(), are_results);
   if (count == 0) return false;
   if (count == 2 && names.size() == 2) return true;
-  throw UsageError(
-      "compare takes scenarios, or two sets of results (folders that hold a results.jsonl): not both, not "
-      "one");
+  std::string others;
+  for (const std::string& name : names)
+    if (!are_results(name)) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name);
+  throw UsageError(fmt::format(
+      "compare takes scenarios, or two sets of results (folders that hold a results.jsonl): not both, not {}",
+      others.empty() ? std::to_string(count) : "one; no results are in " + others));
 }
 
 int compare_results(const std::string& before, const std::string& after, const std::string& format) {

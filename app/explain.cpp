@@ -27,7 +27,7 @@ void add_explain(CLI::App& app, Action& chosen) {
       ->required()
       ->type_name("NAME|FILE");
   CLI::Option* engine =
-      command->add_option("--engine", options->engine, "one of plumb's own (default plumb)");
+      command->add_option("--engine", options->engine, "plumb, plumb-float or plumb-precise (default plumb)");
   command->add_flag("--precise", options->precise, "short for --engine plumb-precise")->excludes(engine);
   add_size(*command, options->size);
   options->settings.add_to(*command);

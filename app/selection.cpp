@@ -18,11 +18,23 @@ void EngineOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->type_name("E");
   command
-      .add_option("--engine-command", commands,
-                  "one more engine: a program that speaks docs/protocol.md; may be repeated")
+      .add_option(
+          "--engine-command", commands,
+          "one more engine: a program that speaks docs/protocol.md; may be repeated. With --engine NAME "
+          "only that one and what else is named there runs")
       ->allow_extra_args(false)
       ->type_name("NAME=COMMAND");
 }
+
+namespace {
+
+/// Whether a command says what engine that is.
+bool is_given(const std::vector<std::string>& commands, const std::string& name) {
+  return std::any_of(commands.begin(), commands.end(),
+                     [&](const std::string& text) { return text.starts_with(name + '='); });
+}
+
+}  // namespace
 
 std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size) {
   std::vector<scenarios::Instance> out;
@@ -41,6 +53,7 @@ std::vector<const reference::Backend*> chosen_engines(
     const EngineOptions& options, std::vector<std::unique_ptr<reference::Backend>>& programs) {
   std::vector<const reference::Backend*> out;
   for (const std::string& name : options.names) {
+    if (is_given(options.commands, name)) continue;  // it comes below
     const reference::Backend* backend = &reference::find_backend(name);
     if (std::find(out.begin(), out.end(), backend) == out.end()) out.push_back(backend);
   }

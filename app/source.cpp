@@ -85,6 +85,21 @@ scenarios::Instance file_instance(const std::string& path, const std::string& du
   return {kept.back().get(), "", 1};
 }
 
+namespace {
+
+/// The scene of a file, whose name errors of its text have in front: there may be several.
+Scene scene_in(const std::string& path) {
+  const std::string text = read_file(path);
+  try {
+    return scene_from_json(text);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("file '{}': {}", path, error.subject()), error.field(),
+                error.value(), error.problem(), error.line());
+  }
+}
+
+}  // namespace
+
 Source load(const std::string& name_or_file, int size) {
   if (!is_file(name_or_file)) {
     const scenarios::Instance instance = one_instance(name_or_file, size);
@@ -95,7 +110,7 @@ Source load(const std::string& name_or_file, int size) {
     throw Error(Error::Kind::Value, "--size", "", std::to_string(size),
                 "goes with a scenario's name, not with a file");
   Source source;
-  source.scene = scene_from_json(read_file(name_or_file));
+  source.scene = scene_in(name_or_file);
   source.duration = duration_of(source.scene, source.duration);
   return source;
 }

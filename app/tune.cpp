@@ -34,7 +34,7 @@ int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
   if (options.tolerance.empty() == options.budget.empty())
-    throw UsageError("give --tolerance or --budget-us: what must be reached, or what it may cost");
+    throw UsageError("give either --tolerance, what must be reached, or --budget-us, what it may cost");
   if (options.size > 0 && is_file(options.name))
     throw UsageError("--size goes with a scenario's name, not with a file");
   if (!options.duration.empty() && !is_file(options.name))

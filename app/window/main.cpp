@@ -51,7 +51,7 @@ void add_options(CLI::App& command, Given& given) {
   command.add_option("--dt", given.dt, "length of a step, s: short for --set dt=DT")->type_name("DT");
   command.add_option("--set", given.settings, "a control, as NAME=VALUE (again for more)");
   command.add_option("--show", given.drawings,
-                     "contacts, normals, impulses, boxes, centres or names (again for more)");
+                     "contacts, normals, impulses, boxes, centres, joints or names (again for more)");
   command
       .add_option("--script", given.script,
                   "what the player does: lines like '0.5 press 1 2' (docs/demos.md)")

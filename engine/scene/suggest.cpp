@@ -13,6 +13,9 @@ namespace {
 /// Longer names are never a slip of the finger away from another.
 constexpr std::size_t kLongest = 200;
 
+/// So many may be listed in a sentence.
+constexpr std::size_t kFew = 12;
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool same(char a, char b) { return lower(a) == lower(b); }
@@ -59,7 +62,11 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
 
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates) {
   const std::string meant = nearest(name, candidates);
-  return meant.empty() ? "" : "; did you mean " + quoted(meant) + "?";
+  if (!meant.empty()) return "; did you mean " + quoted(meant) + "?";
+  if (candidates.empty() || candidates.size() > kFew) return "";
+  std::string all;
+  for (const std::string& candidate : candidates) all += (all.empty() ? "" : ", ") + candidate;
+  return "; there are " + all;
 }
 
 }  // namespace plumb

@@ -10,7 +10,8 @@ namespace plumb {
 /// swaps of neighbours away, upper and lower case alike. Empty when nothing is near.
 std::string nearest(std::string_view name, std::span<const std::string> candidates);
 
-/// "; did you mean 'x'?", to be appended to a problem; empty when nothing is near.
+/// "; did you mean 'x'?", to be appended to a problem; when nothing is near, all of them if they are few,
+/// else nothing.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace plumb

@@ -77,7 +77,11 @@ Method method_from_json(const Json& message) {
     out.scheme = value;
     known = true;
   }
-  if (!known) throw Malformed("its \"scheme\" is " + plumb::quoted(scheme));
+  if (!known) {
+    std::string names;
+    for (const auto& [value, name] : kSchemes) names += (names.empty() ? "" : ", ") + std::string(name);
+    throw Malformed("its \"scheme\" is " + plumb::quoted(scheme) + ", and not one of " + names);
+  }
   out.order = whole_number(message, "order");
   out.epsilon = member<double>(message, "epsilon");
   if (!(out.epsilon > 0) || out.order < 0) throw Malformed("its \"method\" is " + printable(message.dump()));

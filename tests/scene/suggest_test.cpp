@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace plumb {
 namespace {
@@ -42,7 +44,9 @@ TEST(Suggest, KeepsSilentWhenNothingIsNear) {
 
 TEST(Suggest, SaysIt) {
   EXPECT_EQ(did_you_mean("plum", kNames), "; did you mean 'plumb'?");
-  EXPECT_EQ(did_you_mean("teapot", kNames), "");
+  EXPECT_EQ(did_you_mean("teapot", kNames), "; there are plumb, box2d, bullet, free_fall, pendulum_chain");
+  EXPECT_EQ(did_you_mean("teapot", std::vector<std::string>(13, "plumb")), "");
+  EXPECT_EQ(did_you_mean("teapot", {}), "");
 }
 
 }  // namespace

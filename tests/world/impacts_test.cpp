@@ -259,7 +259,7 @@ TEST(Impacts, GearsThatSpinFastAreSearchedForSoLong) {
   }
   const std::clock_t begin = std::clock();
   world.step();
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.5);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 1);
   for (int i = 0; i < 200; ++i) {
     EXPECT_EQ(world.position(rods[i]), (Vec2d{1.5 * i, 0})) << i;
     EXPECT_NEAR(std::abs(world.angular_velocity(rods[i])), 1e6, 1) << i;
