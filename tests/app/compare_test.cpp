@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tests/app/program.h"
 
@@ -66,6 +68,19 @@ TEST(Compare, AProgramThatIsNoEngineIsRefused) {
   EXPECT_EQ(ran.code, 2);
   EXPECT_EQ(ran.out, "");
   EXPECT_NE(ran.err.find("mine=/bin/false"), std::string::npos) << ran.err;
+}
+
+// `--engine` may name what `--engine-command` gives: then nothing else runs.
+TEST(Compare, AnEngineGivenByACommandIsKnownByItsName) {
+  const Folder folder;
+  const std::string worker =
+      (std::filesystem::path(PLUMB_PROGRAM).parent_path() / "plumb-worker-bullet-double").string();
+  if (!std::filesystem::exists(worker)) GTEST_SKIP() << "no engine is built as a program";
+  const Ran ran = plumb({"compare", "free_fall/vacuum", "--engine", "mine", "--engine-command",
+                         "mine=" + worker, "--format", "json", "--out", folder.path("r")});
+  const auto lines = lines_of(ran.out);
+  EXPECT_FALSE(lines.empty()) << ran.err;
+  for (const std::string& line : lines) EXPECT_EQ(Json::parse(line)["engine"], "mine");
 }
 
 TEST(Compare, AnInterruptKeepsWhatIsFinished) {
