@@ -82,6 +82,10 @@ MUTATIONS = [
              ("solve/hinge_sweeps",)),
     Mutation("hinges that another holds, four at a time", "engine/solve/joint_hinge.h",
              "alone = held || !gives_way", "alone = !gives_way", "world", ("solve/hinge_sweeps",)),
+    Mutation("snapshots with colours that are not their joints'", "engine/solve/joint_set_bytes.cpp",
+             "return taken == p.taken;", "return true;", "world", ("solve/joint_state",)),
+    Mutation("searches for impacts of what spins without end", "engine/world/continuous.cpp",
+             "way.long_searches -= std::max(", "way.long_searches -= 0 * std::max(", "world", ("world/impacts",)),
 
     # Precise.
     Mutation("precise: a hinge's push turns its body the wrong way", "engine/simulation/precise_hinges.cpp",
@@ -125,6 +129,8 @@ MUTATIONS = [
              "if (far <= farthest_[body]) continue;", "if (far <= 1e3 * farthest_[body]) continue;", "realtime"),
     Mutation("watch: towers may be as tall as they like", "engine/simulation/watch.cpp",
              "if (!lasts(sway_.all() / bounds::kSway, tower_misses_)) return {};", "return {};", "realtime"),
+    Mutation("substeps of towers leave no room for roundings", "engine/simulation/realtime.cpp",
+             "if (now.all() <= bounds::kSway", "if (now.swept <= bounds::kSway", "realtime"),
     Mutation("watch: what a run has met is forgotten in snapshots", "engine/simulation/watch.cpp",
              "deep.depth = in.get<Real>();\n    deep.misses = in.get<int>();",
              "deep.depth = in.get<Real>();\n    deep.misses = 0 * in.get<int>();", "realtime"),
