@@ -1,19 +1,22 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "tests/fuzz/support/byte_source.h"
 
 namespace plumb::fuzz {
 
-/// Where the next number from `at` on is that could be the length of a list: 8 bytes, small and not 0. `at`
-/// where there is none.
-inline std::size_t next_length(const std::vector<std::byte>& bytes, std::size_t at) {
-  for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
-    const std::size_t from = (at + i) % (bytes.size() - 7);
-    std::uint64_t number = 0;
+/// Where the next number from `at` on is that is small and not 0: of 8 bytes it could be the length of a
+/// list, of 4 an index. `at` where there is none.
+template <class Number>
+std::size_t next_small(const std::vector<std::byte>& bytes, std::size_t at) {
+  for (std::size_t i = 0; i + sizeof(Number) <= bytes.size(); ++i) {
+    const std::size_t from = (at + i) % (bytes.size() - sizeof(Number) + 1);
+    Number number = 0;
     std::memcpy(&number, bytes.data() + from, sizeof(number));
     if (number > 0 && number < 64) return from;
   }
@@ -37,11 +40,18 @@ inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
         bytes[at] ^= std::byte{static_cast<unsigned char>(1u << in.below(8))};
         break;
       case 2: {
-        // Small numbers, and lengths that overflow when they are multiplied.
+        // Small numbers, indices that are none, and lengths that overflow when they are multiplied.
         static constexpr int kPowers[] = {31, 32, 56, 59, 60, 61, 62, 63};
         const int number = in.byte();
-        if (number < 192) overwrite(at, static_cast<std::int32_t>(number) - 2);
-        if (number >= 192) overwrite(next_length(bytes, at), std::uint64_t{1} << kPowers[number % 8]);
+        static constexpr std::int32_t kNone[] = {-1, -2, 1000, 1'000'000,
+                                                 std::numeric_limits<std::int32_t>::max()};
+        if (number < 96) {
+          overwrite(at, static_cast<std::int32_t>(number) - 2);
+        } else if (number < 192) {
+          overwrite(next_small<std::uint32_t>(bytes, at), kNone[number % 5]);
+        } else {
+          overwrite(next_small<std::uint64_t>(bytes, at), std::uint64_t{1} << kPowers[number % 8]);
+        }
         break;
       }
       case 3:
