@@ -23,12 +23,13 @@ std::size_t next_small(const std::vector<std::byte>& bytes, std::size_t at) {
   return at;
 }
 
-/// Changes bytes here and there, as the rest of `in` says: single ones, numbers, blocks.
+/// Changes bytes in up to four places, as `in` says: single ones, numbers, blocks. Few, so that not all of it
+/// is refused by the first check that there is.
 inline void patch(std::vector<std::byte>& bytes, ByteSource& in) {
   const auto overwrite = [&](std::size_t at, const auto& value) {
     if (at + sizeof(value) <= bytes.size()) std::memcpy(bytes.data() + at, &value, sizeof(value));
   };
-  while (!in.empty() && !bytes.empty()) {
+  for (int left = 1 + in.below(4); left > 0 && !in.empty() && !bytes.empty(); --left) {
     const int how = in.below(8);
     const std::size_t at = in.word() % bytes.size();
     const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
