@@ -84,6 +84,8 @@ MUTATIONS = [
              "alone = held || !gives_way", "alone = !gives_way", "world", ("solve/hinge_sweeps",)),
     Mutation("snapshots with colours that are not their joints'", "engine/solve/joint_set_bytes.cpp",
              "return taken == p.taken;", "return true;", "world", ("solve/joint_state",)),
+    Mutation("snapshots with contacts of one colour that share a body", "engine/solve/contact_graph.h",
+             "sound = sound && !bodies_[c].test(body);", "", "world", ("world/snapshot",)),
     Mutation("searches for impacts of what spins without end", "engine/world/continuous.cpp",
              "way.long_searches -= std::max(", "way.long_searches -= 0 * std::max(", "world", ("world/impacts",)),
 

@@ -11,8 +11,10 @@
 #include "engine/scene/error.h"
 #include "engine/world/checksum.h"
 #include "engine/world/state_hash.h"
+#include "engine/world/world_data.h"
 #include "engine/world/world_members.h"
 #include "tests/world/busy_world.h"
+#include "tests/world/support.h"
 
 namespace plumb {
 namespace {
@@ -254,6 +256,28 @@ TEST(SnapshotBytes, SignedDamageIsRefusedOrHarmless) {
   // Most bytes are numbers that may be anything.
   EXPECT_GT(refused, 100);
   EXPECT_GT(taken, 100);
+}
+
+// The middle box of three has a contact above and one below, of two colours: contacts of one are solved side
+// by side. The world is told that both are of the first, as no run of it leaves them.
+TEST(SnapshotBytes, RefusesContactsOfOneColourThatShareABody) {
+  World world(without_sleep());
+  add_ground(world);
+  for (int i = 0; i < 3; ++i) add_box(world, {0, i + 0.5});
+  plumb::run(world, 5);
+  const std::vector<std::byte> sound = save(world);
+  auto& graph = world.data().graph;
+  ASSERT_EQ(graph.colour(0).size(), 1u);
+  ASSERT_EQ(graph.colour(1).size(), 1u);
+  const int moved = graph.colour(1)[0].contact;
+  graph.colour(0).push_back(graph.colour(1)[0]);
+  graph.colour(1).clear();
+  world.data().contacts[moved].colour = 0;
+  world.data().contacts[moved].index = 1;
+  const std::vector<std::byte> damaged = save(world);
+  World fresh;
+  EXPECT_EQ(refusal(fresh, sound), "");
+  EXPECT_EQ(refusal(fresh, damaged), "contacts");
 }
 
 // A box falls onto the ground and slides: a restored world mixes contacts that begin later by its own rule.
