@@ -33,10 +33,10 @@ std::string write_to(const std::string& path, const std::string& text) {
 
 std::string read_text(const std::string& path, const std::string& advice) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    fail(named(path), "is a directory" + (advice.empty() ? "" : "; " + advice));
+  const std::string then = advice.empty() ? "" : "; " + advice;
+  if (std::filesystem::is_directory(path, code)) fail(named(path), "is a directory" + then);
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(named(path), fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!file) fail(named(path), fmt::format("cannot be read: {}{}", std::strerror(errno), then));
   return read_text(file, named(path));
 }
 

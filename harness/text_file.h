@@ -6,7 +6,7 @@
 namespace plumb::harness {
 
 /// All of a file. Throws `Error` (Io) for one that is not there, is a folder or does not end (more than
-/// 1 GiB); `advice` follows what is said of a folder.
+/// 1 GiB); `advice` follows what is said of the first two.
 std::string read_text(const std::string& path, const std::string& advice = "");
 /// Likewise of what is open already; `subject` is what errors name.
 std::string read_text(std::istream& in, const std::string& subject);

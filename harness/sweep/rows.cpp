@@ -64,7 +64,7 @@ std::vector<Result> latest(std::vector<Result> rows) {
 
 std::vector<Result> read_rows(const std::string& folder_or_file) {
   const std::string path = file_of(folder_or_file);
-  std::istringstream file(read_text(path));
+  std::istringstream file(read_text(path, "`plumb compare` and `plumb sweep` write such files"));
   std::vector<Result> rows;
   int number = 0;
   for (std::string line; std::getline(file, line);) {

@@ -20,6 +20,7 @@ namespace {
 
 using app::Folder;
 using Json = nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 // The data that stands in the page.
@@ -120,7 +121,7 @@ TEST(Report, FailuresAndWhatIsMissingAreSaid) {
   const Folder folder;
   const app::Ran none = app::plumb({"report", folder.path("nothing")});
   EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("cannot be read"));
+  EXPECT_THAT(none.err, AllOf(HasSubstr("cannot be read"), HasSubstr("`plumb compare`")));
   folder.write("empty.jsonl", "");
   const app::Ran empty = app::plumb({"report", folder.path("empty.jsonl")});
   EXPECT_EQ(empty.code, 2);
