@@ -46,6 +46,7 @@ class WorldPlayer {
   Id some(const std::vector<Id>& all) {
     return all.empty() ? Id{} : all[static_cast<std::size_t>(in_.byte()) % all.size()];
   }
+  void note_push(BodyId body);
   double draw_dt();
   bool is_everyday();
 
@@ -53,7 +54,13 @@ class WorldPlayer {
 
   ByteSource& in_;
   BasicWorld<Real> world_;
-  bool fed_back_ = false;  // errors that grow may have
+  bool goes_wild_ = false;  // speeds may be any from here on
+  // A force that acts in the next step, with the kg and kg m^2 that it was meant for.
+  struct Push {
+    BodyId body;
+    double mass, inertia;
+  };
+  std::vector<Push> pushes_;
   // Everything that was ever made: what is gone has to be refused.
   std::vector<BodyId> bodies_;
   std::vector<ShapeId> shapes_;

@@ -14,6 +14,7 @@ void WorldPlayer<Real>::apply_forces() {
   const double dt = 1.0 / 60;
   const int which = in_.below(9);
   const LawOptions options{.wakes = in_.flag()};
+  for (const BodyId body : world_.bodies()) note_push(body);
   switch (which) {
     case 0:
       return apply_linear_drag(world_, {in_.number(0, 5), in_.number(0, 5)}, dt, options);
