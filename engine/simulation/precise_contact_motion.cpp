@@ -66,6 +66,31 @@ double EquationsOfMotion::gain(const Row<double>& row, const ContactResponse& re
          row.angular_b * b.angular_velocity;
 }
 
+/// The rates of the rows, row after row, by a unit of each response.
+void EquationsOfMotion::find_gains(std::span<const Row<double>> rows, const ContactResponse& response,
+                                   std::vector<double>& matrix) const {
+  const std::size_t n = response.rows.size();
+  matrix.assign(rows.size() * n, 0.0);
+  if (has_joints_) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = gain(rows[i], response, k);
+    return;
+  }
+  // Without joints, a row feels what acts on its own bodies.
+  std::vector<std::vector<std::size_t>> acting_on(poses_.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    for (const int body : {response.rows[k].a, response.rows[k].b})
+      if (body != kFixedFrame) acting_on[static_cast<std::size_t>(body)].push_back(k);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const int body : {rows[i].a, rows[i].b}) {
+      if (body == kFixedFrame) continue;
+      for (const std::size_t k : acting_on[static_cast<std::size_t>(body)])
+        matrix[i * n + k] = gain(rows[i], response, k);
+    }
+  }
+}
+
 void EquationsOfMotion::add_response(const ContactResponse& response, std::span<const double> impulses,
                                      std::span<Twist<double>> motion) const {
   for (std::size_t k = 0; k < response.rows.size(); ++k) {
@@ -114,10 +139,10 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
   find_response(std::move(pushes), active_response_);
 
   const std::size_t n = constraints_.size();
-  std::vector<double> matrix(n * n);
+  std::vector<double> matrix;
   scale_.assign(n, 1.0);
+  find_gains(constraints_, active_response_, matrix);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = gain(constraints_[i], active_response_, k);
     const double own = std::abs(matrix[i * n + i]);
     if (own > 0) scale_[i] = 1 / std::sqrt(own);
   }
@@ -230,11 +255,7 @@ void EquationsOfMotion::respond(double time, std::span<const double> y, std::vec
   place(time, y);
   if (has_joints_) linearise();
   find_response(std::move(rows), response);
-  const std::size_t n = response.rows.size();
-  matrix.resize(n * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = gain(response.rows[i], response, k);
-  }
+  find_gains(response.rows, response, matrix);
 }
 
 void EquationsOfMotion::push(const ContactResponse& response, std::span<const double> impulses,

@@ -160,6 +160,8 @@ class EquationsOfMotion final : public Flow {
   // Contacts that last (precise_contact_motion.cpp).
   void find_response(std::vector<Row<double>> rows, ContactResponse& out);
   double gain(const Row<double>& row, const ContactResponse& response, std::size_t k) const;
+  void find_gains(std::span<const Row<double>> rows, const ContactResponse& response,
+                  std::vector<double>& matrix) const;
   void add_response(const ContactResponse& response, std::span<const double> impulses,
                     std::span<Twist<double>> motion) const;
   void linearise_contacts(bool forces);

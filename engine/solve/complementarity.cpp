@@ -64,12 +64,16 @@ class Tableau {
 
   void pivot(std::size_t row, std::size_t column) {
     const double scale = 1 / at(row, column);
-    for (std::size_t j = 0; j < width_; ++j) at(row, j) *= scale;
+    entries_in_row_.clear();  // most of what touches knows nothing of each other: few of them are not zero
+    for (std::size_t j = 0; j < width_; ++j) {
+      at(row, j) *= scale;
+      if (at(row, j) != 0) entries_in_row_.push_back(j);
+    }
     at(row, column) = 1;
     for (std::size_t i = 0; i < n_; ++i) {
       const double factor = at(i, column);
       if (i == row || factor == 0) continue;
-      for (std::size_t j = 0; j < width_; ++j) at(i, j) -= factor * at(row, j);
+      for (const std::size_t j : entries_in_row_) at(i, j) -= factor * at(row, j);
       at(i, column) = 0;
     }
     basis_[row] = column;
@@ -91,7 +95,7 @@ class Tableau {
 
   std::size_t n_, width_;
   std::vector<double> entries_;
-  std::vector<std::size_t> basis_;
+  std::vector<std::size_t> basis_, entries_in_row_;
   double least_pivot_ = 0;
 };
 

@@ -10,8 +10,8 @@ namespace plumb {
 
 /// A square linear system A x = b, factorised by Gaussian elimination with complete pivoting. Equations that
 /// depend on others are left out, and as many unknowns are zero: a consistent system is solved all the same.
-/// Unknowns that no chain of entries connects are eliminated apart, so that the cost is the sum of the parts'
-/// cubes.
+/// Unknowns that no chain of entries connects are eliminated apart, and entries that are zero cost nothing:
+/// what touches few others is solved for far less than the cube.
 class DenseSystem {
  public:
   /// Factorises the matrix of `size` rows, row after row. Returns the rank: pivots below `dependent` times
@@ -31,8 +31,15 @@ class DenseSystem {
     std::size_t size = 0, rank = 0;
     std::vector<double> lu;
     std::vector<std::size_t> row, column;  // the caller's at each place
+    // While eliminating, of what is left: in each row the largest size, and the unknowns whose entries are
+    // not zero; where each unknown's column will be.
+    std::vector<double> largest;
+    std::vector<std::vector<std::size_t>> entries;
+    std::vector<std::size_t> place;
+    void begin();
     void factor(double least);
-    void eliminate(std::size_t k);
+    void bring_pivot(std::size_t from_row);
+    void eliminate();
     void solve(std::span<double> b, std::span<double> work) const;
   };
 

@@ -27,6 +27,7 @@ void MatrixParts::find(std::size_t size, std::span<const double> matrix) {
 }
 
 void MatrixParts::take(std::size_t p, std::span<const double> matrix, std::vector<double>& out) const {
+  if (count() == 1) return out.assign(matrix.begin(), matrix.end());
   out.clear();
   for (const std::size_t i : part(p)) {
     for (const std::size_t j : part(p)) out.push_back(matrix[i * size_ + j]);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -75,6 +76,58 @@ TEST(DenseSystem, SolvesAndFindsTheRank) {
   b = {2, 2};
   system.solve(b);
   EXPECT_DOUBLE_EQ(b[0] + b[1], 2);
+}
+
+/// Neighbours in a row, `reach` to either side, shuffled, so that the order of elimination decides how many
+/// zeros remain; every `twice`th equation and unknown is there twice.
+struct Row {
+  std::size_t size = 0;
+  std::vector<double> matrix;
+};
+
+Row neighbours(std::size_t size, std::size_t reach, std::size_t twice, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<std::size_t> place(size);
+  for (std::size_t i = 0; i < size; ++i) place[i] = i;
+  std::shuffle(place.begin(), place.end(), random);
+  std::vector<double> half(size * size);  // of A = H H^T
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = i; j <= std::min(i + reach, size - 1); ++j)
+      half[i * size + j] = i == j ? 2 : unit(random);
+    if (i % twice == 1) std::copy_n(half.begin() + (i - 1) * size, size, half.begin() + i * size);
+  }
+  Row row{size, std::vector<double>(size * size)};
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      double sum = 0;
+      for (std::size_t k = 0; k < size; ++k) sum += half[i * size + k] * half[j * size + k];
+      row.matrix[place[i] * size + place[j]] = sum;
+    }
+  }
+  return row;
+}
+
+TEST(DenseSystem, SolvesLargeSystemsOfNeighboursAndFindsTheirRank) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  DenseSystem system;
+  for (const std::size_t size : {64, 65, 90, 240}) {
+    const std::size_t twice = 15;
+    const Row row = neighbours(size, 3, twice, random);
+    std::vector<double> x(size), b(size);
+    for (double& value : x) value = unit(random);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) b[i] += row.matrix[i * size + j] * x[j];
+    EXPECT_EQ(system.factor(size, row.matrix), size - (size + twice - 2) / twice) << size;
+    std::vector<double> found = b;
+    system.solve_refined(found);
+    for (std::size_t i = 0; i < size;
+         ++i) {  // which of the unknowns that are there twice is zero is not said
+      double residual = b[i];
+      for (std::size_t j = 0; j < size; ++j) residual -= row.matrix[i * size + j] * found[j];
+      EXPECT_NEAR(residual, 0, 1e-13) << size;
+    }
+  }
 }
 
 /// A point mass on a plane: normal and tangent do not mix.

