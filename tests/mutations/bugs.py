@@ -170,4 +170,11 @@ MUTATIONS = [
              "wake_body(w, record.body_a); wake_body(w, record.body_b);", "", "world"),
     Mutation("world: what is gone within a step is not told", "engine/world/narrow_phase.cpp",
              "(c.watched && c.peak_impulse[i] > 0)", "(c.watched && c.peak_impulse[i] < 0)", "world"),
+
+    # Large systems of contacts.
+    Mutation("entries that elimination fills in are forgotten", "engine/solve/dense_system.cpp",
+             "if (own[unknown] == 0) entries[i].push_back(unknown);", "", "world", ("solve/complementarity",)),
+    Mutation("what acts on the second body is not felt", "engine/simulation/precise_contact_motion.cpp",
+             "for (const int body : {response.rows[k].a, response.rows[k].b})",
+             "for (const int body : {response.rows[k].a})", "precise"),
 ]
