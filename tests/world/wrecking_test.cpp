@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "tests/world/support.h"
@@ -44,14 +45,12 @@ double deepest(const World& world, BodyId ram, const std::vector<BodyId>& square
   return out;
 }
 
-// An 8 m square of density 8 flies at 40 m/s into a block of squares of 0.4 m, edge to edge. Four substeps
-// hand the blow on by some rows each, and what the others have not been told of is driven into each other. In
-// the steps 8 to 17, while the block is thrown apart, the deepest overlap is 171 mm in the mean; pushed out
-// no faster than what was put into each other it would be 207 mm.
-TEST(Wrecking, WhatIsDrivenIntoEachOtherPartsSoon) {
+// m: an 8 m square of density 8 flies at 40 m/s into a block of squares of 0.4 m, edge to edge, aside by
+// `aside`, m. The mean of the deepest overlaps of the steps 8 to 17, while the block is thrown apart.
+double depth_after_the_blow(double aside) {
   World world({.gravity = {0, 0}, .sleeping = false});
   BodyDefinition definition;
-  definition.position = {-5.2, 0};
+  definition.position = {-5.2, aside};
   definition.velocity = {40, 0};
   const BodyId ram = world.create_body(definition, ShapeDefinition{.geometry = Box{8, 8}, .density = 8});
   std::vector<BodyId> squares;
@@ -63,7 +62,18 @@ TEST(Wrecking, WhatIsDrivenIntoEachOtherPartsSoon) {
     world.step(1.0 / 60, 4);
     if (step >= 8) sum += deepest(world, ram, squares);
   }
-  EXPECT_LT(sum / 10, 0.19);
+  return sum / 10;
+}
+
+// Four substeps hand the blow on by some rows each, and what the others have not been told of is driven into
+// each other. Who hits whom is chance, so it is the median of 15 blows that differ by a millimetre: 178 mm;
+// pushed out no faster than what was put into each other it would be 208 mm.
+TEST(Wrecking, WhatIsDrivenIntoEachOtherPartsSoon) {
+  std::vector<double> depths;
+  for (int blow = 0; blow < 15; ++blow) depths.push_back(depth_after_the_blow(1e-3 * blow));
+  std::sort(depths.begin(), depths.end());
+  std::printf("the median of %zu blows: %.1f mm\n", depths.size(), 1e3 * depths[depths.size() / 2]);
+  EXPECT_LT(depths[depths.size() / 2], 0.19);
 }
 
 }  // namespace
