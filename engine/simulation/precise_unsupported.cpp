@@ -39,7 +39,7 @@ std::string precise_unsupported(const Scene& scene) {
     return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
            kElsewhere;
   }
-  // Every event looks at all contacts at once: the cost of one goes with the cube of their number.
+  // Every evaluation looks at all contacts at once: its cost goes with the square of their number and more.
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(scene);
   std::vector<char> touches(scene.bodies.size(), 0);

@@ -13,7 +13,7 @@ inline constexpr double kStiffFrequencyShare = 0.25;
 inline constexpr double kContactDampingRatio = 10;
 
 /// How far contacts yield to a load, as a share of what their spring would: large heaps swing without it. A
-/// heap of 100 rows falls at 0.2 (with two substeps at 0.4), of 75 it stands with two substeps at this.
+/// heap of 100 rows falls at 0.2 (with two substeps at 0.4); one of 75 with two substeps sways, and stands.
 inline constexpr double kContactYield = 0.35;
 /// They expect this share of the load that they have had, and yield to the rest alone: what lasts is carried
 /// with little overlap. With all of it nothing would keep loads from creeping among supports of which there
