@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/world/heaps.h"
 #include "tests/world/support.h"
 
 namespace plumb {
@@ -55,25 +56,6 @@ TEST(Resting, AHeavyBoxThatFallsOnALightOneIsHeld) {
   }
   EXPECT_GT(lowest, 1.45);
   EXPECT_NEAR(world.position(heavy).y, 1.5, 1e-3);
-}
-
-// Deepest overlap of any two bodies, m.
-double deepest(const World& world, const std::vector<BodyId>& bodies) {
-  double depth = 0;
-  for (const BodyId body : bodies) {
-    for (const ContactReading& contact : world.contacts(body)) {
-      for (int i = 0; i < contact.count; ++i) depth = std::max(depth, -contact.separations[i]);
-    }
-  }
-  return depth;
-}
-
-std::vector<BodyId> add_pyramid(World& world, int base) {
-  std::vector<BodyId> boxes;
-  for (int row = 0; row < base; ++row) {
-    for (int i = 0; i < base - row; ++i) boxes.push_back(add_box(world, {i + 0.5 * row, 0.5 + row}));
-  }
-  return boxes;
 }
 
 TEST(Resting, APyramidStands) {
