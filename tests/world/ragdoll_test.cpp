@@ -72,7 +72,7 @@ TEST(Ragdoll, SettlesOnAHeapAndSleeps) {
 
 // Limbs wedged in each other press joints against contacts; what is solved directly must not make much of it.
 // They come apart no faster than overlaps of half a limb are pushed out at. Where two limbs catch each other
-// is chance: one start in 200 flings one faster (of 3,000 other starts 13 to 26, with each of four values of
+// is chance: one start in 200 flings one faster (of 3,000 other starts 12 to 26, with each of five values of
 // kExpectedOverlap from 0.0015 to 0.0025), so that the bound is for all but two in a hundred.
 TEST(Ragdoll, TwoThatBeginInsideEachOtherComeApart) {
   std::vector<double> fastest;
