@@ -108,6 +108,7 @@ void DynamicTree<Real>::reserve(int leaves) {
   free_pairs_.reserve(count);
   free_proxies_.reserve(count);
   loose_pairs_.reserve(count);
+  is_loose_.reserve(count);
   held_.reserve(count);
   items_.reserve(count);
 }

@@ -35,6 +35,12 @@ class DynamicTree {
   /// not overlap the leaf's old one is moved.
   void enlarge(int proxy, const Aabb<Real>& box);
   void set_category(int proxy, std::uint32_t category);
+  /// Has a leaf brought into the cache, and (when that is there) the node above it. Changes nothing.
+  void ask_for(int proxy) const { __builtin_prefetch(&node(slots_[proxy])); }
+  void ask_for_above(int proxy) const {
+    const int above = node(slots_[proxy]).parent;
+    if (above != kNone) __builtin_prefetch(&node(above));
+  }
 
   /// Whether the proxy names a leaf.
   bool holds(int proxy) const {
@@ -137,6 +143,7 @@ class DynamicTree {
 
   bool refit();
   void gather(bool everything);
+  void order_loose_pairs();
   void build(int slot, Item* items, int count, int budget);
   int build_gathered();
 
@@ -164,6 +171,7 @@ class DynamicTree {
 
   // Scratch of rebuild().
   std::vector<int> loose_pairs_;
+  std::vector<char> is_loose_;  // by pair
   std::vector<Node> held_;
   std::vector<Item> items_;
   int next_loose_ = 0;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "engine/collide/late_enlarging.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/constants.h"
@@ -91,11 +92,11 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
 
 namespace {
 
-// Stores what a shape is going to need from here on.
-template <class Real>
-void store_box(WorldData<Real>& w, int shape, Real dt) {
+// Stores what a shape is going to need from here on, in a tree or in what passes it on to one.
+template <class Real, class Tree>
+void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  w.tree_of(w.bodies[record.body].type).enlarge(record.proxy, stored_box(w, shape, dt));
+  tree.enlarge(record.proxy, stored_box(w, shape, dt));
   w.enlarged[record.body] = 1;
   if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
@@ -111,18 +112,23 @@ Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) 
   return merged(box, {box.lower + ahead, box.upper + ahead}).grown(turned);
 }
 
-}  // namespace
-
-template <class Real>
-bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+template <class Real, class Tree>
+bool refresh_box_in(WorldData<Real>& w, int shape, Real dt, Real turned, Tree& tree) {
   if (w.shapes[shape].proxy == kNone) return true;
   const Aabb<Real> before = w.boxes[shape];
   w.boxes[shape] = box_of(w, shape);
   const ShapeRecord<Real>& record = w.shapes[shape];
   const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
   const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
-  if (!stored.contains(box_ahead(w, shape, dt, turned))) store_box(w, shape, dt);
+  if (!stored.contains(box_ahead(w, shape, dt, turned))) store_box(w, shape, dt, tree);
   return covered;
+}
+
+}  // namespace
+
+template <class Real>
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+  return refresh_box_in(w, shape, dt, turned, w.tree_of(w.bodies[w.shapes[shape].body].type));
 }
 
 template <class Real>
@@ -133,6 +139,8 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   const bool sleeping = w.settings.sleeping;
   // What stands has no margin: who comes near it has to be stored a step before.
   const bool grounds = w.still_tree.size() > 0;
+  // Whoever is awake is in the moving tree.
+  LateEnlarging<Real> moving(w.moving_tree);
   for (const int body : w.awake) {
     BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
@@ -156,7 +164,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     if (fast) {
       bool covered = true;
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-        covered = refresh_box(w, shape, dt, turned) && covered;
+        covered = refresh_box_in(w, shape, dt, turned, moving) && covered;
       }
       // Whoever stays within its stored boxes, and has no pair, meets nothing.
       const bool alone = covered && record.first_contact == kNone;
@@ -168,12 +176,12 @@ void finish_motion(WorldData<Real>& w, Real dt) {
         if (proxy == kNone) continue;
         const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
         w.boxes[shape] = box;
-        // Whoever is awake is in the moving tree.
         if (!w.moving_tree.box(proxy).contains(grounds ? stretched(box, dt * motion.velocity) : box))
-          store_box(w, shape, dt);
+          store_box(w, shape, dt, moving);
       }
     }
   }
+  moving.finish();
   if (!w.scratch.bad_bodies.empty()) quarantine_lost(w, static_cast<double>(dt));
   w.moving_tree.rebuild();
 }

@@ -233,6 +233,29 @@ TYPED_TEST(DynamicTreeShape, MovesAlongWithoutBuilding) {
   EXPECT_NEAR(tree.cost(), cost, rounding * cost);
 }
 
+// More pairs than a cache holds are put in order before they are built from: of all of the tree, and of less
+// than half of it, where the others stay.
+TYPED_TEST(DynamicTreeShape, LargeTreesAreBuiltAnewFromAllTheyHad) {
+  using Real = TypeParam;
+  constexpr int kBoxes = 50'000, kPart = 20'000;
+  Boxes<Real> boxes = scattered<Real>(kBoxes);
+  std::sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.lower.x < b.lower.x; });
+  DynamicTree<Real> tree = tree_of(boxes);
+  for (const int part : {kPart, kBoxes}) {
+    for (int round = 0; round < 3; ++round)
+      for (int i = 0; i < part; ++i) {
+        boxes[i] = boxes[i].grown(Real(0.01));
+        tree.enlarge(i, boxes[i]);
+      }
+    EXPECT_GE(tree.rebuild(), part);
+    EXPECT_TRUE(tree.valid());
+    std::vector<int> all = order(tree);
+    std::sort(all.begin(), all.end());
+    ASSERT_EQ(static_cast<int>(all.size()), kBoxes);
+    for (int i = 0; i < kBoxes; ++i) ASSERT_EQ(all[i], i);
+  }
+}
+
 // A leaf that goes to the other end of the world must not take the boxes above it along.
 TYPED_TEST(DynamicTreeShape, LeapsDoNotStretchTheTree) {
   using Real = TypeParam;
