@@ -5,6 +5,7 @@
 #include "engine/collide/late_enlarging.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
+#include "engine/world/awake_ahead.h"
 #include "engine/world/constants.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/step.h"
@@ -141,7 +142,11 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   const bool grounds = w.still_tree.size() > 0;
   // Whoever is awake is in the moving tree.
   LateEnlarging<Real> moving(w.moving_tree);
-  for (const int body : w.awake) {
+  const AwakeAhead<Real> ahead(w);
+  const std::size_t count = w.awake.size();
+  for (std::size_t place = 0; place < count; ++place) {
+    ahead.ask_for_motion(place), ahead.ask_for_place(place);
+    const int body = w.awake[place];
     BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
     const Real extent = w.extents[body];

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/math/small_turn.h"
+#include "engine/world/awake_ahead.h"
 #include "engine/world/constants.h"
 
 namespace plumb {
@@ -89,7 +90,11 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
   const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
-  for (const int body : w.awake) {
+  const AwakeAhead<Real> ahead(w);
+  const std::size_t count = w.awake.size();
+  for (std::size_t place = 0; place < count; ++place) {
+    ahead.ask_for_motion(place);
+    const int body = w.awake[place];
     const BodyRecord<Real>& record = w.bodies[body];
     if (flight == FreeFlight::Exact && record.constraints == 0) {
       if (!loaded && falls_only(record)) {

@@ -5,6 +5,20 @@
 namespace plumb {
 namespace {
 
+// Whether most of what moved has no contact, by a sample of some hundred: who looks at all of a million
+// bodies for that waits for each.
+template <class Real>
+bool mostly_alone(const WorldData<Real>& w) {
+  constexpr std::size_t kSample = 512;
+  const std::size_t stride = w.moved_shapes.size() / kSample + 1;
+  int looked = 0, alone = 0;
+  for (std::size_t i = 0; i < w.moved_shapes.size(); i += stride, ++looked) {
+    const ShapeRecord<Real>& record = w.shapes[w.moved_shapes[i]];
+    alone += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
+  }
+  return 8 * alone >= 7 * looked;
+}
+
 // Finds out at once which of the boxes in the moving tree meet any other, when that promises to spare most of
 // many a query: when most of what moved had no contact. False: it is not known.
 template <class Real>
@@ -13,16 +27,18 @@ bool mark_meetings(WorldData<Real>& w) {
   if (all < tuning::kScreenedMoves) return false;
   w.scratch.meets.resize(static_cast<std::size_t>(w.moving_tree.proxies()));
   if (moved < tuning::kScreenedMoves || moved * tuning::kScreenedShare < all) return false;
-  int lone = 0;
-  for (const int shape : w.moved_shapes) {
-    const ShapeRecord<Real>& record = w.shapes[shape];
-    lone += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
-  }
-  return 8 * lone >= 7 * moved && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
+  return mostly_alone(w) && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
 }
 
-// Places in the set of pairs lie anywhere in memory: they are asked for so many pairs ahead.
-constexpr std::size_t kAhead = 8;
+// Places in the set of pairs lie anywhere in memory: they are asked for so many pairs ahead. A million shapes
+// that moved fit into no cache: so are their records.
+constexpr std::size_t kAhead = 8, kShapesAhead = 32;
+
+template <class Real>
+[[gnu::always_inline]] inline void ask_for_moved(const WorldData<Real>& w, std::size_t i) {
+  if (i + kShapesAhead < w.moved_shapes.size())
+    __builtin_prefetch(&w.shapes[w.moved_shapes[i + kShapesAhead]]);
+}
 
 }  // namespace
 
@@ -31,9 +47,13 @@ void find_pairs(WorldData<Real>& w) {
   std::vector<std::pair<int, int>>& found = w.scratch.found_pairs;
   found.clear();
   const bool marked = mark_meetings(w);
-  for (const int shape : w.moved_shapes) {
+  const bool grounds = w.still_tree.size() > 0;
+  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
+    ask_for_moved(w, i);
+    const int shape = w.moved_shapes[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone) continue;  // gone meanwhile
+    if (marked && !grounds && w.scratch.meets[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
     const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
     const auto visit = [&](int other, int) {
@@ -47,7 +67,10 @@ void find_pairs(WorldData<Real>& w) {
       w.moving_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
   }
-  for (const int shape : w.moved_shapes) w.shapes[shape].moved = false;
+  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
+    ask_for_moved(w, i);
+    w.shapes[w.moved_shapes[i]].moved = false;
+  }
   w.moved_shapes.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (i + kAhead < found.size()) w.pairs.ask_for(found[i + kAhead].first, found[i + kAhead].second);

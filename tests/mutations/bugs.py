@@ -170,6 +170,8 @@ MUTATIONS = [
              "flights[at.flight].stop(at.fraction,",
              "w.motion[flights[at.flight].body].velocity *= Real(0.5), flights[at.flight].stop(at.fraction,",
              "world"),
+    Mutation("world: who may meet others is passed over where nothing stands", "engine/world/pairs.cpp",
+             "!grounds && w.scratch.meets[record.proxy] == 0", "!grounds", "world"),
     Mutation("world: what lands wakes nobody", "engine/world/contacts.cpp",
              "wake_body(w, record.body_a); wake_body(w, record.body_b);", "", "world"),
     Mutation("world: what is gone within a step is not told", "engine/world/narrow_phase.cpp",
