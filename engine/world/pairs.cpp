@@ -5,7 +5,7 @@
 namespace plumb {
 namespace {
 
-// Whether most of what moved has no contact, by a sample of some hundred: who looks at all of a million
+// Whether most of what moved has no contact, by a sample of up to 512: who looks at all of a million
 // bodies for that waits for each.
 template <class Real>
 bool mostly_alone(const WorldData<Real>& w) {
@@ -53,6 +53,7 @@ void find_pairs(WorldData<Real>& w) {
     const int shape = w.moved_shapes[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone) continue;  // gone meanwhile
+    // Without static shapes all are in the moving tree: who meets nobody there needs no look at its body.
     if (marked && !grounds && w.scratch.meets[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
     const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
