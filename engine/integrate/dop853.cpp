@@ -20,7 +20,17 @@ Dop853::Dop853(std::size_t dimension)
 
 std::span<double> Dop853::last_rate() { return rates_[kStages]; }
 std::span<const double> Dop853::last_rate() const { return rates_[kStages]; }
-void Dop853::advance() { std::swap(rates_.front(), rates_[kStages]); }
+void Dop853::advance() {
+  std::swap(rates_.front(), rates_[kStages]);
+  powers_.front() = powers_[kLast];
+}
+
+double Dop853::work(double h) const {
+  static_assert(kLast == kStages);
+  double sum = 0;
+  for (int s = 0; s < kStages; ++s) sum += kB[s] * powers_[static_cast<std::size_t>(s)];
+  return sum * h;
+}
 
 /// Hands each component's sum to `store`.
 template <class Store>
@@ -56,6 +66,7 @@ void Dop853::step(Flow& flow, double time, double h, std::span<const double> y) 
   for (int s = 1; s < kStages; ++s) {
     weighted_sum(kA[s], s, [&](std::size_t i, double sum) { at_stage_[i] = y[i] + h * sum; });
     flow.rate(time + kC[s] * h, at_stage_, rates_[s]);
+    powers_[static_cast<std::size_t>(s)] = flow.power();
   }
   weighted_sum(kB, kStages, [&](std::size_t i, double sum) { increment_[i] = sum * h; });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -19,10 +20,19 @@ class Dop853 {
   std::span<double> first_rate() { return rates_.front(); }
   std::span<const double> first_rate() const { return rates_.front(); }
 
+  /// The flow's `power` there; and at the end of the step, with `last_rate`.
+  void set_first_power(double power) { powers_.front() = power; }
+  void set_last_power(double power) { powers_[kLast] = power; }
+  double last_power() const { return powers_[kLast]; }
+
   /// From y at `time` over `h`: 11 evaluations of `flow`. The result is y + increment().
   void step(Flow& flow, double time, double h, std::span<const double> y);
 
   std::span<const double> increment() const { return increment_; }
+
+  /// The work of the flow's `power` over the last step, of length `h`: by the stages' own weights, and as
+  /// exact as the step.
+  double work(double h) const;
 
   /// The last step's estimated error: the largest over the components relative to `scale`, from the estimates
   /// of orders 5 and 3 (Hairer, Norsett & Wanner, II.10, eq. (10.17) there with the largest in place of the
@@ -50,6 +60,8 @@ class Dop853 {
   template <class Store>
   void weighted_sum(const double* weights, int stages, const Store& store) const;
 
+  static constexpr std::size_t kLast = 12;  // after the stages
+  std::array<double, kLast + 1> powers_{};  // by stage
   std::vector<std::vector<double>> rates_;  // by stage; the last one of the step; the polynomial's stages
   std::size_t dimension_;
   std::vector<double> at_stage_, increment_;

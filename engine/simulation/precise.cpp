@@ -59,6 +59,7 @@ void PreciseDriver::go_on(double end) {
       last_event_ = smooth_.time();
     }
   }
+  if (smooth_.dimension() > 0) invariants_.account(smooth_);
   if (++steps_in_step_ > kMostSteps) smooth_.blame_fastest();
   if (contacts_.impacts() - impacts_before_ > kMostImpacts) {
     fail("the scene", "impacts", std::to_string(kMostImpacts) + " and more",
@@ -95,7 +96,8 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
       equations_(scene, parts_, flight_, options.every_stage),
       smooth_(scene, parts_, precise, equations_),
       sample_(equations_.dimension()),
-      contacts_(scene, parts_, flight_, equations_, smooth_) {
+      contacts_(scene, parts_, flight_, equations_, smooth_),
+      invariants_(scene, parts_, precise, equations_) {
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
     at_rest_.push_back(body.type == BodyType::Static);

@@ -100,6 +100,7 @@ std::vector<std::byte> PreciseDriver::save() const {
   out.put(statistics_.steps);
   contacts_.save(out);
   smooth_.save(time_, out);
+  invariants_.save(out);
   out.put(equations_.evaluations());
   for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
   return out.bytes();
@@ -126,6 +127,7 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   statistics_.steps = in.get<std::int64_t>();
   contacts_.restore(in);
   smooth_.restore(in);
+  invariants_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
   in.expect_end();

@@ -13,6 +13,7 @@
 #include "engine/simulation/driver.h"
 #include "engine/simulation/precise_contacts.h"
 #include "engine/simulation/precise_flight.h"
+#include "engine/simulation/precise_invariants.h"
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
 #include "engine/simulation/precise_plan.h"
@@ -63,6 +64,7 @@ class PreciseDriver final : public Driver {
   mutable Compensated sample_;   // of the integrated bodies at sampled_, where that is within the last step
   mutable double sampled_ = -1;  // s
   Contacts contacts_;
+  Invariants invariants_;
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 

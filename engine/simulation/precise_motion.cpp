@@ -241,9 +241,11 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
     if (kind_joints_.has_springs()) kind_joints_.add_springs(bodies_now(), wrenches_);
     if (pushing_stops_ > 0) add_motors();
   }
+  power_ = 0;
   for (const std::size_t body : bodies_) {
-    out[body] = {gravity_ + inverse_mass_[body] * wrenches_[body].force,
-                 inverse_inertia_[body] * wrenches_[body].torque};
+    const Wrench<double>& w = wrenches_[body];
+    out[body] = {gravity_ + inverse_mass_[body] * w.force, inverse_inertia_[body] * w.torque};
+    power_ += dot(w.force, twists_[body].velocity) + w.torque * twists_[body].angular_velocity;
   }
 }
 

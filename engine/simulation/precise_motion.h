@@ -42,6 +42,8 @@ class EquationsOfMotion final : public Flow {
 
   /// dy/dt. Counts as one evaluation.
   void rate(double time, std::span<const double> y, std::span<double> out) override;
+  /// Of the forces of the last evaluation, gravity apart, and contacts that last.
+  double power() const override { return power_; }
   /// The same, and `rows` and `multipliers` are those of this state then.
   void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
@@ -87,6 +89,7 @@ class EquationsOfMotion final : public Flow {
   enum class StopMode : signed char { Free, Held, Forward, Backward };
   void hold_stops(std::vector<StopMode> modes);
   std::span<const StopMode> stop_modes() const { return stop_modes_; }
+  bool has_forces() const { return has_forces_; }
   bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
   /// Their rows where bodies were placed last, and those at a state.
   std::span<const Row<double>> stop_rows();
@@ -110,6 +113,10 @@ class EquationsOfMotion final : public Flow {
 
   /// Adds `scale` times `response` to the velocities in `y`.
   void kick(std::span<const Twist<double>> response, double scale, Compensated& y) const;
+
+  /// Whether what is held, joints and contacts, may do work where bodies were placed last: friction that
+  /// slips, a motor that holds its speed, what is guided and moves.
+  bool held_works() const;
 
   /// Whether gravity and hinges, of masses not far apart, are all that acts but for contacts.
   bool has_hinges_alone() const;
@@ -193,6 +200,7 @@ class EquationsOfMotion final : public Flow {
   bool has_forces_, has_joints_, wide_mass_ratio_;
   double weakest_ = 1;
   int dependent_rows_ = 0;
+  double power_ = 0;  // W, of the forces of the last evaluation
   double window_start_ = 0, window_end_ = 0;
   double length_ = 1;
   std::int64_t evaluations_ = 0;

@@ -31,6 +31,20 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   kick(shift, 1, y);
 }
 
+bool EquationsOfMotion::held_works() const {
+  const auto moves = [&](std::size_t body) {
+    return twists_[body].velocity != Vec2d{} || twists_[body].angular_velocity != 0;
+  };
+  const auto rubs = [](const ActivePatch& patch) { return patch.friction > 0 && patch.mode != 0; };
+  bool drives = false;
+  for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
+    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor && stop.speed != 0);
+  }
+  return drives || std::any_of(guides_.begin(), guides_.end(), moves) ||
+         std::any_of(patches_.begin(), patches_.end(), rubs);
+}
+
 void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
   constexpr double kRounding = 1e-12;  // of the fastest: velocities that were meant to fit
   if (!only_hinges() || !hinges_.rooted()) return;

@@ -82,6 +82,7 @@ void SmoothMotion::begin() {
   } else {
     equations_.forget_rank();
     now().flow.rate(time_, seen(y_), now().method.first_rate());
+    now().method.set_first_power(now().flow.power());
     rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   }
   before_ = last_implicit_ ? time_ : start_;
@@ -101,6 +102,7 @@ double SmoothMotion::step(double limit) {
     fly(limit);
     return limit;
   }
+  last_flew_ = false;
   set_error_scale();
   if (method_ == MotionMethod::Symplectic) return symplectic_step(limit);
   if (jumped_) proposed_step_ = std::min(proposed_step_, kAfterJump * first_step());
@@ -171,6 +173,7 @@ void SmoothMotion::fly(double end) {
   }
   time_ = end;
   last_implicit_ = jumped_ = false;
+  last_flew_ = true;
   polynomial_known_ = rate_known_ = true;
 }
 
@@ -284,9 +287,18 @@ void SmoothMotion::project(double time, Compensated& y) {
 }
 
 std::span<const double> SmoothMotion::rate_at_end() {
-  if (!rate_known_) now().flow.rate(time_, seen(y_), now().method.last_rate());
+  if (!rate_known_) {
+    now().flow.rate(time_, seen(y_), now().method.last_rate());
+    now().method.set_last_power(now().flow.power());
+  }
   rate_known_ = true;
   return now().method.last_rate();
+}
+
+std::optional<double> SmoothMotion::work() const {
+  if (!equations_.has_forces()) return 0.0;
+  if (last_implicit_ || method_ == MotionMethod::Symplectic || last_flew_) return std::nullopt;
+  return last().method.work(time_ - start_);
 }
 
 const StepPolynomial& SmoothMotion::polynomial() {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ class SmoothMotion {
   /// when no step is small enough. With nothing to integrate, it ends as far as it may: `limit` is then
   /// finite.
   double step(double limit);
+
+  /// What forces other than gravity have put into the motion over the last step, J, to the step's accuracy;
+  /// nothing where it is not known: of implicit steps, and symplectic ones, under such forces.
+  std::optional<double> work() const;
 
   double start() const { return start_; }  ///< s: where the last step began
   const Compensated& state_at_start() const { return y0_; }
@@ -136,6 +141,7 @@ class SmoothMotion {
   StepControl control_;
   bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
   bool jumped_ = false;                         // since the last step
+  bool last_flew_ = false;                      // the last step was a parabola
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;  // where the last step began and ended

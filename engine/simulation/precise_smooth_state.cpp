@@ -25,7 +25,7 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
     out.put(number);
   }
   for (const Compensated* y : {&y0_, &y_}) put(y->value()), put(y->carry());
-  if (rate_known_) put(now().method.last_rate());
+  if (rate_known_) put(now().method.last_rate()), out.put(now().method.last_power());
   if (implicit_.last_step() > 0) put(implicit_.memory());
   if (!with_polynomial) return;
   const StepPolynomial& path = last().polynomial;
@@ -60,7 +60,7 @@ void SmoothMotion::restore(SnapshotReader& in) {
     get(value);
     for (std::size_t i = 0; i < value.size(); ++i) y->set(i, value[i], in.get<double>());
   }
-  if (rate_known_) get(now().method.last_rate());
+  if (rate_known_) get(now().method.last_rate()), now().method.set_last_power(in.get<double>());
   implicit_.forget();
   if (last_step > 0) {
     std::vector<double> memory(implicit_.memory().size());
