@@ -87,6 +87,28 @@ double Dop853::error(double h, std::span<const double> scale) const {
   return std::abs(h) * largest5 / (ratio < 1e100 ? std::sqrt(1 + 0.01 * ratio * ratio) : 0.1 * ratio);
 }
 
+void Dop853::error_vectors(double h, std::span<double> fifth, std::span<double> third) const {
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    double e5 = 0;
+    for (int s = 0; s < kStages; ++s) e5 += kError5[s] * rates_[s][i];
+    fifth[i] = h * e5;
+    third[i] =
+        increment_[i] - h * (kOrder3[0] * rates_[0][i] + kOrder3[1] * rates_[8][i] + kOrder3[2] * rates_[11][i]);
+  }
+}
+
+double Dop853::error(std::span<const double> scale, std::span<const double> fifth,
+                     std::span<const double> third) {
+  double largest5 = 0, largest3 = 0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    if (!std::isfinite(fifth[i]) || !std::isfinite(third[i])) return std::numeric_limits<double>::infinity();
+    largest5 = std::max(largest5, std::abs(fifth[i]) / scale[i]);
+    largest3 = std::max(largest3, std::abs(third[i]) / scale[i]);
+  }
+  const double ratio = largest5 > 0 ? largest3 / largest5 : 0;
+  return largest5 / (ratio < 1e100 ? std::sqrt(1 + 0.01 * ratio * ratio) : 0.1 * ratio);
+}
+
 double Dop853::stiffness(double h, std::span<const double> y_end, std::span<const double> scale) const {
   double rates = 0, states = 0;
   for (std::size_t i = 0; i < y_end.size(); ++i) {

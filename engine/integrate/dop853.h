@@ -39,6 +39,12 @@ class Dop853 {
   /// mean).
   double error(double h, std::span<const double> scale) const;
 
+  /// Both estimates of the last step by component, of orders 5 and 3, and `error` from them where the caller
+  /// has taken something away.
+  void error_vectors(double h, std::span<double> fifth, std::span<double> third) const;
+  static double error(std::span<const double> scale, std::span<const double> fifth,
+                      std::span<const double> third);
+
   /// dy/dt at the end of the step: to be set before `polynomial`.
   std::span<double> last_rate();
   std::span<const double> last_rate() const;

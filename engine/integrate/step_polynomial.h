@@ -50,22 +50,6 @@ class StepPolynomial {
     return slope;
   }
 
-  /// The polynomial `from` carried on beyond its end, from s = 1 there to s = 1 + `share`, as one over that
-  /// part.
-  void carry_on(const StepPolynomial& from, double share) {
-    std::array<double, kMostTerms> nodes{};
-    for (int k = 0; k < kMostTerms; ++k) nodes[k] = static_cast<double>(k) / kMostTerms;
-    set_nodes(nodes);
-    std::array<double, kMostTerms + 1> value{};
-    for (std::size_t i = 0; i < dimension_; ++i) {
-      for (int k = 0; k <= kMostTerms; ++k) value[k] = from.at(1 + share * k / kMostTerms, i) - from.at(1, i);
-      for (int level = 1; level <= kMostTerms; ++level) {  // divided differences
-        for (int k = kMostTerms; k >= level; --k) value[k] = (value[k] - value[k - 1]) * kMostTerms / level;
-        term(level)[i] = value[level];
-      }
-    }
-  }
-
   /// y(s) - y0 of component i by its Bernstein coefficients over the whole step: it lies between the least
   /// and the largest of them.
   Bernstein<kMostTerms + 1> bernstein(std::size_t i) const {

@@ -114,6 +114,7 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       has_forces_(!forces_.empty() || kind_joints_.has_springs() || !kind_joints_.stops().empty() ||
                   every_stage),
       has_joints_(!rows_.empty() || every_stage),
+      has_loops_(find_loops()),
       wide_mass_ratio_(has_wide_mass_ratio(rows_, joint_inverse_mass_)),
       length_(scales_of(scene, parts).length) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);

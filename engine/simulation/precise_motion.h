@@ -68,6 +68,7 @@ class EquationsOfMotion final : public Flow {
   double gap_response(double time, std::span<const double> y, std::span<Twist<double>> out);
   /// -M^-1 J^T A^-1 J v with the velocities in y, at the place of `hold`.
   void speed_response(std::span<const double> y, std::span<Twist<double>> out);
+  double length() const { return length_; }  ///< m, the scene's
   /// m: what gaps cannot be less than, as differences of the positions of the last evaluation.
   double rounding_of_gaps() const;
   std::size_t body_count() const { return poses_.size(); }
@@ -76,6 +77,28 @@ class EquationsOfMotion final : public Flow {
   double weakest() const { return weakest_; }
   int dependent_rows() const { return dependent_rows_; }
   void forget_rank() { weakest_ = 1, dependent_rows_ = 0; }
+  /// Whether joints close loops: their rows may come to depend on each other on the way.
+  bool has_loops() const { return has_loops_; }
+  /// `JointSystem::weakest` in state y; zero where rows depend on others that do not always. As an evaluation
+  /// without forces it is not counted.
+  double weakness(double time, std::span<const double> y);
+  /// Takes rows that depend on others where the last factorisation was, as dependent everywhere.
+  void keep_dependent() { system_.keep_dependent(); }
+  void release_dependent() { system_.release_dependent(); }
+  /// Rows that the others leave less than this share of are not held; 0: all that can be.
+  void hold_only_above(double share) { system_.set_least_share(share); }
+  /// One step of Newton's method towards the place on the joints' manifold that is nearest to `target`: both
+  /// what closes gaps and what leads towards it along the manifold. Returns how far it went, m.
+  double draw_near(double time, std::span<const double> target, std::span<double> y);
+  /// Takes from the velocities in y what joints do not allow.
+  void allow_velocities(double time, std::span<double> y);
+  /// Takes from changes of places, and of velocities, what joints do not allow where they were held last.
+  void keep_allowed(std::span<double> change);
+  /// Closes the gaps in y but those of rows that the others leave less than `weak` of; returns the widest gap
+  /// that is left, m.
+  double left_open(double time, std::span<double> y, double weak);
+  /// The joint of the weakest row of the last factorisation.
+  std::string weakest_joint() const;
   /// Joints some of whose rows follow from others in state y: they may be left out, or carry no force of
   /// their own.
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
@@ -148,6 +171,7 @@ class EquationsOfMotion final : public Flow {
 
  private:
   void find_rows(std::span<Row<double>> out) const;
+  bool find_loops() const;
   void linearise();
   bool only_hinges() const { return !hinges_.empty() && !holds_anything(); }
   void accelerate_joints();
@@ -197,7 +221,7 @@ class EquationsOfMotion final : public Flow {
   JointSystem<double> system_;
   HingeLines hinges_;  // empty where there is anything else
   std::vector<double> right_side_, multipliers_;
-  bool has_forces_, has_joints_, wide_mass_ratio_;
+  bool has_forces_, has_joints_, has_loops_, wide_mass_ratio_;
   double weakest_ = 1;
   int dependent_rows_ = 0;
   double power_ = 0;  // W, of the forces of the last evaluation

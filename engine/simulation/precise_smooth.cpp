@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// Of `Precise::tolerance`: what a step's estimated error may be. Errors add up over thousands of steps and
-/// grow along chaotic motion; a method of order 8 pays 2.4 times the steps for these three digits.
-constexpr double kLocalShare = 1e-3;
 /// Below this the estimate is rounding.
 constexpr double kLeastTolerance = 1e-15;
 /// A step is at most this many times as long as the scene's accelerations take over its length: where nothing
@@ -25,19 +22,6 @@ constexpr double kLeastTolerance = 1e-15;
 constexpr double kLongestStep = 1e6;
 /// After a jump, a step is at most this many times as long as a first step would be.
 constexpr double kAfterJump = 1000;
-/// A leap carries on a step of at least this share of the time that the scene's accelerations take over its
-/// length: where steps have shrunk to less, the motion does not pass through.
-constexpr double kShortestLeap = 1e-4;
-/// How far the weakest row falls within a step that meets a singular place.
-constexpr double kSingular = 0.03;
-/// What is weaker than this share of the usual, is singular for a step; the usual is forgotten by steps.
-constexpr double kVeryWeak = 1e-3, kForget = 0.97;
-/// A step with a stage or its end at a singular place is made shorter by little, such that they lie beside
-/// it.
-/// Once for the error that steps may have, and once for the tolerance itself, as leaps.
-constexpr double kDetours[] = {0.94, 0.87, 0.81, 0.72, 0.63, 0.55,  //
-                               2.3,  2.1,  1.9,  1.7,  1.5,  1.3,  1.15, 1, 0.9, 0.8, 0.7, 0.6};
-constexpr std::size_t kStrict = 6;
 /// The error of a step whose stages were not found: the next try is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
@@ -45,7 +29,7 @@ constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise,
                            EquationsOfMotion& equations)
-    : tolerance_(std::max(kLocalShare * precise.tolerance, kLeastTolerance)),
+    : tolerance_(std::max(precise.tolerance / kSteps, kLeastTolerance)),
       scales_(scales_of(scene, parts)),
       longest_step_(kLongestStep * scales_.length / scales_.speed),
       bodies_(parts.integrated),
@@ -59,11 +43,11 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
       implicit_(equations.dimension()),
       stiff_motion_(scene, parts, equations),
       symplectic_(equations),
+      passage_(equations),
       control_(hanging_.empty() ? StepControl::kUsual : StepControl::kCareful),
       stiff_(precise.method == MotionMethod::Implicit),
       y0_(equations.dimension()),
-      y_(equations.dimension()),
-      y_before_(equations.dimension()) {
+      y_(equations.dimension()) {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Body& body = scene.bodies[bodies_[slot]];
     names_.push_back(body.name);
@@ -85,8 +69,7 @@ void SmoothMotion::begin() {
     now().method.set_first_power(now().flow.power());
     rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
   }
-  before_ = last_implicit_ ? time_ : start_;
-  y_before_ = y0_;
+  weakest_before_ = rank_at_start_.weakest;
   start_ = time_;
   y0_ = y_;
 }
@@ -97,6 +80,7 @@ double SmoothMotion::step(double limit) {
     start_ = time_;
     return time_ = limit;
   }
+  expect_passage();
   begin();
   if (flies()) {
     fly(limit);
@@ -110,46 +94,23 @@ double SmoothMotion::step(double limit) {
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
-  usual_weakest_ = std::max(kForget * usual_weakest_, rank_at_start_.weakest);
-  const double weak = std::max(kSingular * rank_at_start_.weakest, kVeryWeak * usual_weakest_);
-  const bool inside = rank_at_start_.weakest < weak;
-  double first_length = 0;  // of the step that met a singular place, s
-  std::size_t detour = 0;
+  if (near_) return step_near_crossing(limit);
+  last_near_ = false;
   for (;;) {
-    const double end =
-        first_length > 0 ? std::min(start_ + kDetours[detour++] * first_length, limit) : end_of_step(limit);
+    const double end = end_of_step(limit);
     const double h = end - start_;
-    const bool may_choose = !stiff_ && detour < std::size(kDetours) && end > start_;
-    const double allowed = detour > kStrict ? 1 / kLocalShare : 1;
-    equations_.forget_rank();
     if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) blame_fastest();
     const double error = try_step(end, again);
-    if (error <= allowed) {
+    if (error <= 1) {
       last_implicit_ = stiff_;
       take_increment(end);
       equations_.forget_rank();
       rate_at_end();
-      const bool regular =
-          equations_.weakest() >= weak && equations_.dependent_rows() == rank_at_start_.dependent;
-      if (regular || inside || !may_choose) {
-        leaps_ += detour > 0 ? 1 : 0;
-        accept(h, std::min(error, 1.0));
-        return end;
-      }
-      y_ = y0_;  // a singular place is no place to end at
-      time_ = start_;
-      rate_known_ = false;
+      accept(h, error);
+      return end;
     }
     again = true;
     ++rejected_;
-    const bool singular =
-        equations_.weakest() < weak || equations_.dependent_rows() > rank_at_start_.dependent;
-    if (singular && may_choose) {
-      if (first_length == 0) first_length = h;
-      continue;
-    }
-    first_length = 0;
-    if (singular && !stiff_ && leap(limit)) return time_;
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : control_.after_rejection(error));
     if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
   }
@@ -175,54 +136,6 @@ void SmoothMotion::fly(double end) {
   last_implicit_ = jumped_ = false;
   last_flew_ = true;
   polynomial_known_ = rate_known_ = true;
-}
-
-/// Over a place where the mechanism is singular: rates there are lost to rounding, but the motion is smooth.
-/// The polynomial of the step before is carried on for a share of its length, and joints are closed there.
-/// Its last term is taken for the error, which is to meet the tolerance itself.
-bool SmoothMotion::leap(double limit) {
-  constexpr double kShares[] = {1, 0.5, 0.25};
-  const double h = start_ - before_;
-  if (!(h > kShortestLeap * scales_.length / scales_.speed)) return false;
-  std::vector<double> rate(rate_at_start().begin(), rate_at_start().end());
-  equations_.rate(before_, y_before_.value(), all_.method.first_rate());
-  all_.method.step(equations_, before_, h, y_before_.value());
-  std::copy(rate.begin(), rate.end(), all_.method.last_rate().begin());
-  StepPolynomial path(y_.size());
-  all_.method.polynomial(equations_, before_, h, y_before_.value(), path);
-  std::copy(rate.begin(), rate.end(), all_.method.first_rate().begin());
-  for (const double share : kShares) {
-    const double end = start_ + share * h;
-    if (end > limit) continue;
-    double error = 0, product = 1;
-    for (const double node : path.nodes()) product *= 1 + share - node;
-    for (std::size_t i = 0; i < y_.size(); ++i) {
-      error = std::max(error, std::abs(product * path.term(path.degree())[i]) / all_.error_scale[i]);
-    }
-    if (!(error * kLocalShare <= 1)) continue;
-    all_.polynomial.carry_on(path, share);
-    y_ = y0_;
-    for (std::size_t i = 0; i < y_.size(); ++i) y_.add(i, all_.polynomial.at(1, i));
-    equations_.forget_rank();
-    try {
-      project(end, y_);
-    } catch (const Error&) {  // not from so far
-      continue;
-    }
-    time_ = end;
-    rate_known_ = false;
-    rate_at_end();
-    if (equations_.weakest() < kSingular * rank_at_start_.weakest) continue;
-    polynomial_known_ = true;
-    proposed_step_ = share * h;
-    rank_at_start_ = {equations_.weakest(), equations_.dependent_rows()};
-    ++leaps_;
-    return true;
-  }
-  y_ = y0_;
-  time_ = start_;
-  rate_known_ = polynomial_known_ = false;
-  return false;
 }
 
 /// The error of a step to `end`, 1 at most when it may be accepted. `again`: there was none before, or it
@@ -307,7 +220,7 @@ const StepPolynomial& SmoothMotion::polynomial() {
       implicit_.polynomial(all_.polynomial);
     } else {
       rate_at_end();
-      now().method.polynomial(now().flow, start_, time_ - start_, seen(y0_), now().polynomial);
+      now().method.polynomial(flow_of_last(), start_, time_ - start_, seen(y0_), now().polynomial);
     }
     polynomial_known_ = true;
   }
@@ -345,7 +258,7 @@ void SmoothMotion::cut(double time) {
     if (!found) blame_fastest();
     take_increment(time);
   } else if (y_.size() > 0) {
-    now().method.step(now().flow, start_, time - start_, seen(y0_));
+    now().method.step(flow_of_last(), start_, time - start_, seen(y0_));
     take_increment(time);
   }
   time_ = time;

@@ -17,6 +17,7 @@
 #include "engine/simulation/precise_hanging.h"
 #include "engine/simulation/precise_motion.h"
 #include "engine/simulation/precise_parts.h"
+#include "engine/simulation/precise_passage.h"
 #include "engine/simulation/precise_stiff.h"
 #include "engine/simulation/precise_symplectic.h"
 #include "engine/simulation/snapshot.h"
@@ -109,7 +110,14 @@ class SmoothMotion {
 
   void begin();
   void fly(double end);
-  bool leap(double limit);
+  // Near places where closed linkages are singular (precise_smooth_passage.cpp).
+  bool is_near_crossing();
+  void expect_passage();
+  double step_near_crossing(double limit);
+  double try_near_crossing(double end);
+  double accept_near_crossing(double error);
+  [[noreturn]] void refuse_crossing() const;
+  Flow& flow_of_last() { return last_near_ ? passage_ : now().flow; }
   double symplectic_step(double limit);
   double longest_symplectic_step();
   double try_step(double end, bool again);
@@ -122,6 +130,11 @@ class SmoothMotion {
   double first_step() const;
   void set_error_scale();
   void project(double time, Compensated& y);
+
+  /// Steps that may err by `Precise::tolerance` together: each by one part of so many. Errors add up over
+  /// thousands of steps and grow along chaotic motion; a method of order 8 pays 2.4 times the steps for these
+  /// three digits.
+  static constexpr double kSteps = 1000;
 
   const double tolerance_;
   const Scales scales_;
@@ -138,6 +151,7 @@ class SmoothMotion {
   Radau implicit_;
   StiffMotion stiff_motion_;
   SymplecticMotion symplectic_;
+  Passage passage_;
   StepControl control_;
   bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
   bool jumped_ = false;                         // since the last step
@@ -145,16 +159,17 @@ class SmoothMotion {
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;  // where the last step began and ended
-  double before_ = 0;   // s: where the step before that began, with what state; its own start: there is none
-  Compensated y_before_;
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
   double proposed_step_ = 0;                            // s; 0: none yet
   struct Rank {
     double weakest = 1;
     int dependent = 0;
   };
-  double usual_weakest_ = 1;  // of the joints' rows, in the last tens of steps
-  Rank rank_at_start_;        // of the joints' rows, where the next step begins
+  Rank rank_at_start_;          // of the joints' rows, where the next step begins
+  double weakest_before_ = 1;   // and where the last one did
+  bool near_ = false;           // the next step is near a place where a closed linkage is singular
+  bool last_near_ = false;      // the last one was
+  bool expects_ = false;        // its passage is expected by the step before
   std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 

@@ -10,17 +10,18 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
   // A flight is read before its last step, too, where an impact was a little later than it had seemed: that
   // little is a step, and the parabola is the same.
   const bool within = sampled < time_ && sampled != start_ && y_.size() > 0;
-  const bool with_polynomial = within && method_ != MotionMethod::Symplectic;
+  const bool goes_by_it = equations_.has_loops() && start_ < time_ && y_.size() > 0;
+  const bool with_polynomial = (within || goes_by_it) && method_ != MotionMethod::Symplectic;
   if (with_polynomial) polynomial();
   const auto put = [&](std::span<const double> numbers) {
     for (const double number : numbers) out.put(number);
   };
   put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step(),
-                 rank_at_start_.weakest, usual_weakest_});
+                 rank_at_start_.weakest, weakest_before_});
   for (const std::int64_t number :
        {rejected_, implicit_steps_, leaps_, std::int64_t{rank_at_start_.dependent},
         std::int64_t{signs_of_stiffness_}, std::int64_t{steps_without_}, std::int64_t{stiff_},
-        std::int64_t{last_implicit_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
+        std::int64_t{last_implicit_}, std::int64_t{near_}, std::int64_t{jumped_}, std::int64_t{rate_known_},
         std::int64_t{with_polynomial ? last().polynomial.degree() : 0}}) {
     out.put(number);
   }
@@ -40,7 +41,7 @@ void SmoothMotion::restore(SnapshotReader& in) {
   const auto integer = [&] { return in.get<std::int64_t>(); };
   double previous = 0, last_step = 0;
   for (double* number :
-       {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.weakest, &usual_weakest_})
+       {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.weakest, &weakest_before_})
     *number = in.get<double>();
   control_.reset(previous);
   rejected_ = integer();
@@ -51,6 +52,7 @@ void SmoothMotion::restore(SnapshotReader& in) {
   steps_without_ = static_cast<int>(integer());
   stiff_ = integer() != 0;
   last_implicit_ = integer() != 0;
+  near_ = integer() != 0;
   jumped_ = integer() != 0;
   rate_known_ = integer() != 0;
   const std::int64_t degree = integer();

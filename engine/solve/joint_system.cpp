@@ -135,6 +135,7 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   weakest_ = 1;
+  weakest_place_ = order_.size();
   if (!hinges_.empty()) return factor_hinges(rows);
   int dependent = 0;
   take_jacobian(rows);
@@ -167,10 +168,26 @@ template <class Real>
 bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
   // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
   constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
-  const bool independent = pivot > kDependent * own;
+  const bool independent =
+      pivot > std::max(kDependent, least_share_) * own && (kept_.empty() || kept_[place] == 0);
   inverse_diagonal_[place] = independent ? 1 / pivot : 0;
-  if (independent && pivot < weakest_ * own) weakest_ = pivot / own;
+  if (independent && pivot < weakest_ * own) weakest_ = pivot / own, weakest_place_ = place;
   return independent;
+}
+
+template <class Real>
+void JointSystem<Real>::set_least_share(Real share) {
+  least_share_ = share;
+}
+
+template <class Real>
+void JointSystem<Real>::keep_dependent() {
+  kept_.assign(order_.size(), 0);
+  kept_count_ = 0;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    kept_[k] = inverse_diagonal_[k] == 0;
+    kept_count_ += kept_[k];
+  }
 }
 
 template <class Real>

@@ -31,6 +31,14 @@ class JointSystem {
   /// get a zero multiplier; returns how many.
   int factor(std::span<const Row<Real>> rows);
 
+  /// Rows that the others leave less than `share` of, count as dependent from now on; 0: what is rounding.
+  void set_least_share(Real share);
+  /// The rows that the last factorisation found dependent are dependent in all later ones, whatever rounding
+  /// makes of their pivots; `release_dependent` ends that.
+  void keep_dependent();
+  void release_dependent() { kept_.clear(), kept_count_ = 0; }
+  int kept() const { return kept_count_; }  ///< how many these are
+
   /// Solves A x = right_side in place, with the last factorisation.
   void solve(std::span<Real> right_side) const;
 
@@ -42,6 +50,8 @@ class JointSystem {
   /// Of the last factorisation: the least share of a row that the others leave to it, dependent rows apart.
   /// It goes to zero where the mechanism becomes singular.
   Real weakest() const { return weakest_; }
+  /// Its row; `row_count` where no row is weaker than alone.
+  std::size_t weakest_row() const { return weakest_place_ < order_.size() ? static_cast<std::size_t>(order_[weakest_place_]) : order_.size(); }
   /// Of the last factorisation: whether a row depends on others.
   std::vector<char> dependent() const;
 
@@ -101,7 +111,10 @@ class JointSystem {
   std::vector<Real> jacobian_, weighted_;
 
   std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
-  Real weakest_ = 1;
+  Real weakest_ = 1, least_share_ = 0;
+  std::size_t weakest_place_ = 0;
+  int kept_count_ = 0;
+  std::vector<char> kept_;  // by place, dependent rows that stay so; empty: none
   std::vector<Hinge> hinges_;  // in the elimination order; empty unless all rows are of hinges in lines
   std::vector<HingeBlock> hinge_blocks_;
   std::vector<std::size_t> filled_;  // while factorising: the end of what is known of a column
