@@ -73,7 +73,7 @@ double Passage::least_between(double low, double high) {
   return at_a < at_b ? a : b;
 }
 
-std::optional<double> Passage::crossing(double from, double to) {
+std::optional<Passage::Crossing> Passage::crossing(double from, double to) {
   double times[3] = {from, from, from}, values[3] = {strength(from), 0, 0};
   values[1] = values[2] = values[0];
   for (int k = 1; k <= kLooks; ++k) {
@@ -81,7 +81,9 @@ std::optional<double> Passage::crossing(double from, double to) {
     times[1] = times[2], values[1] = values[2];
     times[2] = from + (to - from) * k / kLooks;
     values[2] = strength(times[2]);
-    if (k == 1 || !(values[1] <= values[2] && values[1] <= values[0])) continue;
+    // The lowest look is beside the least, but for one between the first two.
+    const bool low = k == 1 ? values[1] <= values[2] : values[1] <= values[2] && values[1] <= values[0];
+    if (!low) continue;
     const double time = least_between(times[0], times[2]);
     const double weak = strength(time) * strength(time);
     if (weak > kLost) continue;
@@ -89,7 +91,7 @@ std::optional<double> Passage::crossing(double from, double to) {
     std::copy(there.begin(), there.end(), place_.begin());
     const double open = equations_.left_open(time, place_, 10 * kLost);
     const double closed = kRoundings * equations_.rounding_of_gaps() + weak * equations_.length();
-    if (open <= closed) return time;
+    return Crossing{time, open <= closed};
   }
   return std::nullopt;
 }

@@ -27,8 +27,13 @@ class Passage final : public Flow {
   /// Or from y at `time` by the rates there.
   void expect(double time, std::span<const double> y, std::span<const double> rate);
 
-  /// When the expected motion passes a crossing next, from `from` (alone) to `to`.
-  std::optional<double> crossing(double from, double to);
+  /// Where the expected motion passes a crossing next, from `from` (alone) to `to`. It `meets` there unless
+  /// lengths differ by more than rounding: then its branches come near, and turn away from each other.
+  struct Crossing {
+    double time = 0;
+    bool meets = true;
+  };
+  std::optional<Crossing> crossing(double from, double to);
 
   void rate(double time, std::span<const double> y, std::span<double> out) override;
   double power() const override { return equations_.power(); }

@@ -80,6 +80,7 @@ double SmoothMotion::step(double limit) {
     start_ = time_;
     return time_ = limit;
   }
+  const bool first = !(time_ > start_);
   expect_passage();
   begin();
   if (flies()) {
@@ -94,6 +95,7 @@ double SmoothMotion::step(double limit) {
   bool again = proposed_step_ == 0;
   if (proposed_step_ == 0) proposed_step_ = first_step();
   if (stiff_) stiff_motion_.linearise(start_, y0_.value());
+  if (first) look_at_rows();
   if (near_) return step_near_crossing(limit);
   last_near_ = false;
   for (;;) {

@@ -113,6 +113,7 @@ class SmoothMotion {
   // Near places where closed linkages are singular (precise_smooth_passage.cpp).
   bool is_near_crossing();
   void expect_passage();
+  void look_at_rows();
   double step_near_crossing(double limit);
   double try_near_crossing(double end);
   double accept_near_crossing(double error);

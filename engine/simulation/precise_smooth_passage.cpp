@@ -60,20 +60,32 @@ void SmoothMotion::expect_passage() {
   passage_.expect(path, start_, time_, y0_.value());
 }
 
+/// Where there is no last step, the rows themselves say.
+void SmoothMotion::look_at_rows() {
+  constexpr double kWeak = 0.01;
+  if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
+      equations_.holds_anything())
+    return;
+  near_ = rank_at_start_.weakest < kWeak || rank_at_start_.dependent > 0;
+}
+
 double SmoothMotion::step_near_crossing(double limit) {
   if (!expects_) passage_.expect(start_, y0_.value(), rate_at_start());
-  const double strict = std::min(1.0, kTight / tolerance_), loose = std::max(strict, kLoose * kSteps);
   const double shortest_step = kShortest * scales_.length / scales_.speed;
   double h = proposed_step_;
   for (;;) {
     if (!(h > shortest_step) || !(start_ + h > start_)) refuse_crossing();
-    const std::optional<double> crossing = passage_.crossing(start_, start_ + kAhead * h);
-    const double left = crossing ? *crossing - start_ : 0;
+    const std::optional<Passage::Crossing> crossing = passage_.crossing(start_, start_ + kAhead * h);
+    const double left = crossing ? crossing->time - start_ : 0;
+    const bool meets = crossing && crossing->meets;
+    const double strict = meets ? std::min(1.0, kTight / tolerance_) : 1;
+    const double loose = std::max(strict, kLoose * kSteps);
     double error = std::numeric_limits<double>::infinity();
-    if (!crossing || left > kPass * h) {
-      const double end = !crossing ? start_ + h
-                         : left > kFar * h ? std::min(start_ + h, start_ + left - 0.5 * kFar * h)
-                                           : start_ + left - 0.5 * h;
+    if (!meets || left > kPass * h) {
+      const double end = start_ + (!crossing         ? h
+                                   : !meets          ? std::min(h, 0.5 * left)
+                                   : left > kFar * h ? std::min(h, left - 0.5 * kFar * h)
+                                                     : left - 0.5 * h);
       error = try_near_crossing(std::min(end, limit));
       if (error <= strict) return accept_near_crossing(error / strict);
       h = (std::min(end, limit) - start_) * control_.after_rejection(error / strict);
