@@ -93,7 +93,7 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
       parts_(divide(scene)),
       plan_(plan_of(scene, parts_, options.every_stage)),
       flight_(scene, parts_),
-      equations_(scene, parts_, flight_, options.every_stage),
+      equations_(scene, parts_, flight_, options.every_stage, precise.tolerance),
       smooth_(scene, parts_, precise, equations_),
       sample_(equations_.dimension()),
       contacts_(scene, parts_, flight_, equations_, smooth_),

@@ -87,7 +87,7 @@ std::vector<double> only(const std::vector<double>& values, const std::vector<st
 }  // namespace
 
 EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight,
-                                     bool every_stage)
+                                     bool every_stage, double tolerance)
     : bodies_(parts.integrated),
       slot_(scene.bodies.size(), -1),
       flight_(flight),
@@ -116,7 +116,9 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       has_joints_(!rows_.empty() || every_stage),
       has_loops_(find_loops()),
       wide_mass_ratio_(has_wide_mass_ratio(rows_, joint_inverse_mass_)),
-      length_(scales_of(scene, parts).length) {
+      length_(scales_of(scene, parts).length),
+      speed_(scales_of(scene, parts).speed),
+      tolerance_(tolerance) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) slot_[bodies_[slot]] = static_cast<int>(slot);
   for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {

@@ -30,7 +30,9 @@ class EquationsOfMotion final : public Flow {
   static constexpr std::size_t kPerBody = 6;
 
   /// `every_stage`: forces and joints are gone through even where there are none.
-  EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage);
+  /// `tolerance`: of `Precise`; joints of closed loops that are off by more than it are an error.
+  EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage,
+                    double tolerance);
 
   std::size_t dimension() const { return kPerBody * bodies_.size(); }
 
@@ -85,8 +87,9 @@ class EquationsOfMotion final : public Flow {
   /// Takes rows that depend on others where the last factorisation was, as dependent everywhere.
   void keep_dependent() { system_.keep_dependent(); }
   void release_dependent() { system_.release_dependent(); }
-  /// Rows that the others leave less than this share of are not held; 0: all that can be.
-  void hold_only_above(double share) { system_.set_least_share(share); }
+  /// Rows that the others leave less than this share of are not held by `project`, and gaps up to `open`, m,
+  /// may stay; 0: all that can be held is.
+  void hold_only_above(double share, double open) { system_.set_least_share(share), may_stay_open_ = open; }
   /// One step of Newton's method towards the place on the joints' manifold that is nearest to `target`: both
   /// what closes gaps and what leads towards it along the manifold. Returns how far it went, m.
   double draw_near(double time, std::span<const double> target, std::span<double> y);
@@ -184,6 +187,7 @@ class EquationsOfMotion final : public Flow {
     std::string subject;
   };
   WorstGap worst_gap() const;
+  void check_speeds(std::span<const Twist<double>> shift) const;
   void solve_joints();
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
@@ -226,7 +230,9 @@ class EquationsOfMotion final : public Flow {
   int dependent_rows_ = 0;
   double power_ = 0;  // W, of the forces of the last evaluation
   double window_start_ = 0, window_end_ = 0;
-  double length_ = 1;
+  double length_ = 1, speed_ = 1;  // the scene's, m and m/s
+  double tolerance_ = 0;
+  double may_stay_open_ = 0;  // m, of gaps
   std::int64_t evaluations_ = 0;
 
   std::vector<ActivePatch> patches_;

@@ -28,7 +28,25 @@ void EquationsOfMotion::project(double time, Compensated& y) {
     linearise_contacts(false);
     close_contacts(twists_, false, shift);
   }
+  if (has_loops_ && may_stay_open_ == 0) check_speeds(shift);
   kick(shift, 1, y);
+}
+
+/// Throws `Error` (Run) where velocities, with `shift` added, open a joint by more than the tolerance allows:
+/// of closed loops that are singular there is no such shift.
+void EquationsOfMotion::check_speeds(std::span<const Twist<double>> shift) const {
+  double fastest = speed_, worst = 0;
+  std::size_t joint = 0;
+  for (const std::size_t body : bodies_)
+    fastest = std::max(fastest, std::sqrt(length_squared(twists_[body].velocity)));
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const double opens = std::abs(row_speed(rows_[r], twists_) + row_speed(rows_[r], shift));
+    if (!(opens <= worst)) worst = opens, joint = r;
+  }
+  if (worst <= std::max(tolerance_, 1e-13) * fastest) return;
+  throw Error(Error::Kind::Run, "joint '" + joint_of_row_[joint] + "'", "speed", shortest(worst) + " m/s",
+              "its bodies move against each other by more than tolerance " + shortest(tolerance_) +
+                  " allows, and no push of the joints ends that: what they ask for contradicts itself here");
 }
 
 bool EquationsOfMotion::held_works() const {
@@ -79,7 +97,8 @@ void EquationsOfMotion::hang(double time, Compensated& y) {
 /// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
 void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   constexpr int kMost = 20;
-  constexpr double kOpen = 1e-9;  // of the scene's length: what cannot be rounding
+  constexpr double kOpen = 1e-9;      // of the scene's length: what cannot be rounding
+  constexpr double kRoundings = 100;  // of a gap: what Newton's method may end with
   std::vector<Twist<double>>& shift = accelerations_;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
@@ -92,7 +111,9 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
     if (held_stops_ > 0) stop_rows();
     const WorstGap worst = worst_gap();
     const bool stuck = worst.gap > 0.5 * before || i == kMost;
-    if (worst.gap <= rounding_of_gaps() || (stuck && worst.gap <= kOpen * length_)) return;
+    const double rounding = rounding_of_gaps();
+    const double open = std::max({std::min(kOpen, tolerance_) * length_, kRoundings * rounding, may_stay_open_});
+    if (worst.gap <= rounding || (stuck && worst.gap <= open)) return;
     if (i == kMost || !std::isfinite(worst.gap)) {
       throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",
                   "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");

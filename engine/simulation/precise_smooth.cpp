@@ -247,7 +247,15 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
   } else {
     for (std::size_t i = 0; i < out.size(); ++i) out.add(i, path.at(s, i));
   }
-  if (project_too || was_in_angles()) project(time, out);
+  if (!project_too && !was_in_angles()) return;
+  if (last_near_) {
+    // What rounding would make of weak rows is more than the polynomial's own error.
+    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+    const double tolerance = kSteps * tolerance_;
+    equations_.hold_only_above(std::min(kRounding / tolerance, 0.1), tolerance * scales_.length);
+  }
+  project(time, out);
+  equations_.hold_only_above(0, 0);
 }
 
 void SmoothMotion::cut(double time) {
