@@ -9,7 +9,8 @@
 namespace plumb::precise {
 namespace {
 
-/// Impacts of one instant, as a sequence, before they are taken together.
+/// Impacts of one instant, as a sequence. They shrink like a geometric series where they do not end: what
+/// still closes after so many has come to rest but for rounding, and is brought there.
 constexpr std::int64_t kMostInSequence = 20000;
 
 bool closes(const Touch& touch) {
@@ -18,6 +19,8 @@ bool closes(const Touch& touch) {
   }
   return false;
 }
+
+bool closes(const Touch& touch, int point) { return touch.closing[point] < -touch.quiet; }
 
 double fastest(const Touch& touch) {
   double least = 0;
@@ -73,11 +76,10 @@ std::string ImpactLaw::subject(const Touch& touch) const {
          equations_.name(finder_.outlines()[touch.pair.b].body) + "'";
 }
 
-void ImpactLaw::strike(double time, const std::function<bool(const Touch&)>& takes_part,
+void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>& takes_part,
                        std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
                        const Restitution& restitution) {
-  TouchProblem p = TouchProblem::of(
-      touches, [&](std::size_t t, int) { return takes_part(touches[t]); }, {}, equations_, time, y.value());
+  TouchProblem p = TouchProblem::of(touches, takes_part, {}, equations_, time, y.value());
   const std::size_t n = p.problem.points();
   for (std::size_t i = 0; i < n; ++i) {
     const Touch& touch = touches[p.touch_of[i]];
@@ -98,7 +100,12 @@ void ImpactLaw::strike(double time, const std::function<bool(const Touch&)>& tak
 std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states,
                                 Compensated& y, const Restitution& restitution) {
   std::int64_t count = 0;
-  bool together = finder_.rules().simultaneous == Simultaneous::Together;
+  const bool together = finder_.rules().simultaneous == Simultaneous::Together;
+  const auto all = [](std::size_t, int) { return true; };
+  const auto to_rest = [&](const Touch& touch, int point) {
+    const double e = restitution(touch, point);
+    return e < 1 ? 0 : e;
+  };
   for (;;) {
     std::size_t worst = touches.size();
     for (std::size_t t = 0; t < touches.size(); ++t) {
@@ -106,20 +113,30 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
         worst = t;
     }
     if (worst == touches.size()) return count;
-    together = together || count >= kMostInSequence;
     if (count >= 2 * kMostInSequence) {
       throw Error(Error::Kind::Run, subject(touches[worst]), "impacts", std::to_string(count) + " and more",
                   "they do not stop at one instant");
     }
-    if (together) {
+    const bool at_limit = count >= kMostInSequence;
+    if (together || at_limit) {
       for (const Touch& touch : touches) count += closes(touch) ? 1 : 0;
-      strike(
-          time, [](const Touch&) { return true; }, touches, states, y, restitution);
-    } else {
-      ++count;
-      const auto takes_part = [&](const Touch& t) { return t.stop.has_value() || &t == &touches[worst]; };
-      strike(time, takes_part, touches, states, y, restitution);
+      if (at_limit) {
+        strike(time, all, touches, states, y, to_rest);
+      } else {
+        strike(time, all, touches, states, y, restitution);
+      }
+      continue;
     }
+    ++count;
+    // Corners of one shape that close together are one impact. Where one of them opens, it is struck after
+    // the other, and so on in turn: the limit of corners that touch a little apart in time.
+    const Touch& struck = touches[worst];
+    bool both = true;
+    for (int i = 0; i < struck.count; ++i) both = both && closes(struck, i);
+    const auto part = [&](std::size_t t, int point) {
+      return touches[t].stop.has_value() || (t == worst && (both || closes(touches[t], point)));
+    };
+    strike(time, part, touches, states, y, restitution);
   }
 }
 

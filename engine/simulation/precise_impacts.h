@@ -36,9 +36,11 @@ struct TouchProblem {
 /// rates u before and u' after,
 ///   u' >= -e u where it closes, u' >= 0 else;  impulses push, and only where equality holds;
 ///   tangential impulses oppose the slip that is left, or stop it within Coulomb's cone.
-/// Two corners of one shape on an edge of another are one problem. Several touches at once are a sequence,
-/// the fastest first, until none closes, or one problem (`ContactRules::simultaneous`). Limits of joints that
-/// are met take part in every impact as joints do, but only push, and have no restitution.
+/// Two corners of one shape that close on an edge of another together are one problem; where one closes and
+/// the other does not, they are struck in turn until neither closes, however often: alternating impacts
+/// shrink like a geometric series, and end at its limit. Several touches at once are a sequence, the fastest
+/// first, until none closes, or one problem (`ContactRules::simultaneous`). Limits of joints that are met
+/// take part in every impact as joints do, but only push, and have no restitution.
 class ImpactLaw {
  public:
   ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
@@ -59,8 +61,9 @@ class ImpactLaw {
   bool jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y);
 
  private:
-  void strike(double time, const std::function<bool(const Touch&)>& takes_part, std::span<Touch> touches,
-              std::span<BodyState> states, Compensated& y, const Restitution& restitution);
+  void strike(double time, const std::function<bool(std::size_t touch, int point)>& takes_part,
+              std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+              const Restitution& restitution);
   std::string subject(const Touch& touch) const;
   void apply(const ContactResponse& response, std::span<const double> impulses, std::span<Touch> touches,
              std::span<BodyState> states, Compensated& y);
