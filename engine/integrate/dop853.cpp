@@ -92,8 +92,8 @@ void Dop853::error_vectors(double h, std::span<double> fifth, std::span<double> 
     double e5 = 0;
     for (int s = 0; s < kStages; ++s) e5 += kError5[s] * rates_[s][i];
     fifth[i] = h * e5;
-    third[i] =
-        increment_[i] - h * (kOrder3[0] * rates_[0][i] + kOrder3[1] * rates_[8][i] + kOrder3[2] * rates_[11][i]);
+    third[i] = increment_[i] -
+               h * (kOrder3[0] * rates_[0][i] + kOrder3[1] * rates_[8][i] + kOrder3[2] * rates_[11][i]);
   }
 }
 

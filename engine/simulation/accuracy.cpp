@@ -16,6 +16,9 @@ void require_positive(double value, const char* driver, const char* field, const
               std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
 }
 
+/// Steps err by a thousandth of the tolerance of Precise; below 1e-15 that is rounding.
+constexpr double kLeastTolerance = 1e-12;
+
 /// More would not end.
 constexpr int kMost = 1000000;
 
@@ -69,6 +72,9 @@ std::string_view name_of(MotionMethod method) {
 void validate(const Accuracy& accuracy) {
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     require_positive(precise->tolerance, "precise", "tolerance", "");
+    if (precise->tolerance < kLeastTolerance)
+      throw Error(Error::Kind::Value, "precise", "tolerance", shortest(precise->tolerance),
+                  "must be 1e-12 or more: further down a step's error cannot be told from rounding");
     require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
     require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Symplectic), "method",
                   "precise");

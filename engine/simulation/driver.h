@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/scene/error.h"
@@ -56,6 +57,31 @@ struct Statistics {
   const EventCount& of(ContactEvent event) const { return contacts[static_cast<std::size_t>(event)]; }
 };
 
+/// What a joint pushes body b with, and body a with the opposite: the multipliers of its rows, its springs,
+/// limits and motors.
+struct JointReaction {
+  std::string joint;
+  Vec2d position{};   ///< m, of its anchor on body b, in the world's frame; of b itself where it has none
+  Vec2d force{};      ///< N
+  double torque = 0;  ///< N m, about that anchor
+};
+
+/// What a contact that lasts pushes body b with at one point, and body a with the opposite.
+struct ContactReaction {
+  std::size_t body_a = 0, body_b = 0;  ///< of the scene
+  Vec2d position{};                    ///< m
+  Vec2d normal{};                      ///< from a to b
+  double normal_force = 0;             ///< N, along the normal
+  double tangent_force = 0;            ///< N, along the normal turned a quarter counter-clockwise; of the
+                                       ///< two points of one pair, both at the first
+};
+
+/// Forces of joints, in the scene's order, and of contacts, by pair.
+struct Reactions {
+  std::vector<JointReaction> joints;
+  std::vector<ContactReaction> contacts;
+};
+
 /// A way of moving compiled bodies forward in time. One virtual call a step, none a body.
 class Driver {
  public:
@@ -73,6 +99,12 @@ class Driver {
   /// All that the future depends on, warm starting included: restoring and going on gives the same bits.
   virtual std::vector<std::byte> save() const = 0;
   virtual void restore(std::span<const std::byte> snapshot) = 0;
+
+  /// Forces at the time of what is read; throws `Error` (Unsupported) where a driver has impulses alone.
+  virtual Reactions reactions() {
+    throw Error(Error::Kind::Unsupported, "realtime", "forces", "",
+                "fixed steps have impulses, not forces; 'plumb-precise' and Precise have forces");
+  }
 
   virtual const Plan& plan() const = 0;
   virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off

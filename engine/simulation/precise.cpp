@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/scene/error.h"
+#include "engine/scene/text.h"
 #include "engine/simulation/precise_clock.h"
 #include "engine/simulation/precise_companion.h"
 #include "engine/simulation/precise_driver.h"
@@ -19,6 +20,8 @@ constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
 constexpr double kLonger = 2;
 /// Of the scene's length: what lies in each other by more is a mistake, however few digits are asked for.
 constexpr double kDeepestOverlap = 1e-3;
+/// Of the gaps that scenes may start with: roundings of positions.
+constexpr double kRoundings = 16;
 
 }  // namespace
 
@@ -104,6 +107,11 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
     locked_.push_back(body.fixed_rotation);
   }
   name_redundant_joints();
+  for (const JointStart& start : joint_starts(scene)) {
+    const double rounding = kRoundings * equations_.rounding_of_gaps();
+    const double allowed = overlap_ * (start.turns ? 1 : scales_of(scene, parts_).length) + rounding;
+    if (start.gap > allowed && start.gap > open_.gap) open_ = start;
+  }
 }
 
 void PreciseDriver::name_redundant_joints() {
@@ -118,10 +126,22 @@ void PreciseDriver::name_redundant_joints() {
 /// Once, and after bodies were moved from outside: closes joints and their velocities.
 void PreciseDriver::close_joints() {
   if (joints_closed_) return;
+  refuse_open_joints();
   smooth_.start_anew();
   if (!contacts_.empty()) contacts_.refuse_overlaps(overlap_);
   contacts_.unsettle();
   joints_closed_ = true;
+}
+
+/// Where a run starts, joints are closed: how they come together otherwise, no law says.
+void PreciseDriver::refuse_open_joints() const {
+  if (open_.gap == 0 || written_ || smooth_.time() > 0) return;
+  throw Error(Error::Kind::Run, "joint '" + open_.joint + "'", "gap",
+              shortest(open_.gap) + (open_.turns ? " rad" : " m"),
+              "it is open, too long or beyond its limit where the scene starts, by more than tolerance " +
+                  shortest(overlap_) +
+                  " allows, and no law says how it closes: place its bodies, anchors or lengths so that they "
+                  "fit; 'plumb-world' and Realtime close it");
 }
 
 std::size_t PreciseDriver::slot_of(std::size_t body) const {

@@ -23,7 +23,8 @@ namespace plumb {
 /// `Precise::tolerance` bounds the error that a step adds: each is redone until its estimate is below a
 /// thousandth of the tolerance, in units of the scene's length (positions), speed (velocities; a body's own
 /// where that is more) and one radian. Errors of a whole run are then about the tolerance or less where the
-/// motion does not amplify them. Joints that start open are closed at once.
+/// motion does not amplify them. Joints that start open by more than the tolerance are an error; what
+/// `write` has opened is closed at once.
 std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
                                             CompileOptions options);
 

@@ -23,6 +23,7 @@ class CompanionDriver final : public Driver {
   void write(std::size_t body, const BodyState& state) override;
   std::vector<std::byte> save() const override;
   void restore(std::span<const std::byte> snapshot) override;
+  Reactions reactions() override { return main_->reactions(); }
   const Plan& plan() const override { return main_->plan(); }
   void profile(bool on) override { main_->profile(on); }
   Statistics statistics() const override;

@@ -20,6 +20,13 @@ void PreciseDriver::read(std::span<BodyState> out) const {
   }
 }
 
+Reactions PreciseDriver::reactions() {
+  if (parts_.integrated.empty()) return {};
+  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  sampled_ = time_;
+  return equations_.reactions(time_, sample_.value());
+}
+
 void PreciseDriver::write(std::size_t body, const BodyState& state) {
   BodyState allowed = state;
   if (at_rest_[body]) allowed.velocity = {};
@@ -31,6 +38,7 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
     EquationsOfMotion::set_state(smooth_.change(), slot_of(body), allowed);
   }
   joints_closed_ = false;
+  written_ = true;
   sampled_ = -1;
 }
 
@@ -131,6 +139,7 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
   in.expect_end();
+  written_ = true;  // how it started is past
   sampled_ = -1;
 }
 

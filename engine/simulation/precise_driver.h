@@ -11,6 +11,7 @@
 #include "engine/scene/scene.h"
 #include "engine/simulation/accuracy.h"
 #include "engine/simulation/driver.h"
+#include "engine/simulation/joint_starts.h"
 #include "engine/simulation/precise_contacts.h"
 #include "engine/simulation/precise_flight.h"
 #include "engine/simulation/precise_invariants.h"
@@ -33,6 +34,7 @@ class PreciseDriver final : public Driver {
   void write(std::size_t body, const BodyState& state) override;
   std::vector<std::byte> save() const override;
   void restore(std::span<const std::byte> snapshot) override;
+  Reactions reactions() override;
   const Plan& plan() const override { return plan_; }
   void profile(bool on) override;
   Statistics statistics() const override;
@@ -48,6 +50,7 @@ class PreciseDriver final : public Driver {
 
   // What those are made of.
   void name_redundant_joints();
+  void refuse_open_joints() const;
   std::size_t slot_of(std::size_t body) const;
   void take(std::span<const std::byte> snapshot);
   void check_finite();
@@ -71,6 +74,8 @@ class PreciseDriver final : public Driver {
   double time_ = 0;  // s, of what is read: within the last step of the motion, or at its end
   std::int64_t grid_steps_ = 0;
   bool joints_closed_ = false;
+  bool written_ = false;  // bodies were moved from outside
+  JointStart open_{};     // the joint that is farthest off at the start; gap 0: none is
   Statistics statistics_{};
   int steps_in_step_ = 0;
   double last_event_ = 0, last_flight_ = 0;  // s: when it was, and after what time without one

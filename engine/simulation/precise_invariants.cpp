@@ -47,8 +47,8 @@ void Invariants::account(const SmoothMotion& motion) {
     rounding += mass * (v2 + std::abs(gravity_.x * to.position.x) + std::abs(gravity_.y * to.position.y));
     if (!(equations_.inverse_inertia(body) > 0)) continue;
     const double inertia = 1 / equations_.inverse_inertia(body), own = speed_ / length_;
-    const double w2 = std::max(from.angular_velocity * from.angular_velocity,
-                               to.angular_velocity * to.angular_velocity);
+    const double w2 =
+        std::max(from.angular_velocity * from.angular_velocity, to.angular_velocity * to.angular_velocity);
     gained += 0.5 * inertia * (to.angular_velocity - from.angular_velocity) *
               (to.angular_velocity + from.angular_velocity);
     size += inertia * std::max(w2, own * own);
@@ -60,9 +60,8 @@ void Invariants::account(const SmoothMotion& motion) {
   drift_ += gained - *work;
   if (std::abs(drift_) <= bound()) return;
   throw Error(Error::Kind::Run, "the scene", "energy", shortest(drift_) + " J",
-              std::string(drift_ > 0 ? "came up" : "was lost") +
-                  " without work, more than the " + shortest(bound()) + " J that tolerance " +
-                  shortest(tolerance_) +
+              std::string(drift_ > 0 ? "came up" : "was lost") + " without work, more than the " +
+                  shortest(bound()) + " J that tolerance " + shortest(tolerance_) +
                   " allows by then: the motion has left its path; try another tolerance, or Realtime");
 }
 

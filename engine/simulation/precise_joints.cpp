@@ -172,6 +172,15 @@ void KindJoints::add_springs(const BodiesNow& now, std::span<Wrench<double>> out
   }
 }
 
+void KindJoints::each_spring(const BodiesNow& now,
+                             const std::function<void(const std::string&, Vec2d, double)>& take) const {
+  for (const Entry& e : entries_) {
+    if (!e.has_springs) continue;
+    const Wrench<Dual> w = pull_of_springs(e, ends_of(e, now, {})).b;
+    take(e.name, {w.force.x.value, w.force.y.value}, w.torque.value);
+  }
+}
+
 /// The derivatives of a pull by the first `directions` of: x, y and angle of a, of b; their velocities.
 template <class Evaluate>
 void KindJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,

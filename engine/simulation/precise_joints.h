@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -70,6 +71,10 @@ class KindJoints {
   /// bounded where the joint has a bound; that of a point the same with the 2 x 2 matrix m.
   void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
 
+  /// Calls `take(joint, force, torque)` for each of those: what it does to body b, torque about its centre.
+  void each_spring(const BodiesNow& now,
+                   const std::function<void(const std::string&, Vec2d, double)>& take) const;
+
   /// Adds how those forces change with the bodies' positions and velocities.
   void add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const;
 
@@ -91,6 +96,7 @@ class KindJoints {
     bool has_springs = false;
     std::size_t first_row = 0, rows = 0;
     std::size_t first_stop = 0, stops = 0;
+    std::string name{};
   };
   struct Ends;
   struct Directions;

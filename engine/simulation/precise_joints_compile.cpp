@@ -77,6 +77,7 @@ void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>&
   };
   take_body(name_a, e.a, e.mass_a, e.inertia_a);
   take_body(name_b, e.b, e.mass_b, e.inertia_b);
+  e.name = std::visit([](const auto& j) { return j.name; }, joint);
   if (std::holds_alternative<MouseRows<Dual>>(e.kind)) e.a = kFixedFrame, e.mass_a = e.inertia_a = 0;
   entries.push_back(std::move(e));
 }

@@ -96,6 +96,7 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       joints_(compile_joints<double>(scene)),
       kind_joints_(scene),
       joint_of_row_(joint_names_by_row(scene, kind_joints_)),
+      joint_ends_(ends_of_joints(scene)),
       rows_(pattern(joints_, kind_joints_, scene.bodies.size())),
       inverse_mass_(inverse_masses(scene).mass),
       inverse_inertia_(inverse_masses(scene).inertia),

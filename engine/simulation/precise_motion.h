@@ -10,6 +10,7 @@
 #include "engine/integrate/flow.h"
 #include "engine/joints/joints.h"
 #include "engine/scene/scene.h"
+#include "engine/simulation/driver.h"
 #include "engine/simulation/precise_active.h"
 #include "engine/simulation/precise_flight.h"
 #include "engine/simulation/precise_hinges.h"
@@ -147,6 +148,9 @@ class EquationsOfMotion final : public Flow {
   /// Whether gravity and hinges, of masses not far apart, are all that acts but for contacts.
   bool has_hinges_alone() const;
 
+  /// The forces of all joints and of the contacts that are held, at a state. Not counted as an evaluation.
+  Reactions reactions(double time, std::span<const double> y);
+
   double inverse_mass(std::size_t body) const { return inverse_mass_[body]; }
   double inverse_inertia(std::size_t body) const { return inverse_inertia_[body]; }
 
@@ -173,6 +177,13 @@ class EquationsOfMotion final : public Flow {
   Cost cost;
 
  private:
+  struct JointEnd {
+    std::string joint;
+    int body = kFixedFrame;
+    Vec2d anchor{};  // m, in the frame of body b
+  };
+  void find_multipliers_beside_contacts(double time, std::span<const double> y);
+  static std::vector<JointEnd> ends_of_joints(const Scene& scene);
   void find_rows(std::span<Row<double>> out) const;
   bool find_loops() const;
   void linearise();
@@ -214,6 +225,7 @@ class EquationsOfMotion final : public Flow {
   Joints<double> joints_;
   KindJoints kind_joints_;
   std::vector<std::string> joint_of_row_, names_;
+  std::vector<JointEnd> joint_ends_;  // of the scene's joints, in its order: their bodies b
   std::vector<Row<double>> rows_, rows_elsewhere_;
   // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
   // integrated ones alone: joints do not move what flies.

@@ -121,7 +121,9 @@ double EquationsOfMotion::left_open(double time, std::span<double> y, double wea
     }
   }
   system_.set_least_share(0);
-  return open;
+  // Rows that are redundant all the way close there as well as `project` asks, or the linkage would not move.
+  constexpr double kOpen = 1e-9;
+  return system_.kept() > 0 ? std::max(open - std::min(kOpen, tolerance_) * length_, 0.0) : open;
 }
 
 std::string EquationsOfMotion::weakest_joint() const {

@@ -112,7 +112,8 @@ void EquationsOfMotion::close_gaps(double time, Compensated& y) {
     const WorstGap worst = worst_gap();
     const bool stuck = worst.gap > 0.5 * before || i == kMost;
     const double rounding = rounding_of_gaps();
-    const double open = std::max({std::min(kOpen, tolerance_) * length_, kRoundings * rounding, may_stay_open_});
+    const double open =
+        std::max({std::min(kOpen, tolerance_) * length_, kRoundings * rounding, may_stay_open_});
     if (worst.gap <= rounding || (stuck && worst.gap <= open)) return;
     if (i == kMost || !std::isfinite(worst.gap)) {
       throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",

@@ -32,6 +32,12 @@ class OffsetDriver final : public Driver {
   }
   std::vector<std::byte> save() const override { return driver_->save(); }
   void restore(std::span<const std::byte> snapshot) override { driver_->restore(snapshot); }
+  Reactions reactions() override {
+    Reactions found = driver_->reactions();
+    for (JointReaction& joint : found.joints) joint.position += origin_;
+    for (ContactReaction& contact : found.contacts) contact.position += origin_;
+    return found;
+  }
   const Plan& plan() const override { return driver_->plan(); }
   void profile(bool on) override { driver_->profile(on); }
   Statistics statistics() const override { return driver_->statistics(); }

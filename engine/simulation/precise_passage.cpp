@@ -86,7 +86,7 @@ std::optional<Passage::Crossing> Passage::crossing(double from, double to) {
     if (!low) continue;
     const double time = least_between(times[0], times[2]);
     const double weak = strength(time) * strength(time);
-    if (weak > kLost) continue;
+    if (weak > kLost || (k == 1 && !(weak < 0.25 * values[0] * values[0]))) continue;
     const std::span<const double> there = expected(time);
     std::copy(there.begin(), there.end(), place_.begin());
     const double open = equations_.left_open(time, place_, 10 * kLost);

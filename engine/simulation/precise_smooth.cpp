@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// Below this the estimate is rounding.
-constexpr double kLeastTolerance = 1e-15;
 /// A step is at most this many times as long as the scene's accelerations take over its length: where nothing
 /// moves, nothing else would bound it.
 constexpr double kLongestStep = 1e6;
@@ -29,7 +27,7 @@ constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise,
                            EquationsOfMotion& equations)
-    : tolerance_(std::max(precise.tolerance / kSteps, kLeastTolerance)),
+    : tolerance_(precise.tolerance / kSteps),
       scales_(scales_of(scene, parts)),
       longest_step_(kLongestStep * scales_.length / scales_.speed),
       bodies_(parts.integrated),
@@ -211,8 +209,9 @@ std::span<const double> SmoothMotion::rate_at_end() {
 }
 
 std::optional<double> SmoothMotion::work() const {
+  if (method_ == MotionMethod::Symplectic) return std::nullopt;
   if (!equations_.has_forces()) return 0.0;
-  if (last_implicit_ || method_ == MotionMethod::Symplectic || last_flew_) return std::nullopt;
+  if (last_implicit_ || last_flew_) return std::nullopt;
   return last().method.work(time_ - start_);
 }
 

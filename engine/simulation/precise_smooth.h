@@ -45,7 +45,8 @@ class SmoothMotion {
   double step(double limit);
 
   /// What forces other than gravity have put into the motion over the last step, J, to the step's accuracy;
-  /// nothing where it is not known: of implicit steps, and symplectic ones, under such forces.
+  /// nothing where it is not known, of implicit steps under such forces, and of symplectic ones, whose energy
+  /// swings within its own bound.
   std::optional<double> work() const;
 
   double start() const { return start_; }  ///< s: where the last step began
@@ -159,18 +160,18 @@ class SmoothMotion {
   bool last_flew_ = false;                      // the last step was a parabola
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
-  Compensated y0_, y_;  // where the last step began and ended
+  Compensated y0_, y_;                                  // where the last step began and ended
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
   double proposed_step_ = 0;                            // s; 0: none yet
   struct Rank {
     double weakest = 1;
     int dependent = 0;
   };
-  Rank rank_at_start_;          // of the joints' rows, where the next step begins
-  double weakest_before_ = 1;   // and where the last one did
-  bool near_ = false;           // the next step is near a place where a closed linkage is singular
-  bool last_near_ = false;      // the last one was
-  bool expects_ = false;        // its passage is expected by the step before
+  Rank rank_at_start_;         // of the joints' rows, where the next step begins
+  double weakest_before_ = 1;  // and where the last one did
+  bool near_ = false;          // the next step is near a place where a closed linkage is singular
+  bool last_near_ = false;     // the last one was
+  bool expects_ = false;       // its passage is expected by the step before
   std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 

@@ -17,8 +17,8 @@ constexpr double kNear = 5;
 constexpr double kAhead = 2.2;
 /// Where in a step over a crossing that lies, in order of preference, as shares of the step: far from the
 /// method's stages, which are lost to rounding near it. And where the step begins close before one.
-constexpr double kBetween[] = {0.465, 0.45, 0.48, 0.43, 0.5, 0.4, 0.55, 0.754, 0.72, 0.19, 0.21, 0.17};
-constexpr double kSoon[] = {0.19, 0.21, 0.17, 0.1, 0.065, 0.03, 0.02, 0.465, 0.43, 0.5};
+constexpr double kBetween[] = {0.465, 0.45, 0.48, 0.43, 0.5, 0.4, 0.55, 0.715, 0.7, 0.15, 0.16};
+constexpr double kSoon[] = {0.15, 0.16, 0.14, 0.225, 0.065, 0.03, 0.02, 0.465, 0.43, 0.5};
 /// Of steps, from where on which: a crossing within this is passed, within less it is close.
 constexpr double kFar = 1.1, kPass = 0.75, kClose = 0.3;
 /// The shortest and the longest step over a crossing, in steps.
@@ -28,7 +28,8 @@ constexpr double kShortestOver = 0.2, kLongestOver = 2.5;
 constexpr double kTight = 1e-11;
 /// Of the tolerance: what a step over a crossing may err by, where rounding leaves no better.
 constexpr double kLoose = 1;
-/// Steps that have shrunk to less of the time that the scene's accelerations take over its length do not pass.
+/// Steps that have shrunk to less of the time that the scene's accelerations take over its length do not
+/// pass.
 constexpr double kShortest = 1e-5;
 
 }  // namespace
@@ -36,8 +37,7 @@ constexpr double kShortest = 1e-5;
 /// Whether the linkage comes near a singular place or leaves one: its weakest row's strength, which goes to
 /// zero there with the distance, would be at zero within a few steps. `start_` to `time_` is the last step.
 bool SmoothMotion::is_near_crossing() {
-  if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic ||
-      equations_.holds_anything())
+  if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic || equations_.holds_anything())
     return false;
   const double h = time_ - start_;
   if (!(h > 0) || last_implicit_ || proposed_step_ == 0) return near_;
@@ -78,7 +78,7 @@ double SmoothMotion::step_near_crossing(double limit) {
     const std::optional<Passage::Crossing> crossing = passage_.crossing(start_, start_ + kAhead * h);
     const double left = crossing ? crossing->time - start_ : 0;
     const bool meets = crossing && crossing->meets;
-    const double strict = meets ? std::min(1.0, kTight / tolerance_) : 1;
+    const double strict = crossing ? std::min(1.0, kTight / tolerance_) : 1;
     const double loose = std::max(strict, kLoose * kSteps);
     double error = std::numeric_limits<double>::infinity();
     if (!meets || left > kPass * h) {
@@ -158,13 +158,14 @@ double SmoothMotion::try_near_crossing(double end) {
 
 void SmoothMotion::refuse_crossing() const {
   const std::string joint = equations_.weakest_joint();
-  throw Error(Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",
-              shortest(std::sqrt(rank_at_start_.weakest)),
-              "the linkage is all but singular here, and its way on cannot be told to tolerance " +
-                  shortest(tolerance_ * kSteps) +
-                  ": joints hardly hold a direction that two branches of its motion share; try a larger "
-                  "tolerance, give a link that is as long as another a length that is clearly its own, or use "
-                  "Realtime");
+  throw Error(
+      Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",
+      shortest(std::sqrt(rank_at_start_.weakest)),
+      "the linkage is all but singular here, and its way on cannot be told to tolerance " +
+          shortest(tolerance_ * kSteps) +
+          ": joints hardly hold a direction that two branches of its motion share; try a larger "
+          "tolerance, give a link that is as long as another a length that is clearly its own, or use "
+          "Realtime");
 }
 
 }  // namespace plumb::precise

@@ -76,6 +76,10 @@ void SmoothMotion::restore(SnapshotReader& in) {
   path.set_nodes(nodes);
   for (int k = 1; k <= path.degree(); ++k) get(path.term(k));
   equations_.set_window(start_, start_);
+  equations_.release_dependent();
+  if (!near_) return;
+  equations_.weakness(time_, y_.value());
+  equations_.keep_dependent();
 }
 
 }  // namespace plumb::precise

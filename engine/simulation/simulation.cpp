@@ -106,6 +106,8 @@ void Simulation::set_state(std::size_t body, const BodyState& state) {
   driver_->write(body, state);
 }
 
+Reactions Simulation::forces() const { return driver_->reactions(); }
+
 std::uint64_t Simulation::hash() const {
   std::vector<BodyState> states(body_count_);
   driver_->read(states);

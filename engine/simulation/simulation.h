@@ -25,6 +25,11 @@ class Simulation {
   void read(std::span<BodyState> out) const;  ///< `out` has `body_count()` elements, in the scene's order
   void set_state(std::size_t body, const BodyState& state);  ///< Error (Value) beyond 1e100
 
+  /// The forces of joints and lasting contacts at `time`, of Precise; throws `Error` (Unsupported) where the
+  /// accuracy is Realtime, which has impulses alone. Contacts have some from the first step on. Of joints
+  /// that repeat what others hold, one of many answers: the first carry all.
+  Reactions forces() const;
+
   /// 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for the same
   /// run.
   std::uint64_t hash() const;

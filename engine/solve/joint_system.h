@@ -51,7 +51,9 @@ class JointSystem {
   /// It goes to zero where the mechanism becomes singular.
   Real weakest() const { return weakest_; }
   /// Its row; `row_count` where no row is weaker than alone.
-  std::size_t weakest_row() const { return weakest_place_ < order_.size() ? static_cast<std::size_t>(order_[weakest_place_]) : order_.size(); }
+  std::size_t weakest_row() const {
+    return weakest_place_ < order_.size() ? static_cast<std::size_t>(order_[weakest_place_]) : order_.size();
+  }
   /// Of the last factorisation: whether a row depends on others.
   std::vector<char> dependent() const;
 
@@ -114,7 +116,7 @@ class JointSystem {
   Real weakest_ = 1, least_share_ = 0;
   std::size_t weakest_place_ = 0;
   int kept_count_ = 0;
-  std::vector<char> kept_;  // by place, dependent rows that stay so; empty: none
+  std::vector<char> kept_;     // by place, dependent rows that stay so; empty: none
   std::vector<Hinge> hinges_;  // in the elimination order; empty unless all rows are of hinges in lines
   std::vector<HingeBlock> hinge_blocks_;
   std::vector<std::size_t> filled_;  // while factorising: the end of what is known of a column

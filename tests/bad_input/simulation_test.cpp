@@ -30,7 +30,7 @@ TEST(SimulationSettings, BadOnesAreRefused) {
                {"Realtime.integrator", {0, 2}},
                {"Realtime.joint_solver", {0, 1}},
                {"Realtime.on_doubt", {0, 1}},
-               {"Precise.tolerance", {1e-100, 1e100}},
+               {"Precise.tolerance", {1e-12, 1e100}},
                {"Precise.max_dt", {1e-100, 1e100}},
                {"Precise.method", {0, 3}}});
   int refused = 0;
