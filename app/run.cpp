@@ -1,5 +1,7 @@
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -7,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/force_writer.h"
 #include "app/guard.h"
 #include "app/output.h"
 #include "app/report_error.h"
@@ -15,6 +18,7 @@
 #include "app/trajectory_writer.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
+#include "engine/simulation/joint_starts.h"
 #include "harness/interrupt.h"
 #include "harness/truth_table.h"
 
@@ -24,8 +28,13 @@ namespace {
 struct Options {
   std::string name, engine = "plumb", format = "csv", duration, rate;
   int size = 0;
+  bool forces = false;
   SettingsOptions settings;
 };
+
+/// Joints that start off by more than this, m or rad and per second, are named: it is no rounding, of numbers
+/// with six digits neither.
+constexpr double kOpenJoint = 1e-5;
 
 /// Thrown out of a run that the user has stopped.
 struct Interrupted {};
@@ -51,16 +60,28 @@ int sample_count(double duration, double dt, int every) {
 int run(const Options& options, const reference::Backend& backend, const reference::StepSettings& settings,
         const Source& source, int every, int samples) {
   const auto simulator = backend.create(source.scene, settings);
-  const TrajectoryWriter writer(source.scene, options.format == "json" ? TrajectoryWriter::Format::Json
-                                                                       : TrajectoryWriter::Format::Csv);
+  const auto format =
+      options.format == "json" ? TrajectoryWriter::Format::Json : TrajectoryWriter::Format::Csv;
+  std::function<void(double, std::span<const BodyState>)> write;
+  if (options.forces) {
+    (void)simulator->forces();  // an engine that has none says so before anything is printed
+    write = [&simulator, writer = ForceWriter(source.scene, format)](
+                double time, std::span<const BodyState>) { writer.write(time, simulator->forces()); };
+  } else {
+    write = [writer = TrajectoryWriter(source.scene, format)](double time, std::span<const BodyState> now) {
+      writer.write(time, now);
+    };
+  }
+  for (const std::string& complaint : joint_complaints(source.scene, kOpenJoint, kOpenJoint))
+    fmt::print(stderr, "{}: {}\n", options.engine, complaint);
   std::vector<BodyState> states(source.scene.bodies.size());
   simulator->read(states);
-  writer.write(0, states);
+  write(0, states);
   long step = 0;
   const auto sink = [&](double, std::span<const BodyState> now) {
     if (harness::interrupted()) throw Interrupted{};
     step += every;
-    writer.write(static_cast<double>(step) * settings.dt, now);
+    write(static_cast<double>(step) * settings.dt, now);
   };
   try {
     simulator->record(samples, every, states.size(), sink);
@@ -110,6 +131,8 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("--rate", options->rate, "samples a second (default: every step)")->type_name("HZ");
   command->add_option("--format", options->format, "csv or json, a line a sample (default csv)")
       ->check(CLI::IsMember({"csv", "json"}));
+  command->add_flag("--forces", options->forces,
+                    "print the forces of joints and contacts in place of the motion (plumb-precise)");
   command->footer(
       "Examples:\n  plumb run free_fall/vacuum --engine box2d --rate 10\n"
       "  plumb run pendulum_chain[20] --engine plumb-precise --tolerance 1e-10 --format json\n"

@@ -13,14 +13,14 @@ namespace {
 // JSON has no word for what is not finite.
 std::string json_number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
 
+}  // namespace
+
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
-
-}  // namespace
 
 TrajectoryWriter::TrajectoryWriter(const Scene& scene, Format format) : scene_(scene), format_(format) {
   if (format == Format::Csv) print("t,body,x,y,angle,vx,vy,w\n");

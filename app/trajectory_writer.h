@@ -7,6 +7,9 @@
 
 namespace plumb::app {
 
+/// A field of CSV, quoted where it has to be.
+std::string csv_text(const std::string& text);
+
 /// Prints a run's samples. Numbers are the shortest that read back to the same bits.
 class TrajectoryWriter {
  public:

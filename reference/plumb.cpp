@@ -31,6 +31,7 @@ class PlumbSimulator final : public Simulator {
   }
   double time() const override { return world_.time(); }
   void read(std::span<BodyState> out) const override { world_.read(out); }
+  Reactions forces() const override { return world_.forces(); }
 
   std::vector<std::pair<std::string, std::string>> report() const override {
     const Statistics did = world_.statistics();

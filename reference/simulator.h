@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/simulation/driver.h"
 
 namespace plumb::reference {
 
@@ -31,6 +32,9 @@ class Simulator {
 
   /// Advances by `samples` times `every` steps and hands over the states after each. Returns ns as `advance`.
   virtual double record(int samples, int every, std::size_t bodies, const Sink& sink);
+
+  /// The forces of joints and contacts now. Throws `Error` (Unsupported) where the engine has none to show.
+  virtual Reactions forces() const;
 };
 
 }  // namespace plumb::reference
