@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <variant>
 
 #include "engine/joints/joints.h"
@@ -58,13 +60,14 @@ std::vector<JointStart> joint_starts(const Scene& scene) {
   names.insert(names.end(), others.row_names().begin(), others.row_names().end());
 
   std::vector<JointStart> found;
+  std::map<std::pair<std::string, bool>, std::size_t> place_of;
   const auto offer = [&](const std::string& joint, const Row<double>& row, double gap, double speed) {
     const bool turns = row.linear_a == Vec2d{} && row.linear_b == Vec2d{};
-    auto at = std::find_if(found.begin(), found.end(),
-                           [&](const JointStart& s) { return s.joint == joint && s.turns == turns; });
-    if (at == found.end()) at = found.insert(found.end(), {joint, turns, 0, 0});
-    at->gap = std::max(at->gap, gap);
-    at->speed = std::max(at->speed, speed);
+    auto [at, fresh] = place_of.try_emplace({joint, turns}, found.size());
+    if (fresh) found.push_back({joint, turns, 0, 0});
+    JointStart& start_of = found[at->second];
+    start_of.gap = std::max(start_of.gap, gap);
+    start_of.speed = std::max(start_of.speed, speed);
   };
   for (std::size_t r = 0; r < rows.size(); ++r)
     offer(names[r], rows[r], std::abs(rows[r].residual), std::abs(rate_along(rows[r], start.twists)));

@@ -107,9 +107,9 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
     locked_.push_back(body.fixed_rotation);
   }
   name_redundant_joints();
+  const double rounding = kRoundings * equations_.rounding_of_gaps(), length = equations_.length();
   for (const JointStart& start : joint_starts(scene)) {
-    const double rounding = kRoundings * equations_.rounding_of_gaps();
-    const double allowed = overlap_ * (start.turns ? 1 : scales_of(scene, parts_).length) + rounding;
+    const double allowed = overlap_ * (start.turns ? 1 : length) + rounding;
     if (start.gap > allowed && start.gap > open_.gap) open_ = start;
   }
 }
