@@ -1,5 +1,6 @@
 #include "engine/collide/dynamic_tree.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/scene/room.h"
@@ -22,11 +23,11 @@ Real distance_squared(const Aabb<Real>& a, const Aabb<Real>& b) {
 
 template <class Real>
 int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int user) {
+  make_room(1);
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
-    append(slots_, kNone);
-    append(boxes_, box);
-    free_proxies_.reserve(slots_.capacity());
+    slots_.push_back(kNone);
+    boxes_.push_back(box);
   } else {
     proxy = free_proxies_.back();
     free_proxies_.pop_back();
@@ -113,6 +114,15 @@ void DynamicTree<Real>::reserve(int leaves) {
   items_.reserve(count);
 }
 
+template <class Real>
+void DynamicTree<Real>::make_room(std::size_t more) {
+  const std::size_t proxies = slots_.size() + more - std::min(more, free_proxies_.size());
+  ensure_room(slots_, proxies), ensure_room(boxes_, proxies), ensure_room(free_proxies_, proxies);
+  const std::size_t pairs =
+      pairs_.size() + 1 + more - std::min(more, free_pairs_.size());  // pair 0 holds none
+  ensure_room(pairs_, pairs), ensure_room(free_pairs_, pairs);
+}
+
 /// Tells a node's children, or its proxy, where it is.
 template <class Real>
 void DynamicTree<Real>::adopt(int slot) {
@@ -142,7 +152,7 @@ template <class Real>
 int DynamicTree<Real>::new_pair() {
   if (free_pairs_.empty()) {
     append(pairs_, Pair{});
-    free_pairs_.reserve(pairs_.capacity());  // so that taking a leaf out allocates nothing
+    ensure_room(free_pairs_, pairs_.size());  // so that taking a leaf out allocates nothing
     return static_cast<int>(pairs_.size()) - 1;
   }
   const int pair = free_pairs_.back();

@@ -101,6 +101,8 @@ class DynamicTree {
   void clear();
   /// Makes room for `leaves` leaves, so that inserting and rebuilding them allocates nothing.
   void reserve(int leaves);
+  /// Makes room for `more` leaves, likewise, with some over for those that follow.
+  void make_room(std::size_t more);
 
   /// Appends all that decides what the tree does next, its free places included.
   void save(std::vector<std::byte>& out) const;

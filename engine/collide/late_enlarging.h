@@ -14,6 +14,7 @@ template <class Real>
 class LateEnlarging {
  public:
   explicit LateEnlarging(DynamicTree<Real>& tree) : tree_(tree) {}
+  ~LateEnlarging() { finish(); }  // also when what came between has thrown
   LateEnlarging(const LateEnlarging&) = delete;
   LateEnlarging& operator=(const LateEnlarging&) = delete;
 
@@ -24,7 +25,7 @@ class LateEnlarging {
     waiting_[given_ % kWait] = {proxy, box};
     ++given_;
   }
-  /// To be called once, after the last box.
+  /// To be called after the last box.
   void finish() {
     for (unsigned i = given_ < kWait ? 0 : given_ - kWait; i < given_; ++i) take(i);
     given_ = 0;

@@ -15,11 +15,17 @@ inline std::size_t grown_room(std::size_t capacity, std::size_t size) {
   return std::max(size, capacity < kDoubled ? 2 * capacity : capacity + capacity / 4);
 }
 
+/// Makes room for `wanted` items, so that a list gets as many without an allocation.
+template <class T>
+void ensure_room(std::vector<T>& list, std::size_t wanted) {
+  if (wanted > list.capacity()) list.reserve(grown_room(list.capacity(), wanted));
+}
+
 /// Resizes a list.
 template <class T>
 void make_room(std::vector<T>& list, int size) {
   const std::size_t wanted = static_cast<std::size_t>(size);
-  if (wanted > list.capacity()) list.reserve(grown_room(list.capacity(), wanted));
+  ensure_room(list, wanted);
   list.resize(wanted);
 }
 

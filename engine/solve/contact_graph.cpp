@@ -1,5 +1,7 @@
 #include "engine/solve/contact_graph.h"
 
+#include <algorithm>
+
 namespace plumb {
 namespace {
 
@@ -23,11 +25,13 @@ auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool giv
     chosen = c;
     break;
   }
+  // First what may run out of memory.
+  if (chosen != kOverflow) bodies_[chosen].ensure(std::max(gives_way_a ? a + 1 : 0, gives_way_b ? b + 1 : 0));
+  colours_[chosen].push_back(constraint);
   if (chosen != kOverflow) {
     if (gives_way_a) bodies_[chosen].set(a);
     if (gives_way_b) bodies_[chosen].set(b);
   }
-  colours_[chosen].push_back(constraint);
   if (colours_[chosen].size() == 1) find_used();
   return {chosen, static_cast<int>(colours_[chosen].size()) - 1};
 }

@@ -87,6 +87,8 @@ struct JointSet<Real>::Parts {
   void create(int joint);
   /// Takes the joint's constraint out of its list.
   void take_out(int joint);
+  /// Makes room for the constraint of a joint whose colour is not marked: putting it there allocates nothing.
+  void make_room(JointForm form, const JointSlot& s);
   /// Puts a constraint where the slot says that it belongs.
   template <class Constraint>
   void put(int joint, const Constraint& constraint);

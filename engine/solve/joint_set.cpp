@@ -13,6 +13,7 @@
 
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
+#include "engine/scene/room.h"
 #include "engine/solve/hinge_sweeps.h"
 #include "engine/solve/joint_parts.h"
 #include "engine/solve/joint_share.h"
@@ -137,6 +138,7 @@ template <class Real>
 template <class Constraint>
 void JointSet<Real>::Parts::put(int joint, const Constraint& constraint) {
   JointSlot& s = slot(joint);
+  make_room(s.form, s);
   s.colour = s.active ? free_colour(s) : kParked;
   mark(s, true);
   auto& list = std::get<JointLists<Constraint>>(store)[s.colour];
@@ -146,8 +148,16 @@ void JointSet<Real>::Parts::put(int joint, const Constraint& constraint) {
 }
 
 template <class Real>
+void JointSet<Real>::Parts::make_room(JointForm form, const JointSlot& s) {
+  const int colour = s.active ? free_colour(s) : kParked;
+  runs.reserve(static_cast<std::size_t>(kForms) * (kOverflowColour + 1));
+  with(form, [&](auto& lists) { ensure_room(lists[colour], lists[colour].size() + 1); });
+}
+
+template <class Real>
 void JointSet<Real>::Parts::put_anew(int joint) {
   const JointSlot& s = slot(joint);
+  make_room(s.form, s);
   with(s.form, [&](auto& lists) {
     const auto constraint = lists[s.colour][s.index];
     take_out(joint);
@@ -188,9 +198,10 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
   validate(definition);
   check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
   Parts& p = *parts_;
+  ensure_room(p.free, p.slots.size() + 1);  // removing a joint allocates nothing
   if (p.free.empty()) {
-    p.free.push_back(static_cast<int>(p.slots.size()));
     p.slots.emplace_back();
+    p.free.push_back(static_cast<int>(p.slots.size()) - 1);
   }
   const int joint = p.free.back();
   p.free.pop_back();
@@ -203,7 +214,13 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
                    .dynamic_a = dynamic_a,
                    .dynamic_b = dynamic_b,
                    .active = true};
-  p.create(joint);
+  try {
+    p.create(joint);
+  } catch (...) {
+    p.slot(joint) = {};
+    p.free.push_back(joint);
+    throw;
+  }
   ++p.count;
   ++p.active;
   return joint;
@@ -212,6 +229,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
 template <class Real>
 void JointSet<Real>::remove(int joint) {
   Parts& p = *parts_;
+  ensure_room(p.free, p.free.size() + 1);
   p.mark(p.slot(joint), false);
   p.take_out(joint);
   --p.count;
@@ -227,8 +245,14 @@ void JointSet<Real>::set_active(int joint, bool active) {
   if (s.active == active) return;
   p.mark(s, false);
   s.active = active;
+  try {
+    p.put_anew(joint);
+  } catch (...) {
+    s.active = !active;
+    p.mark(s, true);
+    throw;
+  }
   p.active += active ? 1 : -1;
-  p.put_anew(joint);
 }
 
 template <class Real>
@@ -236,10 +260,17 @@ void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
   Parts& p = *parts_;
   JointSlot& s = p.slot(joint);
   if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
+  const auto [was_a, was_b] = std::pair{s.dynamic_a, s.dynamic_b};
   p.mark(s, false);
   s.dynamic_a = dynamic_a;
   s.dynamic_b = dynamic_b;
-  p.put_anew(joint);
+  try {
+    p.put_anew(joint);
+  } catch (...) {
+    s.dynamic_a = was_a, s.dynamic_b = was_b;
+    p.mark(s, true);
+    throw;
+  }
 }
 
 template <class Real>
@@ -256,6 +287,12 @@ void JointSet<Real>::change(int joint, const JointKind& definition) {
   Vec2<Real> impulse{};
   hinge_impulse(p, joint, [&](Vec2<Real>& now) { impulse = now; });
   p.mark(s, false);
+  try {
+    p.make_room(form_of(definition), s);
+  } catch (...) {
+    p.mark(s, true);
+    throw;
+  }
   p.take_out(joint);
   s.definition = definition;
   p.create(joint);

@@ -27,20 +27,23 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
 
-/// Mass, centre and inertia from the shapes' densities, unless they were given.
-/// Error (Value) where the densities of a body's shapes give it a mass that `Real` does not hold.
+/// What few bodies have: a place of its own for it, from now on.
 template <class Real>
-void require_weights(const WorldData<Real>& w, int body);
-template <class Real>
-void update_mass(WorldData<Real>& w, int body);
-template <class Real>
-void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
+UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body);
 
-/// Puts a shape into the body's list, and takes it out; mass and tree are the caller's business.
-template <class Real>
-int insert_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition);
+/// Takes a shape that has no contacts out of the body's list and the trees; mass is the caller's business.
 template <class Real>
 void take_out_shape(WorldData<Real>& w, int shape);
+/// Likewise all shapes of a chain.
+template <class Real>
+void take_out_chain(WorldData<Real>& w, int chain);
+
+/// Has pairs looked for with the shape in the next step.
+template <class Real>
+void note_moved(WorldData<Real>& w, int shape);
+/// Ends what a sensor sees, and its record.
+template <class Real>
+void end_visits(WorldData<Real>& w, int shape);
 
 /// Into the tree of the body's type, to be paired in the next step, and out of it.
 template <class Real>

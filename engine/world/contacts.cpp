@@ -1,6 +1,7 @@
 #include "engine/world/contacts.h"
 
 #include "engine/world/islands.h"
+#include "engine/world/narrow_phase.h"
 
 namespace plumb {
 namespace {
@@ -13,18 +14,25 @@ void count_constraint(WorldData<Real>& w, const ContactRecord& contact, int by) 
 
 template <class Real>
 void enter_near(WorldData<Real>& w, int contact) {
+  append(w.near, contact);
   ContactRecord& record = w.contacts[contact];
   record.home = ContactHome::Near;
-  record.index = static_cast<int>(w.near.size());
-  w.near.push_back(contact);
+  record.index = static_cast<int>(w.near.size()) - 1;
+}
+
+// The last one without points takes the place.
+template <class Real>
+void leave_place(WorldData<Real>& w, int index) {
+  if (index + 1 < static_cast<int>(w.near.size())) {
+    w.near[index] = w.near.back();
+    w.contacts[w.near[index]].index = index;
+  }
+  w.near.pop_back();
 }
 
 template <class Real>
 void leave_near(WorldData<Real>& w, int contact) {
-  const int index = w.contacts[contact].index;
-  w.near[index] = w.near.back();
-  w.contacts[w.near[index]].index = index;
-  w.near.pop_back();
+  leave_place(w, w.contacts[contact].index);
 }
 
 template <class Real>
@@ -47,10 +55,11 @@ void leave_graph(WorldData<Real>& w, int contact) {
 }
 
 template <class Real>
-void leave_parked(WorldData<Real>& w, int contact) {
-  const int index = w.contacts[contact].index;
-  w.parked[index] = w.parked.back();
-  w.contacts[w.parked[index].contact].index = index;
+void leave_parked(WorldData<Real>& w, int index) {
+  if (index + 1 < static_cast<int>(w.parked.size())) {
+    w.parked[index] = w.parked.back();
+    w.contacts[w.parked[index].contact].index = index;
+  }
   w.parked.pop_back();
 }
 
@@ -87,9 +96,11 @@ ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
   const ContactRecord record = contact_of(w, shape_a, shape_b);
+  w.contacts.make_room(1);
+  ensure_room(w.near, w.near.size() + 1);
+  w.pairs.insert(record.shape_a, record.shape_b);
   const int contact = w.contacts.add(record);
   link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
-  w.pairs.insert(record.shape_a, record.shape_b);
   if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) {
     enter_near(w, contact);
   } else {
@@ -109,7 +120,7 @@ void destroy_contact(WorldData<Real>& w, int contact) {
       leave_graph(w, contact);
       break;
     case ContactHome::Parked:
-      leave_parked(w, contact);
+      leave_parked(w, record.index);
       break;
     case ContactHome::Idle:
       break;
@@ -123,16 +134,25 @@ void destroy_contact(WorldData<Real>& w, int contact) {
 
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
-  leave_near(w, contact);
+  const int near = w.contacts[contact].index;
   enter_graph(w, contact, constraint);
+  leave_place(w, near);
   const ContactRecord record = w.contacts[contact];
   count_constraint(w, record, 1);
-  wake_body(w, record.body_a);
-  wake_body(w, record.body_b);
+  try {
+    wake_body(w, record.body_a);
+    wake_body(w, record.body_b);
+  } catch (...) {
+    leave_graph(w, contact);
+    enter_near(w, contact);  // where it was: there is room
+    count_constraint(w, record, -1);
+    throw;
+  }
 }
 
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact) {
+  ensure_room(w.near, w.near.size() + 1);
   set_touching(w, contact, false);
   leave_graph(w, contact);
   enter_near(w, contact);
@@ -142,12 +162,13 @@ void end_contact(WorldData<Real>& w, int contact) {
 template <class Real>
 void park_contact(WorldData<Real>& w, int contact) {
   ContactRecord& record = w.contacts[contact];
-  if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
   if (record.home == ContactHome::Near) {
+    // A kinematic body that is awake may come to touch a sleeper.
+    if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
     leave_near(w, contact);
     record.home = ContactHome::Idle;
   } else if (record.home == ContactHome::Graph) {
-    w.parked.push_back(w.graph.at({record.colour, record.index}));
+    append(w.parked, w.graph.at({record.colour, record.index}));
     leave_graph(w, contact);
     record.home = ContactHome::Parked;
     record.index = static_cast<int>(w.parked.size()) - 1;
@@ -160,9 +181,10 @@ void unpark_contact(WorldData<Real>& w, int contact) {
   if (record.home == ContactHome::Idle) {
     enter_near(w, contact);
   } else if (record.home == ContactHome::Parked) {
-    const ContactConstraint<Real> constraint = w.parked[record.index];
-    leave_parked(w, contact);
+    const int parked = record.index;
+    const ContactConstraint<Real> constraint = w.parked[parked];
     enter_graph(w, contact, constraint);
+    leave_parked(w, parked);
   }
 }
 
@@ -176,11 +198,11 @@ template <class Real>
 void set_touching(WorldData<Real>& w, int contact, bool touching) {
   ContactRecord& record = w.contacts[contact];
   if (record.touching == touching) return;
-  record.touching = touching;
   const auto id = [&](int shape) {
     return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
   };
   (touching ? w.log().begin : w.log().end).push_back({id(record.shape_a), id(record.shape_b)});
+  record.touching = touching;
 }
 
 template <class Real>
@@ -202,6 +224,31 @@ void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
   });
 }
 
+template <class Real>
+void destroy_forbidden_contacts(WorldData<Real>& w, int shape) {
+  for_each_edge(w.contacts, w.bodies[w.shapes[shape].body].first_contact,
+                [&](int edge, const ContactRecord& contact) {
+                  if (contact.shape_a != shape && contact.shape_b != shape) return;
+                  const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+                  if (contact.home == ContactHome::Parked) wake_body(w, other);
+                  if (!may_touch(w.shapes[contact.shape_a].filter, w.shapes[contact.shape_b].filter))
+                    destroy_contact(w, edge / 2);
+                });
+}
+
+template <class Real>
+void wake_touched(WorldData<Real>& w, int shape) {
+  const ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.proxy == kNone || w.bodies[record.body].type != BodyType::Static) return;
+  const Aabb<Real>& box = w.still_tree.box(record.proxy);
+  w.moving_tree.query(box, seen_by(record.filter), [&](int other, int) {
+    const int body = w.shapes[other].body;
+    if (!w.bodies[body].awake && may_collide(w, shape, other) && meet_now(w, shape, other))
+      wake_body(w, body);
+    return true;
+  });
+}
+
 #define PLUMB_FOR(Real)                                                                    \
   template bool may_collide(const WorldData<Real>&, int, int);                             \
   template ContactRecord contact_of(const WorldData<Real>&, int, int);                     \
@@ -214,7 +261,9 @@ void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
   template ContactConstraint<Real>& constraint_of(WorldData<Real>&, const ContactRecord&); \
   template void set_touching(WorldData<Real>&, int, bool);                                 \
   template void forget_manifolds(WorldData<Real>&, int);                                   \
-  template void destroy_contacts_of(WorldData<Real>&, int, int);
+  template void destroy_contacts_of(WorldData<Real>&, int, int);                           \
+  template void destroy_forbidden_contacts(WorldData<Real>&, int);                         \
+  template void wake_touched(WorldData<Real>&, int);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -34,7 +34,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact);
 
-/// To Parked or Idle when all its bodies sleep, and back.
+/// To Parked or Idle when none of its bodies that give way is awake, and back.
 template <class Real>
 void park_contact(WorldData<Real>& w, int contact);
 template <class Real>
@@ -55,6 +55,15 @@ void forget_manifolds(WorldData<Real>& w, int body);
 /// Destroys all contacts of a body, or of one shape of it; what rested on it wakes up.
 template <class Real>
 void destroy_contacts_of(WorldData<Real>& w, int body, int shape = kNone);
+
+/// After a shape got another filter: destroys its contacts that this forbids. What touches it wakes up.
+template <class Real>
+void destroy_forbidden_contacts(WorldData<Real>& w, int shape);
+
+/// Wakes what sleeps where a static shape has come to be, and would be pressed by it. (A body that moves is
+/// awake, and wakes what it meets in the next step.)
+template <class Real>
+void wake_touched(WorldData<Real>& w, int shape);
 
 /// Calls visit(edge, record of contact or joint) along a body's list; the visited one may be removed.
 template <class Items, class Visit>

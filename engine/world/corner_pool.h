@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <tuple>
@@ -19,23 +21,41 @@ namespace plumb {
 template <class Real>
 class CornerPool {
  public:
-  /// Where a run of these corners begins.
+  /// How many runs of each length.
+  using Runs = std::array<std::size_t, kMaxCorners + 3>;
+
+  /// Makes room for `more` runs: adding them, and removing any, allocates nothing then.
+  void make_room_for(const Runs& more) {
+    std::size_t runs = 0, corners = 0, longest = 0;
+    for (std::size_t length = 0; length < more.size(); ++length) {
+      if (more[length] == 0) continue;
+      runs += more[length], corners += more[length] * length, longest = length;
+    }
+    make_table(runs);
+    if (free_.size() <= longest) free_.resize(longest + 1);
+    for (std::size_t length = 0; length <= longest; ++length) {
+      if (more[length] > 0) ensure_room(free_[length], free_[length].size() + in_use_[length] + more[length]);
+    }
+    ensure_room(corners_, corners_.size() + corners);
+  }
+
+  /// Where a run of these corners begins. Where memory is out, nothing has changed.
   int add(std::span<const Corner<Real>> corners) {
-    make_table();
+    const int count = static_cast<int>(corners.size());
+    make_room_for_one(corners.size());
     Run& found = table_[find(corners)];
     if (found.uses++ > 0) return found.first;
-    const int count = static_cast<int>(corners.size());
-    std::vector<int>& free = free_of(count);
+    std::vector<int>& free = free_[corners.size()];
     int first = static_cast<int>(corners_.size());
     if (free.empty()) {
-      make_room(corners_, first + count);
+      corners_.resize(corners_.size() + corners.size());
     } else {
       first = free.back();
       free.pop_back();
     }
     std::copy(corners.begin(), corners.end(), corners_.begin() + first);
     found.first = first, found.count = count;
-    ++runs_;
+    ++runs_, ++in_use_[corners.size()];
     return first;
   }
 
@@ -43,8 +63,8 @@ class CornerPool {
   void remove(int first, int count) {
     std::size_t hole = find(run(first, count));
     if (--table_[hole].uses > 0) return;
-    free_of(count).push_back(first);
-    --runs_;
+    free_[static_cast<std::size_t>(count)].push_back(first);
+    --runs_, --in_use_[static_cast<std::size_t>(count)];
     // Later runs move back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R).
     const std::size_t mask = table_.size() - 1;
     for (std::size_t at = (hole + 1) & mask; table_[at].uses > 0; at = (at + 1) & mask) {
@@ -58,9 +78,12 @@ class CornerPool {
 
   /// After parts() were set: counts one use of a run. False when an equal run begins somewhere else.
   bool count_use(int first, int count) {
-    make_table();
+    make_room_for_one(static_cast<std::size_t>(count));
     Run& found = table_[find(run(first, count))];
-    if (found.uses == 0) found.first = first, found.count = count, ++runs_;
+    if (found.uses == 0) {
+      found.first = first, found.count = count;
+      ++runs_, ++in_use_[static_cast<std::size_t>(count)];
+    }
     ++found.uses;
     return found.first == first;
   }
@@ -80,14 +103,20 @@ class CornerPool {
     int uses = 0;  ///< 0: an empty place
   };
 
-  std::vector<int>& free_of(int count) {
-    const std::size_t length = static_cast<std::size_t>(count);
+  void make_room_for_one(std::size_t length) {
+    make_table(1);
     if (free_.size() <= length) free_.resize(length + 1);
-    return free_[length];
+    ensure_room(free_[length], free_[length].size() + in_use_[length] + 1);
+    ensure_room(corners_, corners_.size() + length);
   }
 
+  // Coordinates with few digits leave the checksum's lower bits alike, which choose the place: the finalizer
+  // of MurmurHash3 (Appleby) mixes the upper ones in.
   static std::size_t hash(std::span<const Corner<Real>> corners) {
-    return static_cast<std::size_t>(checksum(std::as_bytes(corners)));
+    std::uint64_t sum = checksum(std::as_bytes(corners));
+    sum = (sum ^ (sum >> 33)) * 0xff51afd7ed558ccdu;
+    sum = (sum ^ (sum >> 33)) * 0xc4ceb9fe1a85ec53u;
+    return static_cast<std::size_t>(sum ^ (sum >> 33));
   }
 
   // The place of an equal run, or the empty one where it belongs.
@@ -102,11 +131,12 @@ class CornerPool {
     return at;
   }
 
-  // Room for one more run in a table that is three quarters full at most.
-  void make_table() {
-    if (4 * (runs_ + 1) <= 3 * table_.size()) return;
-    const std::vector<Run> old =
-        std::exchange(table_, std::vector<Run>(std::max<std::size_t>(16, 2 * table_.size())));
+  // Room for more runs in a table that is three quarters full at most.
+  void make_table(std::size_t more) {
+    std::size_t size = std::max<std::size_t>(16, table_.size());
+    while (4 * (runs_ + more) > 3 * size) size *= 2;
+    if (size == table_.size()) return;
+    const std::vector<Run> old = std::exchange(table_, std::vector<Run>(size));
     for (const Run& each : old) {
       if (each.uses > 0) table_[find(run(each.first, each.count))] = each;
     }
@@ -116,6 +146,7 @@ class CornerPool {
   std::vector<std::vector<int>> free_;
   std::vector<Run> table_;  // a power of two, or none
   std::size_t runs_ = 0;    // in use
+  Runs in_use_{};
 };
 
 }  // namespace plumb

@@ -43,13 +43,16 @@ struct ChainDefinition {
   bool closed = false;          ///< the last point is joined to the first
   Material material{};
   Filter filter{};
+  bool sensor = false;      ///< each of its segments reports what overlaps it, and touches nothing
+  bool hit_events = false;  ///< reports hard impacts
+  bool pre_solve = false;   ///< asks the pre-solve hook
   std::uint64_t user_data = 0;
 };
 
 /// A body's mass, when it is not to follow from its shapes' densities.
 struct MassProperties {
-  double mass = 1;     ///< kg, > 0
-  Vec2d centre{};      ///< m, of mass, in the body's frame
+  double mass = 1;  ///< kg, > 0
+  Vec2d centre{};   ///< m, of mass, in the body's frame; a kinematic body turns about its origin all the same
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
@@ -58,7 +61,7 @@ struct BodyDefinition {
   BodyType type = BodyType::Dynamic;
   Vec2d position{};             ///< m, of the body's origin
   double angle = 0;             ///< rad
-  Vec2d velocity{};             ///< m/s, of the centre of mass
+  Vec2d velocity{};             ///< m/s, of the centre of mass; of a kinematic body of its origin
   double angular_velocity = 0;  ///< rad/s
   std::optional<MassProperties> mass{};
   double gravity_scale = 1;

@@ -44,6 +44,8 @@ struct QuarantineEvent {
 };
 
 /// What happened in the last step (and, for the endings, since the one before); the next step empties it.
+/// What began ends once, whatever happens to it. Bodies that wake and fall asleep over and over between two
+/// steps may be told of once.
 struct Events {
   std::vector<TouchEvent> begin, end;
   std::vector<HitEvent> hits;

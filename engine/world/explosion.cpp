@@ -2,6 +2,7 @@
 
 #include "engine/world/force_laws.h"
 #include "engine/world/law_bodies.h"
+#include "engine/world/lock.h"
 #include "engine/world/queries.h"
 
 namespace plumb {
@@ -25,7 +26,8 @@ void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions
   require_finite("explosion", "centre", blast.centre);
   require_positive("explosion", "radius", blast.radius);
   require_finite("explosion", "impulse", blast.impulse);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
+  const Lock<Real> lock(w, options.occlusion && options.cover.condition.asks());
   WrenchList list;
   for_each_law_body(w, true, [&](int body) {
     const Vec2d to_body = w.position[body] - blast.centre;

@@ -97,10 +97,10 @@ namespace {
 template <class Real, class Tree>
 void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  tree.enlarge(record.proxy, stored_box(w, shape, dt));
-  w.enlarged[record.body] = 1;
   if (!record.moved) append(w.moved_shapes, shape);
   record.moved = true;
+  tree.enlarge(record.proxy, stored_box(w, shape, dt));
+  w.enlarged[record.body] = 1;
 }
 
 // What a fast shape is going to cover in the next step, so that it leaves its stored box in no step. One that

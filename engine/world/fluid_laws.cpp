@@ -4,6 +4,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/world/force_laws.h"
 #include "engine/world/law_bodies.h"
+#include "engine/world/lock.h"
 
 namespace plumb {
 namespace {
@@ -19,7 +20,7 @@ void apply_wind(BasicWorld<Real>& world, const Wind& wind, double dt, LawOptions
   require_finite("wind", "velocity", wind.velocity);
   require_not_negative("wind", "density", wind.density);
   require_positive("wind", "dt", dt);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   apply_to_bodies(w, options.wakes, [&](int body) {
     const BodyMotion<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();
@@ -43,7 +44,7 @@ void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOpti
   require_not_negative("water", "linear_drag", water.linear_drag);
   require_not_negative("water", "angular_drag", water.angular_drag);
   require_positive("water", "dt", dt);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   const Vec2d gravity = w.settings.gravity;
   const double g = std::sqrt(length_squared(gravity));
   const Vec2d up = g > 0 ? (-1 / g) * gravity : Vec2d{0, 1};

@@ -3,6 +3,7 @@
 #include "engine/forces/fluid_drag.h"
 #include "engine/scene/error.h"
 #include "engine/world/law_bodies.h"
+#include "engine/world/lock.h"
 
 namespace plumb {
 
@@ -58,7 +59,8 @@ void check(const Attraction& law, double dt) {
 
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options) {
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
+  const Lock<Real> lock(w);
   apply_to_bodies(w, options.wakes, [&](int body) { return law(view_of(w, body)); });
 }
 
@@ -67,7 +69,7 @@ void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, do
   require_not_negative("linear drag", "linear", rates.linear);
   require_not_negative("linear drag", "angular", rates.angular);
   require_positive("linear drag", "dt", dt);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const BodyMotion<Real>& motion = w.motion[body];
     const Wrench<double> load = known_load(w, body);
@@ -82,7 +84,7 @@ template <class Real>
 void apply_quadratic_drag(BasicWorld<Real>& world, double coefficient, double dt, LawOptions options) {
   require_not_negative("quadratic drag", "coefficient", coefficient);
   require_positive("quadratic drag", "dt", dt);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const BodyMotion<Real>& motion = w.motion[body];
     return {mean_quadratic_drag(motion.velocity.template as<double>(), coefficient,
@@ -96,7 +98,7 @@ void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& l
                       LawOptions options) {
   check(law, dt);
   require_finite("attraction", "centre", centre);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const double mass = static_cast<double>(w.bodies[body].mass);
     return {attraction_force(law, mass, middle_of(w, body, dt) - centre), 0};
@@ -108,7 +110,7 @@ void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attr
                               LawOptions options) {
   check(law, dt);
   world.position(centre);  // throws when the body is gone
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   const int source = static_cast<int>(centre.index);
   const Vec2d place = middle_of(w, source, dt);
   WrenchList list;
@@ -133,7 +135,7 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   require_finite("spring", "point_a", point_a);
   require_finite("spring", "point_b", point_b);
   require_positive("spring", "dt", dt);
-  WorldData<Real>& w = world.data();
+  WorldData<Real>& w = settled(world);
   const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);
   const int body_a = static_cast<int>(a.index), body_b = static_cast<int>(b.index);
   const bool moves_a = w.gives_way(body_a), moves_b = w.gives_way(body_b);

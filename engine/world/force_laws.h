@@ -35,8 +35,9 @@ struct LawBody {
 
 using BodyLaw = FunctionRef<Wrench<double>(const LawBody&)>;
 
-/// A law of one's own: force and torque (about the centre of mass) on each body. It must not change the
-/// world. A body for which it returns what is not finite, or beyond 1e12, is quarantined (world.h).
+/// A law of one's own: force and torque (about the centre of mass) on each body. Calls that would change the
+/// world throw Error (Unsupported) from within it. A body for which it returns what is not finite, or beyond
+/// 1e12, is quarantined (world.h).
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options = {});
 

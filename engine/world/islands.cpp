@@ -1,7 +1,9 @@
 #include "engine/world/islands.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "engine/scene/room.h"
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
 #include "engine/world/quarantine.h"
@@ -13,6 +15,20 @@ namespace {
 template <class Real>
 BodyId id_of(const WorldData<Real>& w, int body) {
   return {static_cast<std::uint32_t>(body), w.bodies.generation(body)};
+}
+
+// Between two steps bodies may be woken and put to sleep without end: of those that are there each is told
+// once.
+template <class Real>
+void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
+  if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
+    std::vector<char>& known = w.scratch.restless;
+    known.assign(static_cast<std::size_t>(w.bodies.size()), 0);
+    std::erase_if(told, [&](BodyId each) {
+      return !w.bodies.holds(each.index, each.generation) || std::exchange(known[each.index], 1) != 0;
+    });
+  }
+  told.push_back(id_of(w, body));
 }
 
 template <class Real>
@@ -31,22 +47,38 @@ void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
 }
 
 template <class Real>
+bool gives_way_awake(const WorldData<Real>& w, int body) {
+  return w.bodies[body].awake && w.gives_way(body);
+}
+
+// Constraints are solved while they have an awake body to move. A kinematic one moves sleepers that it
+// touches after they were woken alone.
+template <class Real, class Record>
+bool is_solved(const WorldData<Real>& w, const Record& record) {
+  return gives_way_awake(w, record.body_a) || gives_way_awake(w, record.body_b);
+}
+
+template <class Real>
 void unpark_ties(WorldData<Real>& w, int body) {
-  for_each_edge(w.contacts, w.bodies[body].first_contact,
-                [&](int edge, ContactRecord&) { unpark_contact(w, edge / 2); });
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (contact.home != ContactHome::Parked || is_solved(w, contact)) unpark_contact(w, edge / 2);
+  });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
-    if (!joint.active && !lets_go(w, joint)) w.joint_set.set_active(joint.slot, joint.active = true);
+    if (joint.active || lets_go(w, joint) || !is_solved(w, joint)) return;
+    w.joint_set.set_active(joint.slot, true);
+    joint.active = true;
   });
 }
 
 template <class Real>
 void park_ties(WorldData<Real>& w, int body) {
-  for_each_edge(w.contacts, w.bodies[body].first_contact,
-                [&](int edge, ContactRecord&) { park_contact(w, edge / 2); });
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (contact.home == ContactHome::Near || !is_solved(w, contact)) park_contact(w, edge / 2);
+  });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
-    if (joint.active && !w.bodies[joint.body_a].awake && !w.bodies[joint.body_b].awake) {
-      w.joint_set.set_active(joint.slot, joint.active = false);
-    }
+    if (!joint.active || is_solved(w, joint)) return;
+    w.joint_set.set_active(joint.slot, false);
+    joint.active = false;
   });
 }
 
@@ -56,13 +88,17 @@ bool still(const WorldData<Real>& w, int body) {
   return record.may_sleep && record.still_for >= Real(tuning::kSleepTime);
 }
 
+// Room for the contacts of bodies that fall asleep.
 template <class Real>
-void fall_asleep(WorldData<Real>& w, int body) {
-  leave_awake(w, body);
-  BodyMotion<Real>& motion = w.motion[body];
-  motion.velocity = {}, motion.angular_velocity = 0;
-  motion.moved = {}, motion.turned = 0;
-  w.log().fell_asleep.push_back(id_of(w, body));
+void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
+  std::size_t contacts = 0;
+  for (const int body : sleepers) {
+    for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
+      contacts += contact.home == ContactHome::Graph ? 1 : 0;
+    });
+  }
+  ensure_room(w.parked, w.parked.size() + std::min(contacts, w.graph.size()));
+  ensure_room(w.log().fell_asleep, w.log().fell_asleep.size() + sleepers.size());
 }
 
 }  // namespace
@@ -89,6 +125,17 @@ void leave_awake(WorldData<Real>& w, int body) {
 }
 
 template <class Real>
+void fall_asleep(WorldData<Real>& w, int body) {
+  tell(w, w.log().fell_asleep, body);
+  leave_awake(w, body);
+  // What lies on a kinematic body asks how long that has been still.
+  w.bodies[body].still_for = std::max(w.bodies[body].still_for, Real(tuning::kSleepTime));
+  BodyMotion<Real>& motion = w.motion[body];
+  motion.velocity = {}, motion.angular_velocity = 0;
+  motion.moved = {}, motion.turned = 0;
+}
+
+template <class Real>
 void wake_body(WorldData<Real>& w, int body) {
   const auto sleeps = [&](int i) { return !w.bodies[i].awake && w.bodies[i].type != BodyType::Static; };
   if (!sleeps(body)) return;
@@ -96,15 +143,24 @@ void wake_body(WorldData<Real>& w, int body) {
   const std::size_t first = queue.size();  // a waking may start another one
   const auto wake = [&](int i) {
     if (!sleeps(i)) return;
+    ensure_room(w.awake, w.awake.size() + 1), ensure_room(queue, queue.size() + 1);
+    tell(w, w.log().woke, i);
     enter_awake(w, i);
-    w.log().woke.push_back(id_of(w, i));
     queue.push_back(i);
   };
-  wake(body);
-  for (std::size_t next = first; next < queue.size(); ++next) {
-    const int current = queue[next];
-    unpark_ties(w, current);
-    if (w.gives_way(current)) for_each_tie(w, current, wake);
+  try {
+    wake(body);
+    for (std::size_t next = first; next < queue.size(); ++next) {
+      const int current = queue[next];
+      unpark_ties(w, current);
+      if (w.gives_way(current)) for_each_tie(w, current, wake);
+    }
+  } catch (...) {
+    // Half an island must not be awake: all of it sleeps on. There is room for what slept before.
+    for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
+    for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);
+    queue.resize(first);
+    throw;
   }
   queue.resize(first);
 }
@@ -142,6 +198,7 @@ void sleep_islands(WorldData<Real>& w) {
   for (const int body : w.awake) {
     if (!restless[islands.find(body)]) sleepers.push_back(body);
   }
+  make_room_to_park(w, sleepers);
   for (const int body : sleepers) fall_asleep(w, body);
   for (const int body : sleepers) park_ties(w, body);
   sleepers.clear();
@@ -150,16 +207,20 @@ void sleep_islands(WorldData<Real>& w) {
 template <class Real>
 void put_to_sleep(WorldData<Real>& w, int body) {
   if (!w.bodies[body].awake) return;
+  constexpr Real kListed = -1;
   std::vector<int> island;
   const auto add = [&](int i) {
-    if (!w.bodies[i].awake || (i != body && !w.gives_way(i))) return;
-    fall_asleep(w, i);
+    Real& still_for = w.bodies[i].still_for;
+    if (!w.bodies[i].awake || still_for == kListed || (i != body && !w.gives_way(i))) return;
     island.push_back(i);
+    still_for = kListed;
   };
   add(body);
   for (std::size_t next = 0; next < island.size(); ++next) {
     if (w.gives_way(island[next])) for_each_tie(w, island[next], add);
   }
+  make_room_to_park(w, island);
+  for (const int i : island) fall_asleep(w, i);
   for (const int i : island) park_ties(w, i);
 }
 
@@ -168,6 +229,7 @@ void put_to_sleep(WorldData<Real>& w, int body) {
   template void wake_neighbours(WorldData<Real>&, int); \
   template void sleep_islands(WorldData<Real>&);        \
   template void put_to_sleep(WorldData<Real>&, int);    \
+  template void fall_asleep(WorldData<Real>&, int);     \
   template void enter_awake(WorldData<Real>&, int);     \
   template void leave_awake(WorldData<Real>&, int);
 PLUMB_FOR(float)

@@ -1,3 +1,4 @@
+#include "engine/scene/room.h"
 #include "engine/world/bodies.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
@@ -5,10 +6,38 @@
 #include "engine/world/step.h"
 
 namespace plumb {
+namespace {
+
+template <class Real>
+void take_out_joint(WorldData<Real>& w, int joint) {
+  const JointRecord record = w.joints[joint];
+  w.ties_changed = true;
+  w.joint_set.remove(record.slot);  // which alone may run out of memory
+  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
+  if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
+  std::erase(w.breakable, joint);
+  w.joints.remove(joint);
+}
+
+// Room to tell the end of what two bodies do now.
+template <class Real>
+void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
+  std::size_t contacts = 0;
+  for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int, const ContactRecord& contact) {
+    contacts += contact.body_a == body_b || contact.body_b == body_b ? 1 : 0;
+  });
+  ensure_room(w.log().end, w.log().end.size() + contacts);
+}
+
+}  // namespace
 
 template <class Real>
 int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
-  // First what may refuse the definition.
+  // First what may refuse the definition or run out of memory.
+  const bool breaks = definition.break_force > 0 || definition.break_torque > 0;
+  w.joints.make_room(1);
+  ensure_room(w.breakable, w.breakable.size() + (breaks ? 1 : 0));
+  if (!definition.collide) make_room_for_ends(w, body_a, body_b);
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
                                    w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
   w.ties_changed = true;
@@ -21,13 +50,19 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.user_data = definition.user_data;
   const int joint = w.joints.add(record);
   link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  if (lets_go(w, record)) {
-    w.joint_set.set_active(slot, w.joints[joint].active = false);
-  } else {
-    ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+  if (breaks) w.breakable.push_back(joint);
+  try {
+    if (lets_go(w, record)) {
+      w.joint_set.set_active(slot, false);
+      w.joints[joint].active = false;
+    } else {
+      ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+    }
+    wake_body(w, body_a), wake_body(w, body_b);
+  } catch (...) {
+    take_out_joint(w, joint);
+    throw;
   }
-  if (record.break_force > 0 || record.break_torque > 0) w.breakable.push_back(joint);
-  wake_body(w, body_a), wake_body(w, body_b);
   if (definition.collide) return joint;
   for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int edge, const ContactRecord& contact) {
     if (contact.body_a == body_b || contact.body_b == body_b) destroy_contact(w, edge / 2);
@@ -38,19 +73,13 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
 template <class Real>
 void remove_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
-  w.ties_changed = true;
   wake_body(w, record.body_a), wake_body(w, record.body_b);
-  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
-  w.joint_set.remove(record.slot);
-  std::erase(w.breakable, joint);
-  w.joints.remove(joint);
+  take_out_joint(w, joint);
   if (record.collide) return;
   // What the joint kept apart may meet from now on.
   const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    if (!w.shapes[shape].moved) w.moved_shapes.push_back(shape);
-    w.shapes[shape].moved = true;
+    note_moved(w, shape);
   }
 }
 

@@ -176,7 +176,8 @@ bool is_watched(const ContactRecord& contact, const ContactConstraint<Real>& c) 
   return !c.touching || c.restitution > 0 || contact.hit_events || contact.pre_solve;
 }
 
-// What follows from the shapes' materials.
+}  // namespace
+
 template <class Real>
 void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
   const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
@@ -193,6 +194,8 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
                                                                           : ContactHardness::Stiff;
 }
+
+namespace {
 
 // The bodies have moved little since the manifold was made: separations follow to first order. False when
 // they moved too much for that.
@@ -242,10 +245,10 @@ void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
 template <class Real>
 void note_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching) {
   const ContactRecord& contact = w.contacts[c.contact];
+  set_touching(w, c.contact, touching);
   c.touching = touching;
   c.watched = is_watched(contact, c);
   if (!c.watched) c.approach[0] = c.approach[1] = 0;
-  set_touching(w, c.contact, touching);
 }
 
 template <class Real>
@@ -269,6 +272,14 @@ ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const Conta
   mix_materials(w, contact, c);
   rebuild(w, contact, manifold, c);
   return c;
+}
+
+template <class Real>
+bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ContactRecord contact = contact_of(w, shape_a, shape_b);
+  const Real smaller = std::min(w.forms[shape_a].extent, w.forms[shape_b].extent);
+  const Real reach = Real(tuning::kContactReach) * smaller;
+  return !boxes_apart(w, shape_a, shape_b, reach) && manifold_of(w, contact, reach).count > 0;
 }
 
 namespace {
@@ -340,11 +351,9 @@ void look_at_near(WorldData<Real>& w, Real dt) {
 // A contact with points is carried on, or made anew where its bodies have moved too much for that.
 template <class Real>
 void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
-  // Also of what is gone again since.
-  if (const bool touching = touches(c); touching != c.touching) {
-    c.touching = touching;
-    w.scratch.touch_changes.push_back(c.contact);
-  }
+  // Also of what is gone again since. Noted after all were looked at, or, should a hook throw, in the next
+  // step.
+  if (touches(c) != c.touching) w.scratch.touch_changes.push_back(c.contact);
   if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
     if (stored_boxes_apart(w, w.contacts[c.contact])) {
       w.scratch.lost_contacts.push_back(c.contact);
@@ -373,7 +382,7 @@ void update_contacts(WorldData<Real>& w, Real dt) {
   w.graph.for_each([&](ContactConstraint<Real>& c) { look_at_constraint(w, c, dt); });
   for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
-    note_touching(w, c, c.touching);
+    note_touching(w, c, !c.touching);
   }
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
@@ -393,7 +402,7 @@ void report_impacts(WorldData<Real>& w) {
   for (const int id : w.scratch.bouncing) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
-    if (struck(c)) set_touching(w, id, c.touching = true);
+    if (struck(c)) set_touching(w, id, true), c.touching = true;
   }
   if (!w.reports_hits) return;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
@@ -402,7 +411,8 @@ void report_impacts(WorldData<Real>& w) {
     const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
     const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
     if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least) return;
-    set_touching(w, c.contact, c.touching = true);
+    set_touching(w, c.contact, true);
+    c.touching = true;
     const ContactReading reading = reading_of(w, contact, c);
     w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
                             -static_cast<double>(c.approach[hardest])});
@@ -413,6 +423,10 @@ template float restitution_between(const WorldData<float>&, int, int);
 template double restitution_between(const WorldData<double>&, int, int);
 template ContactConstraint<float> constraint_between(const WorldData<float>&, const ContactRecord&);
 template ContactConstraint<double> constraint_between(const WorldData<double>&, const ContactRecord&);
+template bool meet_now(const WorldData<float>&, int, int);
+template bool meet_now(const WorldData<double>&, int, int);
+template void mix_materials(const WorldData<float>&, const ContactRecord&, ContactConstraint<float>&);
+template void mix_materials(const WorldData<double>&, const ContactRecord&, ContactConstraint<double>&);
 template void report_impacts(WorldData<float>&);
 template void report_impacts(WorldData<double>&);
 template void update_contacts(WorldData<float>&, float);

@@ -13,4 +13,13 @@ Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b);
 template <class Real>
 ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact);
 
+/// Whether two shapes lie on each other where their bodies are now, or nearly so: a contact would have
+/// points.
+template <class Real>
+bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b);
+
+/// Takes what follows from the shapes' materials into the constraint of a contact.
+template <class Real>
+void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c);
+
 }  // namespace plumb

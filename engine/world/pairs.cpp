@@ -68,16 +68,17 @@ void find_pairs(WorldData<Real>& w) {
       w.moving_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
   }
-  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
-    ask_for_moved(w, i);
-    w.shapes[w.moved_shapes[i]].moved = false;
-  }
-  w.moved_shapes.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (i + kAhead < found.size()) w.pairs.ask_for(found[i + kAhead].first, found[i + kAhead].second);
     const auto [a, b] = found[i];
     if (!w.pairs.contains(a, b) && may_collide(w, a, b)) create_contact(w, a, b);
   }
+  // Last, so that what runs out of memory meanwhile is looked for again.
+  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
+    ask_for_moved(w, i);
+    w.shapes[w.moved_shapes[i]].moved = false;
+  }
+  w.moved_shapes.clear();
 }
 
 template void find_pairs(WorldData<float>&);

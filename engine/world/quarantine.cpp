@@ -7,6 +7,7 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/scene/room.h"
 #include "engine/scene/text.h"
 #include "engine/world/bodies.h"
 #include "engine/world/contacts.h"
@@ -41,8 +42,8 @@ double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quie
 template <class Real>
 void let_go(WorldData<Real>& w, JointRecord& joint) {
   if (lets_go(w, joint)) return;  // of the other body
+  if (joint.active) w.joint_set.set_active(joint.slot, false), joint.active = false;
   --w.bodies[joint.body_a].constraints, --w.bodies[joint.body_b].constraints;
-  if (joint.active) w.joint_set.set_active(joint.slot, joint.active = false);
   w.joint_set.forget(joint.slot);
 }
 
@@ -53,7 +54,7 @@ void hold_again(WorldData<Real>& w, JointRecord& joint) {
   w.joint_set.set_dynamic(joint.slot, w.gives_way(joint.body_a), w.gives_way(joint.body_b));
   w.joint_set.forget(joint.slot);
   wake_body(w, joint.body_a), wake_body(w, joint.body_b);
-  if (!joint.active) w.joint_set.set_active(joint.slot, joint.active = true);
+  if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
 }
 
 // What of a motion is bad, and how.
@@ -193,31 +194,42 @@ bool is_sound_motion(const BodyMotion<Real>& motion) {
 template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value) {
   if (w.bodies[body].quarantined) return;
-  const QuarantineEvent why{{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
-                            w.uncommon_of(body).name,
-                            field,
-                            one_nan(value),
-                            w.steps + 1};
+  QuarantineEvent why{{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
+                      w.uncommon_of(body).name,
+                      field,
+                      one_nan(value),
+                      w.steps + 1};
   if (!w.settings.quarantine) report(why);
+  ensure_room(w.quarantine, w.quarantine.size() + 1);
+  ensure_room(w.log().quarantined, w.log().quarantined.size() + 1);
+  QuarantinedBody entry{body, w.bodies[body].type, why};
   wake_neighbours(w, body);
   destroy_contacts_of(w, body);
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) { let_go(w, joint); });
   BodyRecord<Real>& record = w.bodies[body];
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
   if (record.awake) leave_awake(w, body);
-  w.quarantine.push_back({body, record.type, why});
+  w.quarantine.push_back(std::move(entry));
   record.type = BodyType::Static;
   record.quarantined = true;
   w.motion[body].moved = {}, w.motion[body].turned = 0;
   w.loads.renew(body, w.bodies.size());
   w.enlarged[body] = 0;
   w.ties_changed = true;
-  w.log().quarantined.push_back(why);
+  // A body that is released and pushed beyond all limits again, between two steps, is told of once.
+  std::vector<QuarantineEvent>& told = w.log().quarantined;
+  if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
+  told.push_back(std::move(why));
 }
 
 template <class Real>
 void release_body(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
+  std::size_t shapes = 0;
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
+  w.tree_of(own_type(w, body)).make_room(shapes);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + shapes);
+  ensure_room(w.awake, w.awake.size() + 1);
   record.type = own_type(w, body);
   record.quarantined = false;
   std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });

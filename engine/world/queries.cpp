@@ -10,6 +10,7 @@
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/world/lock.h"
 #include "engine/world/placed_shape.h"
 #include "engine/world/validate.h"
 
@@ -170,7 +171,7 @@ void collect(std::vector<ShapeId>& found, const Query& query) {
 
 template <class Real>
 void overlap_placed(const WorldData<Real>& w, const QueryShape& shape, Vec2d position, double angle,
-                    const QueryFilter& filter, VisitShape visit) {
+                    const QueryFilter& filter, const VisitShape& visit) {
   const TurnedShape turned(shape, angle);
   const Aabb<double> near = turned.bounds();
   for_each_near(w, {position + near.lower, position + near.upper}, filter, [&](int other) {
@@ -181,37 +182,93 @@ void overlap_placed(const WorldData<Real>& w, const QueryShape& shape, Vec2d pos
   });
 }
 
-}  // namespace
-
-template <class Real>
-std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation,
-                                          const QueryFilter& filter) {
-  Closest<RayResult> closest;
-  ray_cast(world, origin, translation, filter, closest);
-  return closest.best;
-}
-
-template <class Real>
-void ray_cast(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, const QueryFilter& filter,
-              VisitRay visit) {
+template <class Real, class Visit>
+void visit_ray(const WorldData<Real>& w, Vec2d origin, Vec2d translation, const QueryFilter& filter,
+               Visit&& visit) {
   check("ray", "origin", origin);
   check("ray", "translation", translation);
-  const WorldData<Real>& w = world.data();
   for_each_on_way(w, origin, translation, {}, filter, [&](int shape, double limit) {
     const PlacedShape placed(w, shape, origin);
     const RayHit<double> hit = w.forms[shape].chain
                                    ? ray_cast_one_sided(placed.convex(), Vec2d{}, translation)
                                    : ray_cast(placed.convex(), Vec2d{}, translation);
     if (!hit.hit || hit.fraction > limit) return limit;
-    return visit({shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal});
+    return visit(
+        RayResult{shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal});
   });
+}
+
+template <class Real, class Visit>
+void visit_cast(const WorldData<Real>& w, const QueryShape& shape, Vec2d position, double angle,
+                Vec2d translation, const QueryFilter& filter, Visit&& visit) {
+  check("cast", "position", position);
+  check("cast", "angle", angle);
+  check("cast", "translation", translation);
+  const TurnedShape turned(shape, angle);
+  const Aabb<double> box = turned.bounds();
+  const Vec2d centre = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
+  for_each_on_way(w, position + centre, translation, half, filter, [&](int other, double limit) {
+    const PlacedShape placed(w, other, position);
+    const CastResult<double> hit = cast_against(placed.convex(), w.forms[other].chain, turned, translation);
+    if (!hit.hit || hit.fraction > limit) return limit;
+    return visit(CastShapeResult{shape_id(w, other), body_id(w, other), hit.fraction, position + hit.point,
+                                 hit.normal, hit.overlapped});
+  });
+}
+
+template <class Real>
+void visit_overlaps(const WorldData<Real>& w, const QueryShape& shape, Vec2d position, double angle,
+                    const QueryFilter& filter, const VisitShape& visit) {
+  check("overlap", "position", position);
+  check("overlap", "angle", angle);
+  overlap_placed(w, shape, position, angle, filter, visit);
+}
+
+template <class Real>
+void visit_overlaps(const WorldData<Real>& w, const Aabb<double>& box, const QueryFilter& filter,
+                    const VisitShape& visit) {
+  check("overlap", "lower", box.lower);
+  check("overlap", "upper", box.upper);
+  const Vec2d half = 0.5 * (box.upper - box.lower);
+  if (!(half.x >= 0)) require_not_negative("overlap", "width", 2 * half.x);
+  if (!(half.y >= 0)) require_not_negative("overlap", "height", 2 * half.y);
+  overlap_placed(w, QueryShape::box(half.x, half.y), box.lower + half, 0, filter, visit);
+}
+
+template <class Real>
+void visit_shapes_at(const WorldData<Real>& w, Vec2d point, const QueryFilter& filter,
+                     const VisitShape& visit) {
+  check("shapes_at", "point", point);
+  for_each_near(w, {point, point}, filter, [&](int shape) {
+    const PlacedShape placed(w, shape, point);
+    return !contains(placed.convex(), Vec2d{}) || visit(shape_id(w, shape));
+  });
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation,
+                                          const QueryFilter& filter) {
+  Closest<RayResult> closest;
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  visit_ray(world.data(), origin, translation, filter, closest);
+  return closest.best;
+}
+
+template <class Real>
+void ray_cast(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, const QueryFilter& filter,
+              VisitRay visit) {
+  const Lock<Real> lock(world.data());
+  visit_ray(world.data(), origin, translation, filter, visit);
 }
 
 template <class Real>
 void ray_cast_all(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, const QueryFilter& filter,
                   std::vector<RayResult>& hits) {
   hits.clear();
-  ray_cast(world, origin, translation, filter, [&](const RayResult& hit) {
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  visit_ray(world.data(), origin, translation, filter, [&](const RayResult& hit) {
     hits.push_back(hit);
     return 1.0;
   });
@@ -225,74 +282,58 @@ std::optional<CastShapeResult> cast_shape_closest(const BasicWorld<Real>& world,
                                                   Vec2d position, double angle, Vec2d translation,
                                                   const QueryFilter& filter) {
   Closest<CastShapeResult> closest;
-  cast_shape(world, shape, position, angle, translation, filter, closest);
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  visit_cast(world.data(), shape, position, angle, translation, filter, closest);
   return closest.best;
 }
 
 template <class Real>
 void cast_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                 Vec2d translation, const QueryFilter& filter, VisitCast visit) {
-  check("cast", "position", position);
-  check("cast", "angle", angle);
-  check("cast", "translation", translation);
-  const WorldData<Real>& w = world.data();
-  const TurnedShape turned(shape, angle);
-  const Aabb<double> box = turned.bounds();
-  const Vec2d centre = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
-  for_each_on_way(w, position + centre, translation, half, filter, [&](int other, double limit) {
-    const PlacedShape placed(w, other, position);
-    const CastResult<double> hit = cast_against(placed.convex(), w.forms[other].chain, turned, translation);
-    if (!hit.hit || hit.fraction > limit) return limit;
-    return visit({shape_id(w, other), body_id(w, other), hit.fraction, position + hit.point, hit.normal,
-                  hit.overlapped});
-  });
+  const Lock<Real> lock(world.data());
+  visit_cast(world.data(), shape, position, angle, translation, filter, visit);
 }
 
 template <class Real>
 void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                    const QueryFilter& filter, VisitShape visit) {
-  check("overlap", "position", position);
-  check("overlap", "angle", angle);
-  overlap_placed(world.data(), shape, position, angle, filter, visit);
+  const Lock<Real> lock(world.data());
+  visit_overlaps(world.data(), shape, position, angle, filter, visit);
 }
 
 template <class Real>
 void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                    const QueryFilter& filter, std::vector<ShapeId>& found) {
-  collect(found, [&](VisitShape visit) { overlap_shape(world, shape, position, angle, filter, visit); });
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  collect(found,
+          [&](VisitShape visit) { visit_overlaps(world.data(), shape, position, angle, filter, visit); });
 }
 
 template <class Real>
 void overlap_box(const BasicWorld<Real>& world, const Aabb<double>& box, const QueryFilter& filter,
                  VisitShape visit) {
-  check("overlap", "lower", box.lower);
-  check("overlap", "upper", box.upper);
-  const Vec2d half = 0.5 * (box.upper - box.lower);
-  if (!(half.x >= 0)) require_not_negative("overlap", "width", 2 * half.x);
-  if (!(half.y >= 0)) require_not_negative("overlap", "height", 2 * half.y);
-  overlap_placed(world.data(), QueryShape::box(half.x, half.y), box.lower + half, 0, filter, visit);
+  const Lock<Real> lock(world.data());
+  visit_overlaps(world.data(), box, filter, visit);
 }
 
 template <class Real>
 void overlap_box(const BasicWorld<Real>& world, const Aabb<double>& box, const QueryFilter& filter,
                  std::vector<ShapeId>& found) {
-  collect(found, [&](VisitShape visit) { overlap_box(world, box, filter, visit); });
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  collect(found, [&](VisitShape visit) { visit_overlaps(world.data(), box, filter, visit); });
 }
 
 template <class Real>
 void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& filter, VisitShape visit) {
-  check("shapes_at", "point", point);
-  const WorldData<Real>& w = world.data();
-  for_each_near(w, {point, point}, filter, [&](int shape) {
-    const PlacedShape placed(w, shape, point);
-    return !contains(placed.convex(), Vec2d{}) || visit(shape_id(w, shape));
-  });
+  const Lock<Real> lock(world.data());
+  visit_shapes_at(world.data(), point, filter, visit);
 }
 
 template <class Real>
 void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& filter,
                std::vector<ShapeId>& found) {
-  collect(found, [&](VisitShape visit) { shapes_at(world, point, filter, visit); });
+  const Lock<Real> lock(world.data(), filter.condition.asks());
+  collect(found, [&](VisitShape visit) { visit_shapes_at(world.data(), point, filter, visit); });
 }
 
 template <class Real>
@@ -301,6 +342,7 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
   check("nearest", "point", point);
   if (!(max_distance >= 0)) require_not_negative("nearest", "max_distance", max_distance);
   const WorldData<Real>& w = world.data();
+  const Lock<Real> lock(w, filter.condition.asks());
   double limit = std::min(max_distance, 4 * kLargestNumber);  // farther than anything is
   const double slack = slack_at(w, size_of(point));
   std::optional<NearestResult> best;

@@ -13,6 +13,9 @@
 /// are handed to them. SI units; geometry is computed in double precision, seen from the query's own place,
 /// so that an answer far from the origin is as good as one at the origin.
 ///
+/// Visitors and conditions of filters may look at the world; from there a call that would change it throws
+/// Error (Unsupported). What they throw themselves ends the query.
+///
 /// Functions throw Error (Value) for numbers that are not finite, and Error (Name) for handles of what is
 /// gone. Exist for BasicWorld<float> and BasicWorld<double>.
 namespace plumb {

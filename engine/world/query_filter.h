@@ -52,6 +52,8 @@ class ShapeCondition {
       ShapeCondition(const Function&& function)
   = delete;
 
+  /// Whether there is one.
+  bool asks() const { return call_ != nullptr; }
   bool operator()(ShapeId shape) const { return call_ == nullptr || call_(object_, shape); }
 
  private:
@@ -66,7 +68,7 @@ struct QueryFilter {
   std::uint32_t mask = 0xFFFFFFFFu;      ///< what it looks for
   bool sensors = false;                  ///< whether it sees sensors too
   BodyId ignore{};                       ///< a body that it does not see
-  ShapeCondition condition{};            ///< asked last; must not change the world
+  ShapeCondition condition{};            ///< asked last; must not change the world, which refuses that
 };
 
 }  // namespace plumb

@@ -6,6 +6,7 @@
 #include "engine/world/body_hash.h"
 #include "engine/world/definition_members.h"
 #include "engine/world/encoding.h"
+#include "engine/world/lock.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/validate.h"
 
@@ -69,6 +70,7 @@ void RecordedWorld<Real>::record_hash() {
 template <class Real>
 void RecordedWorld<Real>::step(double dt, int substeps) {
   // What the world refuses at once is not recorded; that of a step that fails later is.
+  require_unlocked(world_.data());
   if (!(dt >= kSmallestNumber && dt <= kLargestNumber) || substeps < 1 || substeps > 1000)
     return world_.step(dt, substeps);
   Encoder record(file_.begin(RecordKind::Call));
@@ -82,9 +84,10 @@ void RecordedWorld<Real>::step(double dt, int substeps) {
 
 template <class Real>
 void RecordedWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> hook) {
-  Encoder(file_.begin(RecordKind::Hook)).put(static_cast<bool>(hook));
-  file_.commit();
+  const bool there = static_cast<bool>(hook);
   world_.on_pre_solve(std::move(hook));
+  Encoder(file_.begin(RecordKind::Hook)).put(there);
+  file_.commit();
 }
 
 template <class Real>
@@ -142,6 +145,13 @@ BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition,
 template <class Real>
 BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition, const ShapeDefinition& shape) {
   return call<WorldCall::CreateBodyWithShape>(definition, shape);
+}
+template <class Real>
+BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition,
+                                        std::span<const ShapeDefinition> shapes, std::vector<ShapeId>& made) {
+  const BodyId body = create_body(definition, shapes);
+  made = world_.shapes(body);
+  return body;
 }
 template <class Real>
 void RecordedWorld<Real>::destroy(BodyId body) {

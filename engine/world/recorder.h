@@ -48,6 +48,8 @@ class RecordedWorld {
 
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
   BodyId create_body(const BodyDefinition& definition, const ShapeDefinition& shape);
+  BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes,
+                     std::vector<ShapeId>& made);
   void destroy(BodyId body);
   void set_position(BodyId body, Vec2d position, double angle);
   void set_velocity(BodyId body, Vec2d velocity);

@@ -119,6 +119,10 @@ void Replay<Real>::compare(std::span<const std::byte> content) {
   report_.first_difference = world_.step_count();
   if (!in.get<bool>("bodies")) return;
   const auto before = in.get<std::vector<BodyHash>>("bodies");
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    in.require(before[i].body <= 0x7FFFFFFFu, "bodies", "names a body beyond 2^31 - 1; record it anew");
+    in.require(i == 0 || before[i - 1].body < before[i].body, "bodies", "are not in order; record it anew");
+  }
   std::vector<BodyHash> bodies;
   hash_awake_bodies(world_.data(), bodies);
   for (const int body : differences(before, bodies)) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/scene/error.h"
+#include "engine/world/lock.h"
 #include "engine/world/world_members.h"
 
 namespace plumb {
@@ -68,6 +69,7 @@ int Rollback<Real>::find(std::int64_t step) const {
 
 template <class Real>
 void Rollback<Real>::save() {
+  require_between_steps(std::as_const(*world_).data());
   const std::int64_t step = world_->step_count();
   while (size_ > 0 && latest() >= step) --size_;
   if (size_ == capacity()) {
@@ -87,7 +89,7 @@ void Rollback<Real>::back_to(std::int64_t step) {
                            : "is not kept: there are " + std::to_string(oldest()) + " to " +
                                  std::to_string(latest()));
   }
-  copy_state(*ring_[place_of(nth)], world_->data());
+  copy_state(*ring_[place_of(nth)], unlocked(*world_));
   size_ = nth + 1;
 }
 

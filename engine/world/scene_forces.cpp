@@ -5,6 +5,7 @@
 #include "engine/forces/compile.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/law_bodies.h"
+#include "engine/world/lock.h"
 
 namespace plumb {
 namespace {
@@ -147,7 +148,7 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   for (const std::size_t body : acted_on_) {
     if (world.type(ids_[body]) != BodyType::Dynamic) continue;
     if (!is_sound(wrenches_[body])) {
-      quarantine_pushed(world.data(), static_cast<int>(ids_[body].index), wrenches_[body]);
+      quarantine_pushed(settled(world), static_cast<int>(ids_[body].index), wrenches_[body]);
       continue;
     }
     world.apply_force(ids_[body], wrenches_[body].force);

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "engine/collide/distance.h"
+#include "engine/scene/room.h"
+#include "engine/world/bodies.h"
 #include "engine/world/contacts.h"
 #include "engine/world/step.h"
 
@@ -45,21 +47,38 @@ void update_sensors(WorldData<Real>& w) {
       w.still_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);
+    // What is told is noted: neither runs out of memory half-way.
+    Events& told = w.log();
+    ensure_room(sensor.visitors, now.size());
+    ensure_room(told.sensor_begin, told.sensor_begin.size() + now.size());
+    ensure_room(told.sensor_end, told.sensor_end.size() + sensor.visitors.size());
     const ShapeId id = id_of(w, shape);
     for (const ShapeId& visitor : now) {
       if (!std::binary_search(sensor.visitors.begin(), sensor.visitors.end(), visitor, before)) {
-        w.log().sensor_begin.push_back({id, visitor});
+        told.sensor_begin.push_back({id, visitor});
       }
     }
     for (const ShapeId& visitor : sensor.visitors) {
       if (!std::binary_search(now.begin(), now.end(), visitor, before)) {
-        w.log().sensor_end.push_back({id, visitor});
+        told.sensor_end.push_back({id, visitor});
       }
     }
     sensor.visitors.assign(now.begin(), now.end());
   }
 }
 
+template <class Real>
+void end_visits(WorldData<Real>& w, int shape) {
+  const auto sensor = std::find_if(w.sensors.begin(), w.sensors.end(),
+                                   [&](const SensorRecord& each) { return each.shape == shape; });
+  std::vector<SensorEvent>& told = w.log().sensor_end;
+  ensure_room(told, told.size() + sensor->visitors.size());
+  for (const ShapeId& visitor : sensor->visitors) told.push_back({id_of(w, shape), visitor});
+  w.sensors.erase(sensor);
+}
+
+template void end_visits(WorldData<float>&, int);
+template void end_visits(WorldData<double>&, int);
 template void update_sensors(WorldData<float>&);
 template void update_sensors(WorldData<double>&);
 

@@ -55,6 +55,9 @@ ChainDefinition chain_definition(const WorldData<Real>& w, int chain) {
   const int first = segments.front();
   ChainDefinition out{.material = material_of(w.shapes[first]),
                       .filter = w.shapes[first].filter,
+                      .sensor = w.forms[first].sensor,
+                      .hit_events = w.shapes[first].hit_events,
+                      .pre_solve = w.shapes[first].pre_solve,
                       .user_data = w.shape_data.get(first)};
   for (const int segment : segments) out.points.push_back(corner_of(w, segment, 0));
   // An open end is its own neighbour (`add_chain`).

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/geometry/convex_bounds.h"
 #include "engine/geometry/convex_hull.h"
@@ -7,6 +8,9 @@
 #include "engine/world/bodies.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
+#include "engine/world/mass.h"
+#include "engine/world/narrow_phase.h"
+#include "engine/world/new_shape.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -29,28 +33,12 @@ struct MakeOutline {
   }
 };
 
-// The shape's corners in the frame of its body's centre of mass, and what follows from them.
+// Keeps what still stands for a shape, each once: what came and went since the last step left its number
+// behind.
 template <class Real>
-int insert(WorldData<Real>& w, int body, const Corners& corners, int count, const ShapeForm<Real>& form_like,
-           const ShapeRecord<Real>& record_like, std::uint64_t user_data) {
-  const int shape = w.shapes.add(record_like);
-  make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
-  w.shape_data.renew(shape, w.shapes.size());
-  if (user_data != 0) w.shape_data.at(shape, w.shapes.size()) = user_data;
-  ShapeForm<Real>& form = w.forms[shape];
-  form = form_like;
-  const Corners local = translated(corners, -w.bodies[body].centre.template as<double>());
-  form.corner = w.corners.add(rounded_to<Real>(local));
-  form.count = static_cast<std::uint16_t>(count);
-  const Convex<Real> convex = w.convex(shape);
-  Vec2<Real> middle{};
-  for (int i = 0; i < count; ++i) middle += (Real(1) / static_cast<Real>(count)) * convex.corners[i].point;
-  form.extent = convex_extent(convex, middle);
-  ShapeRecord<Real>& record = w.shapes[shape];
-  record.body = body;
-  record.next = w.bodies[body].first_shape;
-  w.bodies[body].first_shape = shape;
-  return shape;
+void tidy_moved_shapes(WorldData<Real>& w) {
+  std::erase_if(w.moved_shapes, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
+  for (const int shape : w.moved_shapes) w.shapes[shape].moved = true;
 }
 
 template <class Real>
@@ -62,11 +50,121 @@ void put_material(ShapeRecord<Real>& record, const Material& material) {
 }
 
 template <class Real>
-bool is_sensor(const WorldData<Real>& w, int shape) {
-  return w.forms[shape].sensor;
+bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
+// Calls visit(edge, contact) for the contacts of one shape.
+template <class Real, class Visit>
+void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
+  for_each_edge(w.contacts, w.bodies[w.shapes[shape].body].first_contact,
+                [&](int edge, ContactRecord& contact) {
+                  if (contact.shape_a == shape || contact.shape_b == shape) visit(edge, contact);
+                });
 }
 
 }  // namespace
+
+template <class Real>
+NewShape<Real> prepare_shape(const ShapeDefinition& definition) {
+  NewShape<Real> made;
+  Outline outline = std::visit(MakeOutline{}, definition.geometry);
+  made.corners =
+      transformed(outline.corners, Pose<double>{definition.position, rotation_of(definition.angle)});
+  made.count = static_cast<int>(made.corners.size());
+  made.form.sensor = definition.sensor;
+  made.form.radius = static_cast<Real>(outline.radius);
+  put_material(made.record, definition.material);
+  made.record.filter = definition.filter;
+  made.record.density = static_cast<Real>(definition.density);
+  made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
+  made.user_data = definition.user_data;
+  return made;
+}
+
+template <class Real>
+NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
+  const std::vector<Vec2d>& points = definition.points;
+  const int count = static_cast<int>(points.size());
+  // The vertex at `i`; an open end is its own neighbour: a corner.
+  const auto vertex = [&](int i) {
+    if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
+    return points[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
+  };
+  NewShape<Real> made;
+  const Corners segment = capsule_corners(vertex(which), vertex(which + 1));
+  made.corners = {{vertex(which - 1), {}}, segment[0], segment[1], {vertex(which + 2), {}}};
+  made.count = 2;  // of four corners two are the segment's
+  made.form.chain = true;
+  made.form.sensor = definition.sensor;
+  put_material(made.record, definition.material);
+  made.record.filter = definition.filter;
+  made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
+  made.user_data = definition.user_data;
+  return made;
+}
+
+template <class Real>
+void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes) {
+  const std::size_t more = shapes.size(), all = static_cast<std::size_t>(w.shapes.size()) + more;
+  typename CornerPool<Real>::Runs runs{};
+  std::size_t sensors = 0;
+  bool data = false;
+  for (const NewShape<Real>& shape : shapes) {
+    ++runs[shape.corners.size()];
+    sensors += shape.form.sensor ? 1 : 0;
+    data = data || shape.user_data != 0;
+  }
+  w.shapes.make_room(more);
+  ensure_room(w.forms, all), ensure_room(w.boxes, all);
+  w.shape_data.ensure(static_cast<int>(all), data);
+  w.corners.make_room_for(runs);
+  ensure_room(w.sensors, w.sensors.size() + sensors);
+  w.tree_of(type).make_room(more);
+  if (w.moved_shapes.size() > 2 * all) tidy_moved_shapes(w);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + more);
+}
+
+template <class Real>
+int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
+  const int shape = w.shapes.add(made.record);
+  make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
+  w.shape_data.renew(shape, w.shapes.size());
+  if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
+  ShapeForm<Real>& form = w.forms[shape];
+  form = made.form;
+  // Seen from the centre of mass.
+  const Vec2d shift = -w.bodies[body].centre.template as<double>();
+  Corner<Real> corners[kMaxCorners + 2];
+  for (std::size_t i = 0; i < made.corners.size(); ++i) {
+    corners[i] = {(made.corners[i].point + shift).template as<Real>(),
+                  made.corners[i].normal.template as<Real>()};
+  }
+  form.corner = w.corners.add({corners, made.corners.size()});
+  form.count = static_cast<std::uint16_t>(made.count);
+  const Convex<Real> convex = w.convex(shape);
+  Vec2<Real> middle{};
+  for (int i = 0; i < made.count; ++i)
+    middle += (Real(1) / static_cast<Real>(made.count)) * convex.corners[i].point;
+  form.extent = convex_extent(convex, middle);
+  ShapeRecord<Real>& record = w.shapes[shape];
+  record.body = body;
+  record.next = w.bodies[body].first_shape;
+  if (record.next != kNone) w.shapes[record.next].previous = shape;
+  w.bodies[body].first_shape = shape;
+  w.reports_hits = w.reports_hits || record.hit_events;
+  if (form.sensor) w.sensors.push_back({shape, {}});
+  return shape;
+}
+
+template <class Real>
+void note_moved(WorldData<Real>& w, int shape) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.moved) return;
+  if (w.moved_shapes.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) tidy_moved_shapes(w);
+  append(w.moved_shapes, shape);
+  record.moved = true;
+}
 
 template <class Real>
 void enter_tree(WorldData<Real>& w, int shape) {
@@ -75,8 +173,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
   if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
-  if (!record.moved) append(w.moved_shapes, shape);
-  record.moved = true;
+  note_moved(w, shape);
 }
 
 template <class Real>
@@ -88,127 +185,91 @@ void leave_tree(WorldData<Real>& w, int shape) {
 }
 
 template <class Real>
-int insert_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition) {
-  const Outline outline = std::visit(MakeOutline{}, definition.geometry);
-  const Corners corners =
-      transformed(outline.corners, Pose<double>{definition.position, rotation_of(definition.angle)});
-  ShapeForm<Real> form;
-  form.sensor = definition.sensor;
-  form.radius = static_cast<Real>(outline.radius);
-  ShapeRecord<Real> record;
-  put_material(record, definition.material);
-  record.filter = definition.filter;
-  record.density = static_cast<Real>(definition.density);
-  record.hit_events = definition.hit_events, record.pre_solve = definition.pre_solve;
-  w.reports_hits = w.reports_hits || definition.hit_events;
-  const int shape =
-      insert(w, body, corners, static_cast<int>(corners.size()), form, record, definition.user_data);
-  if (definition.sensor) w.sensors.push_back({shape, {}});
-  return shape;
-}
-
-template <class Real>
 void take_out_shape(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  destroy_contacts_of(w, record.body, shape);
+  if (w.forms[shape].sensor) end_visits(w, shape);
   leave_tree(w, shape);
   const ShapeForm<Real>& form = w.forms[shape];
   w.corners.remove(form.corner, form.stored());
-  if (is_sensor(w, shape)) {
-    std::erase_if(w.sensors, [&](const SensorRecord& sensor) { return sensor.shape == shape; });
-  }
   BodyRecord<Real>& body = w.bodies[record.body];
-  int* link = &body.first_shape;
-  while (*link != shape) link = &w.shapes[*link].next;
-  *link = record.next;
+  (record.previous == kNone ? body.first_shape : w.shapes[record.previous].next) = record.next;
+  if (record.next != kNone) w.shapes[record.next].previous = record.previous;
   w.shapes.remove(shape);
 }
 
 template <class Real>
 int add_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition) {
-  wake_neighbours(w, body);
-  const int shape = insert_shape(w, body, definition);
-  update_mass(w, body);
+  const NewShape<Real> made = prepare_shape<Real>(definition);
+  make_room_for<Real>(w, w.bodies[body].type, {&made, 1});
+  wake_body(w, body);
+  note_mass_change(w, body);
+  const int shape = insert_shape(w, body, made);
+  grow_extents(w, body, shape);
   enter_tree(w, shape);
+  wake_touched(w, shape);
   return shape;
 }
 
 template <class Real>
 void remove_shape(WorldData<Real>& w, int shape) {
   const int body = w.shapes[shape].body;
-  wake_neighbours(w, body);
+  wake_body(w, body);
+  note_mass_change(w, body);
+  destroy_contacts_of(w, body, shape);
   take_out_shape(w, shape);
-  update_mass(w, body);
 }
 
 template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
-  wake_neighbours(w, w.shapes[shape].body);
-  destroy_contacts_of(w, w.shapes[shape].body, shape);
+  w.tree_of(w.bodies[w.shapes[shape].body].type).make_room(1);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + 1);
+  std::size_t contacts = 0;
+  for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
+  ensure_room(w.log().end, w.log().end.size() + contacts);
+  wake_body(w, w.shapes[shape].body);
   w.shapes[shape].filter = filter;
+  destroy_forbidden_contacts(w, shape);
   leave_tree(w, shape);
   enter_tree(w, shape);
+  wake_touched(w, shape);
 }
 
+// Contacts mixed the old one in: it is mixed anew, first for trial, as a rule of the user's may refuse.
 template <class Real>
 void set_material(WorldData<Real>& w, int shape, const Material& material) {
-  wake_neighbours(w, w.shapes[shape].body);
+  const ShapeRecord<Real> before = w.shapes[shape];
   put_material(w.shapes[shape], material);
-  // Contacts mixed the old one in: they are made anew.
-  destroy_contacts_of(w, w.shapes[shape].body, shape);
-  leave_tree(w, shape);
-  enter_tree(w, shape);
-}
-
-template <class Real>
-int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition) {
-  const std::vector<Vec2d>& points = definition.points;
-  const int count = static_cast<int>(points.size());
-  const int chain = w.chains.add({body, {}});
-  // The vertex at `i`; an open end is its own neighbour: a corner.
-  const auto vertex = [&](int i) {
-    if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
-    i = std::clamp(i, 0, count - 1);
-    return points[static_cast<std::size_t>(i)];
-  };
-  for (int i = 0; i < (definition.closed ? count : count - 1); ++i) {
-    const Corners segment = capsule_corners(vertex(i), vertex(i + 1));
-    const Corners corners = {{vertex(i - 1), {}}, segment[0], segment[1], {vertex(i + 2), {}}};
-    ShapeForm<Real> form;
-    form.chain = true;
-    ShapeRecord<Real> record;
-    put_material(record, definition.material);
-    record.filter = definition.filter;
-    record.chain = chain;
-    // Four corners are stored, two of them are the segment's.
-    const int shape = insert(w, body, corners, 2, form, record, definition.user_data);
-    w.chains[chain].shapes.push_back(shape);
+  try {
+    for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
+      ContactConstraint<Real> trial;
+      mix_materials(w, contact, trial);
+    });
+    wake_body(w, before.body);
+    for_each_contact_of(w, shape, [&](int edge, const ContactRecord& contact) {
+      if (has_points<Real>(contact)) wake_body(w, (edge & 1) == 0 ? contact.body_b : contact.body_a);
+    });
+  } catch (...) {
+    w.shapes[shape] = before;
+    throw;
   }
-  update_mass(w, body);
-  for (const int shape : w.chains[chain].shapes) enter_tree(w, shape);
-  return chain;
+  for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
+    if (has_points<Real>(contact)) mix_materials(w, contact, constraint_of(w, contact));
+  });
 }
 
-template <class Real>
-void remove_chain(WorldData<Real>& w, int chain) {
-  const int body = w.chains[chain].body;
-  wake_neighbours(w, body);
-  for (const int shape : w.chains[chain].shapes) take_out_shape(w, shape);
-  w.chains.remove(chain);
-  update_mass(w, body);
-}
-
-#define PLUMB_FOR(Real)                                                     \
-  template void enter_tree(WorldData<Real>&, int);                          \
-  template void leave_tree(WorldData<Real>&, int);                          \
-  template int insert_shape(WorldData<Real>&, int, const ShapeDefinition&); \
-  template void take_out_shape(WorldData<Real>&, int);                      \
-  template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);    \
-  template void remove_shape(WorldData<Real>&, int);                        \
-  template void set_filter(WorldData<Real>&, int, const Filter&);           \
-  template void set_material(WorldData<Real>&, int, const Material&);       \
-  template int add_chain(WorldData<Real>&, int, const ChainDefinition&);    \
-  template void remove_chain(WorldData<Real>&, int);
+#define PLUMB_FOR(Real)                                                                     \
+  template NewShape<Real> prepare_shape(const ShapeDefinition&);                            \
+  template NewShape<Real> prepare_segment(const ChainDefinition&, int);                     \
+  template void make_room_for(WorldData<Real>&, BodyType, std::span<const NewShape<Real>>); \
+  template int insert_shape(WorldData<Real>&, int, const NewShape<Real>&);                  \
+  template void note_moved(WorldData<Real>&, int);                                          \
+  template void enter_tree(WorldData<Real>&, int);                                          \
+  template void leave_tree(WorldData<Real>&, int);                                          \
+  template void take_out_shape(WorldData<Real>&, int);                                      \
+  template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                    \
+  template void remove_shape(WorldData<Real>&, int);                                        \
+  template void set_filter(WorldData<Real>&, int, const Filter&);                           \
+  template void set_material(WorldData<Real>&, int, const Material&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

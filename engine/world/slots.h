@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/room.h"
@@ -13,16 +16,23 @@ namespace plumb {
 template <class T>
 class Slots {
  public:
-  int add(const T& value) {
+  /// Makes room for `more` things: adding them, and removing any, allocates nothing then.
+  void make_room(std::size_t more) {
+    const std::size_t wanted = items_.size() + more - std::min(more, free_.size());
+    ensure_room(items_, wanted), ensure_room(generations_, wanted), ensure_room(free_, wanted);
+  }
+  /// Where memory is out, nothing has changed.
+  int add(T value) {
+    make_room(1);
     int index;
     if (free_.empty()) {
       index = static_cast<int>(items_.size());
-      append(items_, value);
-      append(generations_, std::uint32_t{1});
+      items_.push_back(std::move(value));
+      generations_.push_back(1);
     } else {
       index = free_.back();
       free_.pop_back();
-      items_[index] = value;
+      items_[index] = std::move(value);
       ++generations_[index];
     }
     return index;

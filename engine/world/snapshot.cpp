@@ -6,6 +6,7 @@
 #include "engine/scene/bytes.h"
 #include "engine/world/checksum.h"
 #include "engine/world/encoding.h"
+#include "engine/world/lock.h"
 #include "engine/world/snapshot_check.h"
 #include "engine/world/world_members.h"
 
@@ -13,7 +14,7 @@ namespace plumb {
 namespace {
 
 // To be raised when bytes of the same sizes come to mean something else.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // "plumbsav" where numbers are little-endian.
 constexpr std::uint64_t kMagic = 0x766173626D756C70u;
@@ -164,6 +165,7 @@ void share_corners(WorldData<Real>& w) {
 template <class Real>
 void save(const BasicWorld<Real>& world, std::vector<std::byte>& bytes) {
   static_assert(std::endian::native == std::endian::little);
+  require_between_steps(world.data());
   bytes.clear();
   bytes.resize(kHeaderSize);
   Save write(bytes);
@@ -184,6 +186,7 @@ std::vector<std::byte> save(const BasicWorld<Real>& world) {
 
 template <class Real>
 void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
+  unlocked(world);
   Restore read(content_of(bytes, layout<Real>()));
   WorldData<Real> fresh;
   std::apply([&](auto&... each) { (read(each), ...); }, state_of(fresh));
@@ -193,6 +196,10 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
                       "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
+  // What is destroyed later allocates nothing.
+  fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
+  fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
+  fresh.still_tree.make_room(0), fresh.moving_tree.make_room(0);
   // Nothing throws from here on. The hook and the room for a step's work stay.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {

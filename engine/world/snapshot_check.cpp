@@ -41,6 +41,7 @@ class Marks {
     return true;
   }
   int count() const { return count_; }
+  bool has(int i) const { return marks_[i] != 0; }
 
  private:
   std::vector<char> marks_;
@@ -67,6 +68,7 @@ class Check {
     lists();
     awake();
     quarantine();
+    unsettled();
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) check_contact(contact);
     }
@@ -94,6 +96,7 @@ class Check {
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
     require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
+    require(w_.steps <= kMostSteps, "steps", "are more than a world takes");
     validate(w_.settings);
   }
 
@@ -153,9 +156,12 @@ class Check {
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
       const BodyRecord<Real>& record = w_.bodies[body];
+      int before = kNone;
       for (int shape = record.first_shape; shape != kNone; shape = w_.shapes[shape].next) {
-        require(listed.mark(shape) && w_.shapes.used(shape) && w_.shapes[shape].body == body, "shapes",
-                "are in the lists of other bodies");
+        require(listed.mark(shape) && w_.shapes.used(shape) && w_.shapes[shape].body == body &&
+                    w_.shapes[shape].previous == before,
+                "shapes", "are in the lists of other bodies");
+        before = shape;
       }
     }
     require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
@@ -262,6 +268,23 @@ class Check {
     for (const int joint : w_.breakable) {
       require(has_joint(joint) && breakable.mark(joint), "joints", "may break that are not there");
     }
+  }
+
+  // Bodies whose mass is to be found are listed; that of a static body need not be known.
+  void unsettled() const {
+    Marks listed(w_.bodies.size());
+    for (const int body : w_.unsettled)
+      require(has_body(body) && listed.mark(body), "bodies", "whose shapes changed are not there");
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      const BodyRecord<Real>& record = w_.bodies[body];
+      if (record.half_width < 0)
+        ++count, require(listed.has(body), "bodies", "whose shapes changed are not listed");
+      require(record.mass >= 0 || own_type(w_, body) == BodyType::Static || record.half_width < 0, "bodies",
+              "have a negative mass");
+    }
+    require(count == listed.count(), "bodies", "whose shapes changed are not listed");
   }
 
   void awake() const {

@@ -1,8 +1,12 @@
 #include "engine/world/step.h"
 
+#include <new>
 #include <utility>
 
+#include "engine/math/trigonometry.h"
+#include "engine/world/bodies.h"
 #include "engine/world/islands.h"
+#include "engine/world/lock.h"
 #include "engine/world/quarantine.h"
 
 namespace plumb {
@@ -16,24 +20,68 @@ struct Stepping {
     w.pending.clear();
     w.stepping = true;
   }
-  ~Stepping() { w.stepping = false; }
+  ~Stepping() {
+    w.stepping = false;
+    end_use(w);
+  }
   WorldData<Real>& w;
 };
+
+// After a step that was ended half-way: bodies stand where they are, turned as far as their angle says, and
+// their boxes hold them.
+template <class Real>
+void make_good(WorldData<Real>& w) {
+  w.ties_changed = true;  // islands and mechanisms are found anew
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    c.hardness =
+        w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+  });
+  for (const int body : w.awake) {
+    const Rotation<double> q = rotation_of(w.bodies[body].angle);
+    w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+    w.motion[body].moved = {}, w.motion[body].turned = 0;
+    // Direct islands may have lent links more inertia.
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (record.type == BodyType::Dynamic) {
+      w.motion[body].inverse_mass = 1 / record.mass;
+      w.motion[body].inverse_inertia =
+          record.lock_rotation || !(record.inertia > 0) ? Real(0) : 1 / record.inertia;
+    }
+    for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+      const int proxy = w.shapes[shape].proxy;
+      w.boxes[shape] = box_of(w, shape);
+      if (proxy == kNone || w.moving_tree.box(proxy).contains(w.boxes[shape])) continue;
+      w.moving_tree.enlarge(proxy, stored_box(w, shape, Real(0)));
+      w.enlarged[body] = 1;
+      try {
+        note_moved(w, shape);
+      } catch (const std::bad_alloc&) {
+        // It is noted when it next leaves its box.
+      }
+    }
+  }
+}
 
 }  // namespace
 
 template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps) {
   const double h = dt / substeps;
+  settle(w);
   // Let go of even when a stage throws.
   const Stepping<Real> stepping(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
   find_pairs(w);
   update_contacts(w, static_cast<Real>(dt));
-  solve_motion(w, h, substeps);
-  report_impacts(w);
-  finish_motion(w, static_cast<Real>(dt));
-  if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
+  try {
+    solve_motion(w, h, substeps);
+    report_impacts(w);
+    finish_motion(w, static_cast<Real>(dt));
+    if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
+  } catch (...) {
+    make_good(w);
+    throw;
+  }
   break_joints(w, h);
   update_sensors(w);
   sleep_islands(w);

@@ -19,6 +19,10 @@ class UsedList {
     make_room(items_, size);
     return items_[i];
   }
+  /// Makes room for `size` things, where one is used or is going to be.
+  void ensure(int size, bool going_to_be) {
+    if (used() || going_to_be) ensure_room(items_, static_cast<std::size_t>(size));
+  }
   /// To be called when there are `size` things and number `i` is new.
   void renew(int i, int size) {
     if (used()) at(i, size) = T{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "engine/geometry/convex_mass.h"
@@ -45,5 +46,8 @@ inline constexpr double kLargestMass = 1e18;
 /// Masses and inertias of float worlds: a float's reciprocal of the smallest is finite, and hundreds of the
 /// largest are.
 inline constexpr double kSmallestWeight = 1e-36, kLargestWeight = 1e36;
+
+/// Steps of a world: a double holds each number up to here. A thousand a second take 285,000 years.
+inline constexpr std::int64_t kMostSteps = std::int64_t{1} << 53;
 
 }  // namespace plumb

@@ -2,12 +2,14 @@
 
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 #include "engine/world/bodies.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/islands.h"
+#include "engine/world/lock.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/step.h"
 #include "engine/world/validate.h"
@@ -24,6 +26,10 @@ namespace {
               never ? "names nothing" : "names something that was destroyed, or is of another world");
 }
 
+[[noreturn]] void report_moved() {
+  throw Error(Error::Kind::Name, "world", "", "", "was moved to another variable; use that one");
+}
+
 }  // namespace
 
 template <class Real>
@@ -31,93 +37,128 @@ BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(std::mak
   validate(definition);
   data_->settings = definition;
 }
+// Who destroys a world from one of its callbacks leaves what it consists of to the call that is at work on
+// it.
 template <class Real>
-BasicWorld<Real>::~BasicWorld() = default;
+BasicWorld<Real>::~BasicWorld() {
+  if (data_ == nullptr || (!data_->stepping && data_->callers == 0)) return;
+  data_->abandoned = true;
+  (void)data_.release();
+}
 template <class Real>
 BasicWorld<Real>::BasicWorld(BasicWorld&&) noexcept = default;
 template <class Real>
-BasicWorld<Real>& BasicWorld<Real>::operator=(BasicWorld&&) noexcept = default;
+BasicWorld<Real>& BasicWorld<Real>::operator=(BasicWorld&& other) {
+  if (data_ != nullptr) require_unlocked(*data_);
+  data_ = std::move(other.data_);
+  return *this;
+}
+
+template <class Real>
+WorldData<Real>& BasicWorld<Real>::data() {
+  if (data_ == nullptr) report_moved();
+  return *data_;
+}
+template <class Real>
+const WorldData<Real>& BasicWorld<Real>::data() const {
+  if (data_ == nullptr) report_moved();
+  return *data_;
+}
 
 template <class Real>
 void BasicWorld<Real>::step(double dt, int substeps) {
+  unlocked(*this);
   require_positive("step", "dt", dt);
   if (substeps < 1 || substeps > 1000) {
     throw Error(Error::Kind::Value, "step", "substeps", std::to_string(substeps),
                 "must be a number from 1 to 1000");
+  }
+  if (data_->steps >= kMostSteps) {
+    throw Error(Error::Kind::Run, "world", "steps", std::to_string(data_->steps),
+                "are as many as can be counted; go on in a new world");
   }
   step_world(*data_, dt, substeps);
 }
 
 template <class Real>
 double BasicWorld<Real>::time() const {
-  return data_->time;
+  return data().time;
 }
 template <class Real>
 std::int64_t BasicWorld<Real>::step_count() const {
-  return data_->steps;
+  return data().steps;
 }
 template <class Real>
 const Events& BasicWorld<Real>::events() const {
-  return data_->events;
+  return data().events;
 }
 
 template <class Real>
 void BasicWorld<Real>::set_gravity(Vec2d gravity) {
+  unlocked(*this);
   require_finite("world", "gravity", gravity);
   data_->settings.gravity = gravity;
-  data_->bodies.for_each([&](int body, BodyRecord<Real>&) { wake_body(*data_, body); });
+  wake_all();
 }
 template <class Real>
 Vec2d BasicWorld<Real>::gravity() const {
-  return data_->settings.gravity;
+  return data().settings.gravity;
 }
 template <class Real>
 void BasicWorld<Real>::set_sleeping(bool on) {
+  unlocked(*this);
   data_->settings.sleeping = on;
-  if (on) return;
-  data_->bodies.for_each([&](int body, BodyRecord<Real>&) { wake_body(*data_, body); });
+  if (!on) wake_all();
 }
 template <class Real>
 void BasicWorld<Real>::set_continuous(bool on) {
+  unlocked(*this);
   data_->settings.continuous = on;
 }
 
 template <class Real>
 void BasicWorld<Real>::set_solver(Solver solver) {
+  unlocked(*this);
   WorldDefinition changed = data_->settings;
   changed.solver = solver;
   validate(changed);
+  if (solver != data_->settings.solver) wake_all();
   data_->settings = changed;
   data_->ties_changed = true;
 }
 template <class Real>
 Solver BasicWorld<Real>::solver() const {
-  return data_->settings.solver;
+  return data().settings.solver;
 }
 template <class Real>
 void BasicWorld<Real>::set_iterations(int iterations) {
+  unlocked(*this);
   WorldDefinition changed = data_->settings;
   changed.iterations = iterations;
   validate(changed);
+  if (iterations != data_->settings.iterations) wake_all();
   data_->settings = changed;
 }
 template <class Real>
 int BasicWorld<Real>::iterations() const {
-  return data_->settings.iterations;
+  return data().settings.iterations;
 }
 template <class Real>
 void BasicWorld<Real>::set_direct_islands(bool on) {
+  unlocked(*this);
+  if (on != data_->settings.direct_islands) wake_all();
   data_->settings.direct_islands = on;
 }
 
 template <class Real>
 void BasicWorld<Real>::set_quarantine(bool on) {
+  unlocked(*this);
   data_->settings.quarantine = on;
 }
 template <class Real>
 std::vector<QuarantineEvent> BasicWorld<Real>::quarantined() const {
   std::vector<QuarantineEvent> all;
-  for (const QuarantinedBody& each : data_->quarantine) all.push_back(each.why);
+  for (const QuarantinedBody& each : data().quarantine) all.push_back(each.why);
   return all;
 }
 template <class Real>
@@ -126,13 +167,16 @@ bool BasicWorld<Real>::quarantined(BodyId body) const {
 }
 template <class Real>
 void BasicWorld<Real>::release(BodyId body) {
+  unlocked(*this);
   const int index = place(body);
-  if (data_->bodies[index].quarantined) release_body(*data_, index);
+  if (!data_->bodies[index].quarantined) return;
+  settle(*data_);
+  release_body(*data_, index);
 }
 
 template <class Real>
 WorldCounts BasicWorld<Real>::counts() const {
-  const WorldData<Real>& w = *data_;
+  const WorldData<Real>& w = data();
   return {w.bodies.count(),
           static_cast<int>(w.awake.size()),
           w.shapes.count(),
@@ -143,6 +187,8 @@ WorldCounts BasicWorld<Real>::counts() const {
 
 template <class Real>
 void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> hook) {
+  unlocked(*this);
+  wake_asked();
   if (!hook) {
     data_->pre_solve = nullptr;
     return;
@@ -156,12 +202,13 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
 
 template <class Real>
 void BasicWorld<Real>::combine_with(CombineFunction friction, CombineFunction restitution) {
+  unlocked(*this);
   data_->friction_rule = friction, data_->restitution_rule = restitution;
 }
 
 template <class Real>
 std::uint64_t BasicWorld<Real>::hash() const {
-  const WorldData<Real>& w = *data_;
+  const WorldData<Real>& w = data();
   std::uint64_t hash = 0xCBF29CE484222325u;
   const auto mix = [&](const auto& value) {
     unsigned char bytes[sizeof(value)];
@@ -178,26 +225,40 @@ std::uint64_t BasicWorld<Real>::hash() const {
 
 template <class Real>
 int BasicWorld<Real>::place(BodyId body) const {
-  if (!data_->bodies.holds(body.index, body.generation)) report_gone("body", body.index, body.generation);
+  if (!data().bodies.holds(body.index, body.generation)) report_gone("body", body.index, body.generation);
   return static_cast<int>(body.index);
 }
 template <class Real>
 int BasicWorld<Real>::place(ShapeId shape) const {
-  if (!data_->shapes.holds(shape.index, shape.generation))
+  if (!data().shapes.holds(shape.index, shape.generation))
     report_gone("shape", shape.index, shape.generation);
   return static_cast<int>(shape.index);
 }
 template <class Real>
 int BasicWorld<Real>::place(JointId joint) const {
-  if (!data_->joints.holds(joint.index, joint.generation))
+  if (!data().joints.holds(joint.index, joint.generation))
     report_gone("joint", joint.index, joint.generation);
   return static_cast<int>(joint.index);
 }
 template <class Real>
 int BasicWorld<Real>::place(ChainId chain) const {
-  if (!data_->chains.holds(chain.index, chain.generation))
+  if (!data().chains.holds(chain.index, chain.generation))
     report_gone("chain", chain.index, chain.generation);
   return static_cast<int>(chain.index);
+}
+
+template <class Real>
+void BasicWorld<Real>::wake_all() {
+  data_->bodies.for_each([&](int body, BodyRecord<Real>&) { wake_body(*data_, body); });
+}
+
+// What sleeps with a contact that the hook is asked about.
+template <class Real>
+void BasicWorld<Real>::wake_asked() {
+  data_->contacts.for_each([&](int, const ContactRecord& contact) {
+    if (contact.pre_solve && contact.home == ContactHome::Parked)
+      wake_body(*data_, contact.body_a), wake_body(*data_, contact.body_b);
+  });
 }
 
 template class BasicWorld<float>;

@@ -51,14 +51,19 @@ struct WorldCounts {
 /// fixed length. Positions are kept in double, everything else in `Real`; the interface speaks double. SI
 /// units, y up, angles in rad, counter-clockwise. Functions that take a handle throw Error (Name) when what
 /// it names is gone, and Error (Value) for numbers out of their range; nothing has changed then. Movable, not
-/// copyable.
+/// copyable: a world that was moved away throws Error (Name) at each call.
+///
+/// Whatever a call could change is awake afterwards. Code of the user's that the world calls (hooks, rules,
+/// force laws, visitors of queries) may read it; calls that change it throw Error (Unsupported) from there.
+/// What such code throws ends the call; the world goes on. So it does where memory is out: what creates has
+/// then changed nothing, another call may be done by half.
 template <class Real>
 class BasicWorld {
  public:
   explicit BasicWorld(const WorldDefinition& definition = {});
   ~BasicWorld();
   BasicWorld(BasicWorld&&) noexcept;
-  BasicWorld& operator=(BasicWorld&&) noexcept;
+  BasicWorld& operator=(BasicWorld&&);
 
   /// Advances by `dt` s in `substeps` substeps: more of them hold stacks and joints better. A body whose
   /// state would not be finite afterwards, or beyond 1e12, is quarantined.
@@ -98,14 +103,17 @@ class BasicWorld {
   // Bodies.
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
   BodyId create_body(const BodyDefinition& definition, const ShapeDefinition& shape);
+  /// Likewise; `made` becomes the list of the shapes' handles, in the order of their definitions.
+  BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes,
+                     std::vector<ShapeId>& made);
   void destroy(BodyId body);  ///< with its shapes, contacts and joints
   bool valid(BodyId body) const;
   std::vector<BodyId> bodies() const;  ///< all, in the order of their places
 
   Vec2d position(BodyId body) const;  ///< m, of the body's origin
-  Vec2d centre(BodyId body) const;    ///< m, of the centre of mass
+  Vec2d centre(BodyId body) const;    ///< m, of the centre of mass; of a kinematic body, of its origin
   double angle(BodyId body) const;    ///< rad, whole turns counted
-  Vec2d velocity(BodyId body) const;  ///< m/s, of the centre of mass
+  Vec2d velocity(BodyId body) const;  ///< m/s, of its `centre`: a kinematic body turns about its origin
   double angular_velocity(BodyId body) const;
   Vec2d velocity_at(BodyId body, Vec2d point) const;  ///< m/s, of the body at a point of the world
   Vec2d world_point(BodyId body, Vec2d local) const;
@@ -144,8 +152,8 @@ class BasicWorld {
   BodyLocks locks(BodyId body) const;
   std::uint64_t user_data(BodyId body) const;
   const std::string& name(BodyId body) const;
-  std::vector<ShapeId> shapes(BodyId body) const;
-  std::vector<JointId> joints(BodyId body) const;
+  std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order in which they were made
+  std::vector<JointId> joints(BodyId body) const;           ///< likewise
   std::vector<ContactReading> contacts(BodyId body) const;  ///< that have points
 
   // Shapes.
@@ -185,8 +193,8 @@ class BasicWorld {
   std::uint64_t user_data(JointId joint) const;
   std::pair<BodyId, BodyId> bodies(JointId joint) const;
 
-  /// Called for contacts of shapes that ask for it, before they are solved; false: not in this step. It must
-  /// not change the world.
+  /// Called for contacts of shapes that ask for it, before they are solved; false: not in this step. What it
+  /// throws ends the step, before anything has moved.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
   /// 64-bit FNV-1a over the bits of every body's state: equal on every platform for the same calls.
@@ -194,8 +202,8 @@ class BasicWorld {
 
   /// What the world consists of, for the engine's own extensions (queries, snapshots, force laws):
   /// world_data.h.
-  WorldData<Real>& data() { return *data_; }
-  const WorldData<Real>& data() const { return *data_; }
+  WorldData<Real>& data();
+  const WorldData<Real>& data() const;
 
  private:
   int place(BodyId body) const;
@@ -203,6 +211,9 @@ class BasicWorld {
   int place(JointId joint) const;
   int place(ChainId chain) const;
   void wake(int body);
+  void wake_moved(int body);
+  void wake_all();
+  void wake_asked();
 
   std::unique_ptr<WorldData<Real>> data_;
 };

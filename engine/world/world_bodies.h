@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include "engine/world/bodies.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
 #include "engine/world/islands.h"
+#include "engine/world/lock.h"
+#include "engine/world/mass.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
@@ -16,6 +19,7 @@ namespace plumb {
 template <class Real>
 BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {
+  unlocked(*this);
   validate(definition);
   for (const ShapeDefinition& shape : shapes) validate(shape);
   if (std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass) {
@@ -26,22 +30,36 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
 }
 template <class Real>
 BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition, const ShapeDefinition& shape) {
+  unlocked(*this);
   return create_body(definition, std::span(&shape, 1));
 }
 template <class Real>
+BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
+                                     std::span<const ShapeDefinition> shapes, std::vector<ShapeId>& made) {
+  made.reserve(shapes.size());
+  const BodyId body = create_body(definition, shapes);
+  made.clear();
+  for (int shape = data_->bodies[place(body)].first_shape; shape != kNone; shape = data_->shapes[shape].next)
+    made.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
+  std::reverse(made.begin(), made.end());
+  return body;
+}
+template <class Real>
 void BasicWorld<Real>::destroy(BodyId body) {
+  unlocked(*this);
   remove_body(*data_, place(body));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(BodyId body) const {
-  return data_->bodies.holds(body.index, body.generation);
+  return data().bodies.holds(body.index, body.generation);
 }
 template <class Real>
 std::vector<BodyId> BasicWorld<Real>::bodies() const {
   std::vector<BodyId> all;
-  data_->bodies.for_each([&](int body, const BodyRecord<Real>&) {
-    all.push_back({static_cast<std::uint32_t>(body), data_->bodies.generation(body)});
-  });
+  const WorldData<Real>& w = data();
+  for (int body = 0; body < w.bodies.size(); ++body) {
+    if (w.bodies.used(body)) all.push_back({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
+  }
   return all;
 }
 
@@ -51,7 +69,9 @@ Vec2d BasicWorld<Real>::position(BodyId body) const {
 }
 template <class Real>
 Vec2d BasicWorld<Real>::centre(BodyId body) const {
-  return data_->position[place(body)];
+  const int index = place(body);
+  const Vec2<Real> way = data_->rotation[index] * way_to_centre(*data_, index);
+  return data_->position[index] + way.template as<double>();
 }
 template <class Real>
 double BasicWorld<Real>::angle(BodyId body) const {
@@ -59,7 +79,11 @@ double BasicWorld<Real>::angle(BodyId body) const {
 }
 template <class Real>
 Vec2d BasicWorld<Real>::velocity(BodyId body) const {
-  return data_->motion[place(body)].velocity.template as<double>();
+  const int index = place(body);
+  const BodyMotion<Real>& motion = data_->motion[index];
+  if (!is_unsettled(*data_, index)) return motion.velocity.template as<double>();
+  const Vec2<Real> way = data_->rotation[index] * way_to_centre(*data_, index);
+  return (motion.velocity + cross(motion.angular_velocity, way)).template as<double>();
 }
 template <class Real>
 double BasicWorld<Real>::angular_velocity(BodyId body) const {
@@ -89,6 +113,7 @@ BodyState BasicWorld<Real>::state(BodyId body) const {
 
 template <class Real>
 void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "position", position);
   require_finite("body", "angle", angle);
@@ -96,28 +121,34 @@ void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
 }
 template <class Real>
 void BasicWorld<Real>::set_velocity(BodyId body, Vec2d velocity) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "velocity", velocity);
   if (own_type(*data_, index) == BodyType::Static) return;
-  wake(index);
+  settle(*data_);
+  wake_moved(index);
   data_->motion[index].velocity = velocity.as<Real>();
 }
 template <class Real>
 void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "angular_velocity", angular_velocity);
   if (own_type(*data_, index) == BodyType::Static) return;
-  wake(index);
+  settle(*data_);
+  wake_moved(index);
   data_->motion[index].angular_velocity = static_cast<Real>(angular_velocity);
 }
 template <class Real>
 void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, double dt) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "position", position);
   require_finite("body", "angle", angle);
   require_positive("body", "dt", dt);
   const Rotation<double> q = rotation_of(angle);
-  const Vec2d target = position + q * data_->bodies[index].centre.template as<double>();
+  const Vec2<Real> centre_in_body = data_->bodies[index].centre + way_to_centre(*data_, index);
+  const Vec2d target = position + q * centre_in_body.template as<double>();
   const Vec2d velocity = (1 / dt) * (target - centre(body));
   const double angular_velocity = (angle - this->angle(body)) / dt;
   require_finite("body", "velocity", velocity);
@@ -128,14 +159,17 @@ void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, d
 
 template <class Real>
 void BasicWorld<Real>::apply_force(BodyId body, Vec2d force) {
+  unlocked(*this);
   apply_force(body, force, centre(body));
 }
 template <class Real>
 void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "force", force);
   require_finite("body", "point", point);
   if (!data_->gives_way(index)) return;
+  settle(*data_);
   wake(index);
   Load<Real>& load = data_->loads.at(index, data_->bodies.size());
   load.force += force.as<Real>();
@@ -143,30 +177,37 @@ void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
 }
 template <class Real>
 void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "torque", torque);
   if (!data_->gives_way(index)) return;
+  settle(*data_);
   wake(index);
   data_->loads.at(index, data_->bodies.size()).torque += static_cast<Real>(torque);
 }
 template <class Real>
 void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse) {
+  unlocked(*this);
   apply_impulse(body, impulse, centre(body));
 }
 template <class Real>
 void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "impulse", impulse);
   require_finite("body", "point", point);
   if (!data_->gives_way(index)) return;
+  settle(*data_);
   wake(index);
   push_body(*data_, index, impulse, cross(point - data_->position[index], impulse));
 }
 template <class Real>
 void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "angular_impulse", impulse);
   if (!data_->gives_way(index)) return;
+  settle(*data_);
   wake(index);
   push_body(*data_, index, {}, impulse);
 }
@@ -177,38 +218,49 @@ BodyType BasicWorld<Real>::type(BodyId body) const {
 }
 template <class Real>
 void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
+  unlocked(*this);
   const int index = place(body);
   validate(type);
   if (type == BodyType::Dynamic && !data_->bodies[index].mass_given) require_weights(*data_, index);
+  settle(*data_);
   plumb::set_type(*data_, index, type);
 }
 template <class Real>
 double BasicWorld<Real>::mass(BodyId body) const {
   const int index = place(body);
-  return own_type(*data_, index) == BodyType::Dynamic ? static_cast<double>(data_->bodies[index].mass) : 0;
+  if (own_type(*data_, index) != BodyType::Dynamic) return 0;
+  return static_cast<double>(is_unsettled(*data_, index) ? static_cast<Real>(mass_now(*data_, index).mass)
+                                                         : data_->bodies[index].mass);
 }
 template <class Real>
 double BasicWorld<Real>::inertia(BodyId body) const {
   const int index = place(body);
-  return own_type(*data_, index) == BodyType::Dynamic ? static_cast<double>(data_->bodies[index].inertia) : 0;
+  if (own_type(*data_, index) != BodyType::Dynamic) return 0;
+  return static_cast<double>(is_unsettled(*data_, index) ? static_cast<Real>(mass_now(*data_, index).inertia)
+                                                         : data_->bodies[index].inertia);
 }
 template <class Real>
 void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
+  unlocked(*this);
   const int index = place(body);
   validate(BodyDefinition{.mass = mass});
+  settle(*data_);
   plumb::set_mass(*data_, index, mass);
   wake(index);
 }
 template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
+  unlocked(*this);
   const int index = place(body);
   if (data_->gives_way(index)) require_weights(*data_, index);
+  settle(*data_);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);
   wake(index);
 }
 template <class Real>
 void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
+  unlocked(*this);
   const int index = place(body);
   require_finite("body", "gravity_scale", scale);
   plumb::set_gravity_scale(*data_, index, scale);
@@ -216,14 +268,18 @@ void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
 }
 template <class Real>
 void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
+  unlocked(*this);
   const int index = place(body);
   require_not_negative("body", "linear_damping", linear);
   require_not_negative("body", "angular_damping", angular);
   plumb::set_damping(*data_, index, linear, angular);
+  wake(index);
 }
 template <class Real>
 void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
+  unlocked(*this);
   const int index = place(body);
+  settle(*data_);
   BodyRecord<Real>& record = data_->bodies[index];
   record.lock_x = x, record.lock_y = y, record.lock_rotation = rotation;
   const bool dynamic = own_type(*data_, index) == BodyType::Dynamic;
@@ -241,6 +297,7 @@ bool BasicWorld<Real>::awake(BodyId body) const {
 }
 template <class Real>
 void BasicWorld<Real>::set_awake(BodyId body, bool awake) {
+  unlocked(*this);
   const int index = place(body);
   if (awake) {
     wake(index);
@@ -250,6 +307,7 @@ void BasicWorld<Real>::set_awake(BodyId body, bool awake) {
 }
 template <class Real>
 void BasicWorld<Real>::set_may_sleep(BodyId body, bool may_sleep) {
+  unlocked(*this);
   const int index = place(body);
   data_->bodies[index].may_sleep = may_sleep;
   if (!may_sleep) wake(index);
@@ -290,6 +348,7 @@ std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
        shape = data_->shapes[shape].next) {
     all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   }
+  std::reverse(all.begin(), all.end());  // the newest comes first in the list
   return all;
 }
 template <class Real>
@@ -298,6 +357,7 @@ std::vector<JointId> BasicWorld<Real>::joints(BodyId body) const {
   for_each_edge(data_->joints, data_->bodies[place(body)].first_joint, [&](int edge, const JointRecord&) {
     all.push_back({static_cast<std::uint32_t>(edge / 2), data_->joints.generation(edge / 2)});
   });
+  std::reverse(all.begin(), all.end());
   return all;
 }
 template <class Real>
@@ -316,6 +376,12 @@ template <class Real>
 void BasicWorld<Real>::wake(int body) {
   wake_body(*data_, body);
   data_->bodies[body].still_for = 0;
+}
+// A kinematic body that moves takes along what lies on it.
+template <class Real>
+void BasicWorld<Real>::wake_moved(int body) {
+  if (!data_->gives_way(body)) wake_neighbours(*data_, body);
+  wake(body);
 }
 
 }  // namespace plumb

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory_resource>
@@ -8,7 +9,6 @@
 
 #include "engine/collide/dynamic_tree.h"
 #include "engine/collide/pair_set.h"
-#include "engine/geometry/convex_mass.h"
 #include "engine/solve/body_motion.h"
 #include "engine/solve/bounce_crowds.h"
 #include "engine/solve/contact_graph.h"
@@ -44,9 +44,9 @@ struct BodyRecord {
       first_joint = kNone;     ///< contact and joint: edge = 2 index + side
   int constraints = 0;         ///< contacts with points, and joints: 0 is free flight
   int uncommon = kNone;        ///< its UncommonBody
-  Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
-  Vec2<Real> centre{};         ///< m, of mass, in the body's frame
-  Real half_width = 0;         ///< m, smallest half width of its shapes
+  Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: not known of a static body
+  Vec2<Real> centre{};         ///< m, of what it turns about, in the body's frame: mass.h
+  Real half_width = 0;         ///< m, smallest half width of its shapes; negative: in `unsettled`
   Real still_for = 0;          ///< s
   double angle = 0;            ///< rad, whole turns counted
 };
@@ -57,6 +57,7 @@ template <class Real>
 struct UncommonBody {
   std::string name{};
   Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
+  Vec2<Real> mass_centre{};  ///< m, in the body's frame, when its mass was given
 };
 
 /// What the user applies to a body until the end of the next step.
@@ -81,7 +82,7 @@ struct ShapeForm {
 template <class Real>
 struct ShapeRecord {
   int body = 0;
-  int next = kNone;  ///< of the same body
+  int next = kNone, previous = kNone;  ///< of the same body
   int proxy = kNone;
   int chain = kNone;   ///< that it is a segment of
   bool moved = false;  ///< in the list of boxes to search pairs for
@@ -231,7 +232,6 @@ struct Scratch {
   std::vector<Meeting> meetings;   ///< a heap, the first on top
   std::vector<int> flight_places;  ///< by body: its flight, while they are followed
   std::vector<ShapeId> visitors;
-  std::vector<ConvexMass> mass_parts;
 };
 
 template <class Real>
@@ -253,6 +253,7 @@ struct WorldData {
   std::vector<Real> extents;    ///< m, from the centre of mass to the farthest point
   std::vector<char> enlarged;   ///< a shape of it left its stored box in the last step
   std::vector<int> awake;
+  std::vector<int> unsettled;  ///< bodies whose shapes have changed: mass.h
 
   // Shapes, by index.
   Slots<ShapeRecord<Real>> shapes;
@@ -280,7 +281,9 @@ struct WorldData {
   Events events;   ///< of the last step
   Events pending;  ///< since then: the next step's
   bool stepping = false;
-  bool reports_hits = false;  ///< some shape wants it
+  mutable std::atomic<int> callers{0};  ///< callbacks of the user's that look at the world now: lock.h
+  bool abandoned = false;               ///< whoever had it is gone; the last of these deletes it
+  bool reports_hits = false;            ///< some shape wants it
   bool ties_changed =
       true;  ///< since the islands were found: a contact or joint came or went, a body woke or slept
   Scratch<Real> scratch;

@@ -28,13 +28,13 @@ PLUMB_MEMBERS(Filter, category, mask, group)
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
                    awake_index, first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia,
                    centre, half_width, still_for, angle)
-PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping)
+PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping, mass_centre)
 PLUMB_REAL_MEMBERS(Load, force, torque)
 PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
 
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
-PLUMB_REAL_MEMBERS(ShapeRecord, body, next, proxy, chain, moved, hit_events, pre_solve, filter, friction,
-                   restitution, rolling_resistance, surface_speed, density)
+PLUMB_REAL_MEMBERS(ShapeRecord, body, next, previous, proxy, chain, moved, hit_events, pre_solve, filter,
+                   friction, restitution, rolling_resistance, surface_speed, density)
 PLUMB_MEMBERS(ChainRecord, body, shapes)
 PLUMB_MEMBERS(SensorRecord, shape, visitors)
 
@@ -62,14 +62,14 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         remainders, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data, chains,
+         remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners, shape_data, chains,
          moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set,
-         sensors, breakable, quarantine, events, pending, stepping, reports_hits, ties_changed, scratch,
-         pre_solve, friction_rule, restitution_rule] = w;
+         sensors, breakable, quarantine, events, pending, stepping, callers, abandoned, reports_hits,
+         ties_changed, scratch, pre_solve, friction_rule, restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, remainders, extents, enlarged, awake, shapes, forms, boxes, corners, shape_data,
-                  chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints,
-                  joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
+                  position, remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
+                  shape_data, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph,
+                  parked, joints, joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
 }
 
 }  // namespace plumb

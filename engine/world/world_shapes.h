@@ -4,6 +4,7 @@
 
 #include "engine/world/bodies.h"
 #include "engine/world/islands.h"
+#include "engine/world/lock.h"
 #include "engine/world/shape_reading.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
@@ -13,6 +14,7 @@ namespace plumb {
 
 template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
+  unlocked(*this);
   const int index = place(body);
   validate(definition);
   const bool weighs = data_->gives_way(index) && !data_->bodies[index].mass_given;
@@ -22,6 +24,7 @@ ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& defin
 }
 template <class Real>
 void BasicWorld<Real>::destroy(ShapeId shape) {
+  unlocked(*this);
   const int index = place(shape);
   if (data_->shapes[index].chain != kNone) {
     throw Error(Error::Kind::Value, "shape", "handle", std::to_string(index),
@@ -31,7 +34,7 @@ void BasicWorld<Real>::destroy(ShapeId shape) {
 }
 template <class Real>
 bool BasicWorld<Real>::valid(ShapeId shape) const {
-  return data_->shapes.holds(shape.index, shape.generation);
+  return data().shapes.holds(shape.index, shape.generation);
 }
 template <class Real>
 BodyId BasicWorld<Real>::body(ShapeId shape) const {
@@ -52,6 +55,7 @@ ShapeDefinition BasicWorld<Real>::definition(ShapeId shape) const {
 }
 template <class Real>
 void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
+  unlocked(*this);
   const int index = place(shape);
   validate(ShapeDefinition{.material = material});
   plumb::set_material(*data_, index, material);
@@ -78,6 +82,7 @@ bool BasicWorld<Real>::pre_solve(ShapeId shape) const {
 }
 template <class Real>
 void BasicWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
+  unlocked(*this);
   plumb::set_filter(*data_, place(shape), filter);
 }
 template <class Real>
@@ -92,6 +97,7 @@ std::vector<ShapeId> BasicWorld<Real>::overlapping(ShapeId sensor) const {
 
 template <class Real>
 ChainId BasicWorld<Real>::create_chain(BodyId body, const ChainDefinition& definition) {
+  unlocked(*this);
   const int index = place(body);
   validate(definition);
   const int chain = add_chain(*data_, index, definition);
@@ -99,11 +105,12 @@ ChainId BasicWorld<Real>::create_chain(BodyId body, const ChainDefinition& defin
 }
 template <class Real>
 void BasicWorld<Real>::destroy(ChainId chain) {
+  unlocked(*this);
   remove_chain(*data_, place(chain));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(ChainId chain) const {
-  return data_->chains.holds(chain.index, chain.generation);
+  return data().chains.holds(chain.index, chain.generation);
 }
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::segments(ChainId chain) const {
@@ -121,6 +128,7 @@ ChainDefinition BasicWorld<Real>::definition(ChainId chain) const {
 
 template <class Real>
 JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition& definition) {
+  unlocked(*this);
   const int body_a = place(a), body_b = place(b);
   validate(definition);
   const int joint = add_joint(*data_, body_a, body_b, definition);
@@ -128,11 +136,12 @@ JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition
 }
 template <class Real>
 void BasicWorld<Real>::destroy(JointId joint) {
+  unlocked(*this);
   remove_joint(*data_, place(joint));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(JointId joint) const {
-  return data_->joints.holds(joint.index, joint.generation);
+  return data().joints.holds(joint.index, joint.generation);
 }
 template <class Real>
 const JointKind& BasicWorld<Real>::kind(JointId joint) const {
@@ -140,6 +149,7 @@ const JointKind& BasicWorld<Real>::kind(JointId joint) const {
 }
 template <class Real>
 void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
+  unlocked(*this);
   const JointRecord& record = data_->joints[place(joint)];
   data_->joint_set.change(record.slot, kind);
   data_->ties_changed = true;

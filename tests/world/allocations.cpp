@@ -8,10 +8,15 @@
 
 namespace {
 
-std::atomic<long> count{0}, bytes{0};
+std::atomic<long> count{0}, bytes{0}, others{-1};
+std::atomic<bool> failed{false};
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++count;
+  if (others >= 0 && others-- == 0) {
+    failed = true;
+    throw std::bad_alloc();
+  }
   const std::size_t room = (size + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, room > 0 ? room : alignment);
   if (memory == nullptr) throw std::bad_alloc();
@@ -32,6 +37,11 @@ namespace plumb::test {
 
 long allocations() { return count; }
 long live_bytes() { return bytes; }
+void fail_after(long more) {
+  failed = false;
+  others = more;
+}
+bool has_failed() { return failed; }
 
 }  // namespace plumb::test
 

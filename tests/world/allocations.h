@@ -8,4 +8,9 @@ long allocations();
 /// Bytes that operator new has given out and not got back, as the allocator rounded them.
 long live_bytes();
 
+/// The allocation after `others` more of them fails once; a negative number: none does.
+void fail_after(long others);
+/// Whether it has.
+bool has_failed();
+
 }  // namespace plumb::test
