@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -54,7 +54,8 @@ std::vector<const hunting::Idiom*> chosen_families(const std::vector<std::string
   for (const std::string& name : names) {
     const hunting::Idiom* idiom = &hunting::find_idiom(name);
     if (idiom->role != hunting::Idiom::Role::Structure)
-      throw UsageError(fmt::format("'{}' is no structure: it comes with others by itself; see `plumb hunt --list`", name));
+      throw UsageError(
+          fmt::format("'{}' is no structure: it comes with others by itself; see `plumb hunt --list`", name));
     if (std::find(out.begin(), out.end(), idiom) == out.end()) out.push_back(idiom);
   }
   return out;
@@ -65,7 +66,8 @@ std::vector<hunting::Engine> engines_of(const Options& options, const std::vecto
   EngineOptions wanted = options.engines;
   if (wanted.names.empty() && wanted.commands.empty()) wanted.names = usual;
   if (wanted.names.empty())
-    for (const std::string& command : wanted.commands) wanted.names.push_back(command.substr(0, command.find('=')));
+    for (const std::string& command : wanted.commands)
+      wanted.names.push_back(command.substr(0, command.find('=')));
   std::vector<hunting::Engine> out;
   for (const reference::Backend* backend : chosen_engines(wanted, programs)) out.emplace_back(*backend);
   return out;
@@ -83,11 +85,12 @@ int replay(const Options& options) {
   for (const hunting::Engine& engine : engines_of(options, usual, programs)) {
     const hunting::Examined seen = hunting::examine(engine, one);
     if (!seen.skipped.empty()) print(fmt::format("{}: skipped: {}\n", engine.name(), seen.skipped));
-    if (seen.skipped.empty() && seen.objections.empty()) print(fmt::format("{}: no judge objects\n", engine.name()));
+    if (seen.skipped.empty() && seen.objections.empty())
+      print(fmt::format("{}: no judge objects\n", engine.name()));
     for (const hunting::Objection& objection : seen.objections) {
       objected = true;
-      print(fmt::format("{}: {} at {:.3g} s: {}\n  right: {}\n", engine.name(), objection.judge, objection.time,
-                        objection.what, objection.right));
+      print(fmt::format("{}: {} at {:.3g} s: {}\n  right: {}\n", engine.name(), objection.judge,
+                        objection.time, objection.what, objection.right));
     }
   }
   return objected ? kCheckFailed : kOk;
@@ -117,10 +120,11 @@ int start(const Options& options) {
   }
   std::vector<std::unique_ptr<reference::Backend>> programs;
   what.engines = engines_of(options, {"plumb-world", "plumb-world-double"}, programs);
-  what.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  what.seconds = !options.minutes.empty()  ? 60 * parse_positive("--minutes", options.minutes)
-                 : options.scenes > 0 ? 0
-                                      : 60 * kMinutes;
+  what.jobs =
+      options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  what.seconds = !options.minutes.empty() ? 60 * parse_positive("--minutes", options.minutes)
+                 : options.scenes > 0     ? 0
+                                          : 60 * kMinutes;
   ProgressLine progress;
   harness::catch_interrupts();
   hunting::HuntEvents events;
@@ -135,9 +139,10 @@ int start(const Options& options) {
     print(hunting::kinds_json(done) + "\n");
   } else {
     print(hunting::kinds_text(done));
-    print(fmt::format("\n{} scenes, {} runs, {} skipped: {} kinds of findings; each is in {}/findings, and\n"
-                      "`plumb hunt --replay FILE` runs one again\n",
-                      done.scenes, done.runs, done.skipped, done.kinds.size(), options.out));
+    print(
+        fmt::format("\n{} scenes, {} runs, {} skipped: {} kinds of findings; each is in {}/findings, and\n"
+                    "`plumb hunt --replay FILE` runs one again\n",
+                    done.scenes, done.runs, done.skipped, done.kinds.size(), options.out));
   }
   if (done.interrupted) {
     fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", options.out);
@@ -149,8 +154,8 @@ int start(const Options& options) {
 }  // namespace
 
 void add_hunt(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
+  CLI::App* command = app.add_subcommand(
+      "hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
   auto options = std::make_shared<Options>();
   command->add_option("families", options->names, "structures to draw from (default: all); see --list")
       ->type_name("FAMILY");
@@ -162,7 +167,8 @@ void add_hunt(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command
-      ->add_option("--out", options->out, "folder for what is found; a hunt that is there goes on (default hunt)")
+      ->add_option("--out", options->out,
+                   "folder for what is found; a hunt that is there goes on (default hunt)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console or json")
@@ -175,8 +181,10 @@ void add_hunt(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-world,box2d --seed 7\n"
       "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"
       "  plumb hunt --replay hunt/findings/001-energy.json\n"
-      "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the scenes\n"
-      "under way; the same command goes on. See docs/hunting.md. Exit codes: 0 nothing was found; 1 something\n"
+      "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the "
+      "scenes\n"
+      "under way; the same command goes on. See docs/hunting.md. Exit codes: 0 nothing was found; 1 "
+      "something\n"
       "was; 2 usage; 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }

@@ -23,9 +23,9 @@ enum class ActionKind : std::uint8_t {
   DestroyShape,  ///< the last shape of a body
   Sleep,         ///< a body with its island
 };
-inline constexpr std::string_view kActionNames[] = {"create",   "destroy", "create_joint", "destroy_joint",
-                                                    "teleport", "push",    "set_type",     "set_filter",
-                                                    "destroy_shape", "sleep"};
+inline constexpr std::string_view kActionNames[] = {
+    "create", "destroy",  "create_joint", "destroy_joint", "teleport",
+    "push",   "set_type", "set_filter",   "destroy_shape", "sleep"};
 
 /// Something that is done to a world before a step.
 struct Action {
@@ -57,8 +57,8 @@ struct Expectation {
   Quantity quantity = Quantity::X;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  double from = 0;                                       ///< s
-  double to = std::numeric_limits<double>::infinity();   ///< s
+  double from = 0;                                      ///< s
+  double to = std::numeric_limits<double>::infinity();  ///< s
   std::vector<std::string> needs{};  ///< idioms, bodies or joints without which it is not owed
   std::string why{};                 ///< one line that says what is right
 };
@@ -71,9 +71,9 @@ struct Case {
   double dt = 1.0 / 60;  ///< s
   int substeps = 4;
   int steps = 120;
-  bool sleeping = false;                 ///< of a World
-  std::vector<std::string> sensors{};    ///< bodies whose shapes are sensors
-  std::vector<Action> actions{};         ///< in the order of their steps
+  bool sleeping = false;               ///< of a World
+  std::vector<std::string> sensors{};  ///< bodies whose shapes are sensors
+  std::vector<Action> actions{};       ///< in the order of their steps
   std::vector<Expectation> expectations{};
 
   /// Whether only a World can run it.

@@ -103,7 +103,7 @@ Case read(const Json& json) {
 }  // namespace
 
 std::string to_json(const Case& one, int indent) {
-  Json out{{"plumb_hunt", 1}, {"seed", one.seed}, {"index", one.index}, {"idioms", one.idioms},
+  Json out{{"plumb_hunt", 1}, {"seed", one.seed},         {"index", one.index}, {"idioms", one.idioms},
            {"dt", one.dt},    {"substeps", one.substeps}, {"steps", one.steps}, {"sleeping", one.sleeping}};
   if (!one.sensors.empty()) out["sensors"] = one.sensors;
   for (const Action& action : one.actions) out["actions"].push_back(to_object(action));

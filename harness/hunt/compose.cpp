@@ -89,8 +89,7 @@ Case compose(std::uint64_t seed, std::uint64_t index, const std::vector<const Id
   Draft draft(seed, index);
   draw_world(draft);
   Random& random = draft.random;
-  const Idiom* structure =
-      drawn(random, wanted.empty() ? of_role(Idiom::Role::Structure) : wanted);
+  const Idiom* structure = drawn(random, wanted.empty() ? of_role(Idiom::Role::Structure) : wanted);
   // A support is drawn until it is one that the structure stands on.
   const std::vector<const Idiom*> supports = of_role(Idiom::Role::Support);
   for (int tries = 0;; ++tries) {

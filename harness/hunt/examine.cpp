@@ -25,7 +25,8 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
     // A run that broke off shows nothing of the other laws.
     if (each.name == "finite") return out;
   }
-  // Two of the relations a scene, by turns: each costs a run or more. A run that broke a law is known to be wrong.
+  // Two of the relations a scene, by turns: each costs a run or more. A run that broke a law is known to be
+  // wrong.
   const std::size_t count = relations().size();
   for (std::size_t i = 0; i < count; ++i) {
     const Relation& each = relations()[i];

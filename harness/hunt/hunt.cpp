@@ -24,6 +24,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSceneSeconds = 60, kRunSeconds = 10;
+constexpr double kMoreSeconds = 30;  // after the time is over, for findings to be made smaller
 // Scenes whose process died are examined again, each engine on its own.
 constexpr std::uint64_t kCrashed = 0xFF;
 
@@ -58,7 +59,8 @@ class Workshop {
     Json out{{"runs", 0}, {"skipped", 0}, {"findings", Json::array()}};
     for (std::size_t i = 0; i < options_.engines.size(); ++i) {
       const Examined seen = examine(options_.engines[i], one);
-      out[seen.skipped.empty() ? "runs" : "skipped"] = out[seen.skipped.empty() ? "runs" : "skipped"].get<int>() + 1;
+      out[seen.skipped.empty() ? "runs" : "skipped"] =
+          out[seen.skipped.empty() ? "runs" : "skipped"].get<int>() + 1;
       for (const Objection& objection : seen.objections)
         out["findings"].push_back(Json::parse(to_json(finding(i, one, objection))));
     }
@@ -106,7 +108,8 @@ class Workshop {
     };
     if (!fails(one)) return "{}";
     const Case smallest = shrink(one, fails, 100, 30);
-    Objection objection{.law = "crash", .judge = "crash", .what = how, .right = "a run ends, and its process lives"};
+    Objection objection{
+        .law = "crash", .judge = "crash", .what = how, .right = "a run ends, and its process lives"};
     Finding out = finding(task.engine, smallest, objection);
     out.shrunk = true;
     return to_json(out);
@@ -132,11 +135,13 @@ class Hunt {
   }
 
   Hunted go() {
-    Workers workers(options_.jobs, kSceneSeconds, [this](std::uint64_t task) { return workshop_.work(task); });
+    Workers workers(options_.jobs, kSceneSeconds,
+                    [this](std::uint64_t task) { return workshop_.work(task); });
     const auto begin = Clock::now();
     for (;;) {
       const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
-      const bool over = interrupted() || (options_.seconds > 0 && passed > options_.seconds);
+      const bool over = options_.seconds > 0 && passed > options_.seconds;
+      if (over && passed > options_.seconds + kMoreSeconds) queue_.clear();  // the next run goes on with them
       // What is found is made smaller before new scenes are drawn, also when the time is over.
       while (workers.idle() > 0 && !interrupted() && (!queue_.empty() || (!over && next()))) {
         workers.start(queue_.front());
@@ -166,8 +171,11 @@ class Hunt {
       const Json line = Json::parse(journal_.lines()[i], nullptr, false);
       if (line.is_discarded()) continue;
       if (line.contains("scene")) count_scene(line);
-      if (line.contains("finding")) remember({line.at("scene_of").get<std::uint64_t>(), finding_from_json(line["finding"].dump())});
+      if (line.contains("finding"))
+        remember({line.at("scene_of").get<std::uint64_t>(), finding_from_json(line["finding"].dump())});
     }
+    for (const Found& found : std::vector<Found>(findings_))
+      if (!found.finding.shrunk) want_smaller(found.scene, found.finding);
   }
 
   void count_scene(const Json& line) {
@@ -233,8 +241,7 @@ class Hunt {
     for (std::size_t i = 0; i < options_.engines.size() && law != names.end(); ++i)
       if (options_.engines[i].name() == found.engine) {
         ++count;
-        queue_.push_back(
-            Task{true, i, static_cast<std::uint64_t>(law - names.begin()), scene}.packed());
+        queue_.push_back(Task{true, i, static_cast<std::uint64_t>(law - names.begin()), scene}.packed());
       }
   }
 

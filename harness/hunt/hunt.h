@@ -15,7 +15,7 @@ struct HuntOptions {
   std::vector<const Idiom*> families{};  ///< structures to draw from; none: all
   std::vector<Engine> engines{};
   std::uint64_t seed = 1;
-  double seconds = 60;      ///< of wall time; 0: no limit
+  double seconds = 60;       ///< of wall time; 0: no limit
   std::uint64_t scenes = 0;  ///< 0: as many as there is time for
   int jobs = 1;
   std::string folder = "hunt";
@@ -24,13 +24,13 @@ struct HuntOptions {
 
 /// Findings that show the same fault.
 struct Kind {
-  std::string name;                    ///< judge, and what the smallest scene is made of
+  std::string name;  ///< judge, and what the smallest scene is made of
   std::vector<std::string> engines{};
-  std::vector<std::string> idioms{};   ///< structures that showed it
-  std::uint64_t first = 0;             ///< scenes drawn until it appeared
-  std::uint64_t count = 0;             ///< findings
+  std::vector<std::string> idioms{};  ///< structures that showed it
+  std::uint64_t first = 0;            ///< scenes drawn until it appeared
+  std::uint64_t count = 0;            ///< findings
   Finding smallest{};
-  std::string file{};                  ///< of the smallest, in the folder
+  std::string file{};  ///< of the smallest, in the folder
 };
 
 struct Hunted {
@@ -44,8 +44,9 @@ struct HuntEvents {
   std::function<void(const Finding&)> found{};
 };
 
-/// Draws scenes, runs and judges them, and makes smaller what fails. Goes on where an earlier run in the folder
-/// stopped. Throws `Error` (Io), also where the folder holds a hunt of another seed, engines or families.
+/// Draws scenes, runs and judges them, and makes smaller what fails. Goes on where an earlier run in the
+/// folder stopped. Throws `Error` (Io), also where the folder holds a hunt of another seed, engines or
+/// families.
 Hunted hunt(const HuntOptions& options, const HuntEvents& events);
 
 /// Writes the finding's case, its picture and how to replay it to `folder`/`name`.json and .svg.

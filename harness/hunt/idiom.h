@@ -86,7 +86,7 @@ struct Idiom {
   std::string name;
   std::string title;  ///< "four blades on a hub"
   Role role = Role::Structure;
-  double weight = 1;     ///< how often it is drawn
+  double weight = 1;                                 ///< how often it is drawn
   bool air = true, floor = true, enclosure = false;  ///< the sites that a structure is built on
   bool level = false;                                ///< only on floors that are flat and at rest
   std::function<bool(const Draft&)> fits{};          ///< of a disturbance; none: always

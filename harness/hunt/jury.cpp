@@ -12,18 +12,18 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-constexpr double kSeconds = 2;       // that another engine may take
-constexpr double kShare = 0.2;       // of the smallest body
-constexpr std::size_t kMost = 12;    // bodies that Precise is asked about
+constexpr double kSeconds = 2;     // that another engine may take
+constexpr double kShare = 0.2;     // of the largest body
+constexpr std::size_t kMost = 12;  // bodies that Precise is asked about
 constexpr double kCalm = 0.02;
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
-/// What a method of first order may be off by at each sample, m: the way of three steps, at the speed that bodies
-/// have and fall at.
+/// What a method of first order may be off by at each sample, m: the way of three steps, at the speed that
+/// bodies have and fall at.
 std::vector<double> bounds(const Case& one, const Motion& motion) {
   std::vector<double> out;
-  const double g = length(one.scene.gravity), share = kShare * typical_size(one.scene);
+  const double g = length(one.scene.gravity), share = kShare * largest_size(one.scene);
   double fastest = 0;
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
     for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
@@ -51,8 +51,8 @@ bool judged(const Case& one, const Motion& motion) {
 }
 
 /// The first sample at which `a` leaves `b` by more than its bound; none: never, while both last.
-std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motion& b, const std::vector<double>& bound,
-                                   double times = 1) {
+std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motion& b,
+                                   const std::vector<double>& bound, double times = 1) {
   const std::vector<double> off = apart(one, a, b);
   for (std::size_t k = 0; k < off.size(); ++k)
     if (off[k] > times * bound[k]) return k;
@@ -85,7 +85,8 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
   // Where the motion forks within what a step may be off by, both ways are right.
   const std::vector<double> calm = growth(one, engine, motion);
   const std::vector<double> own = growth(one, Engine(reference::find_backend("plumb-precise")), *precise);
-  if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k]) return {};
+  if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k])
+    return {};
   return objection("precise", one, apart(one, motion, *precise)[*k], bound[*k], *k,
                    "Precise, and a perturbation of it, go another way");
 }
@@ -114,7 +115,8 @@ Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motio
     if (nearest <= 2 * bound[k]) continue;
     const std::vector<double> calm = growth(one, engine, motion);
     if (k >= calm.size() || calm[k] > kCalm * bound[k]) return {};
-    return objection("jury", one, nearest, 2 * bound[k], k, "the other engines agree with each other, not with this one");
+    return objection("jury", one, nearest, 2 * bound[k], k,
+                     "the other engines agree with each other, not with this one");
   }
   return {};
 }

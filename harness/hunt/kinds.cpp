@@ -27,7 +27,8 @@ std::size_t dynamic_bodies(const Case& one) {
 
 bool smaller(const Finding& a, const Finding& b) {
   const auto size = [](const Finding& f) {
-    return f.smallest.scene.bodies.size() * 4 + f.smallest.scene.joints.size() * 2 + f.smallest.actions.size();
+    return f.smallest.scene.bodies.size() * 4 + f.smallest.scene.joints.size() * 2 +
+           f.smallest.actions.size();
   };
   return size(a) < size(b);
 }
@@ -57,7 +58,8 @@ std::vector<Kind> kinds_of(const std::vector<Found>& findings) {
     if (found.finding.shrunk) continue;
     const auto at = kind_of_key.find(coarse_key(found.finding));
     Kind& kind = kinds[at != kind_of_key.end() ? at->second : found.finding.kind];
-    if (kind.name.empty()) kind = {.name = found.finding.kind, .first = found.scene + 1, .smallest = found.finding};
+    if (kind.name.empty())
+      kind = {.name = found.finding.kind, .first = found.scene + 1, .smallest = found.finding};
     ++kind.count;
     add(kind.engines, found.finding.engine);
     add(kind.idioms, structure_of(found.finding.smallest));
@@ -81,9 +83,10 @@ std::string kinds_text(const Hunted& hunted) {
     std::string engines, idioms;
     for (const std::string& engine : kind.engines) engines += (engines.empty() ? "" : ", ") + engine;
     for (const std::string& idiom : kind.idioms) idioms += (idioms.empty() ? "" : ", ") + idiom;
-    out += fmt::format("{:>6} {:>6} {:>6}  {:<20} {}\n{:>22}{} ({})\n{:>22}{}\n", kind.first, kind.count,
-                       kind.smallest.smallest.scene.bodies.size(), kind.smallest.objection.judge,
-                       made_of(kind.smallest.smallest), "", engines, idioms, "", kind.smallest.objection.what);
+    out +=
+        fmt::format("{:>6} {:>6} {:>6}  {:<20} {}\n{:>22}{} ({})\n{:>22}{}\n", kind.first, kind.count,
+                    kind.smallest.smallest.scene.bodies.size(), kind.smallest.objection.judge,
+                    made_of(kind.smallest.smallest), "", engines, idioms, "", kind.smallest.objection.what);
   }
   return out;
 }

@@ -57,8 +57,8 @@ bool left_alone(const Case& one) {
 }
 
 std::size_t dynamic_bodies(const Scene& scene) {
-  return static_cast<std::size_t>(std::count_if(
-      scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.type == BodyType::Dynamic; }));
+  return static_cast<std::size_t>(std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                                [](const Body& b) { return b.type == BodyType::Dynamic; }));
 }
 
 }  // namespace
@@ -87,7 +87,8 @@ Verdict finite_law(const Case& one, const Engine&, const Motion& motion) {
 }
 
 Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) {
-  if (driven(one) || motion.samples.empty() || !starts_closed(one.scene) || !starts_apart(one.scene)) return {};
+  if (driven(one) || motion.samples.empty() || !starts_closed(one.scene) || !starts_apart(one.scene))
+    return {};
   const bool precise = engine.kind == Engine::Kind::Precise;
   const std::vector<double> reach = reaches(one.scene);
   const Mechanics first = mechanics(one.scene, motion.samples.front().states);
@@ -96,9 +97,9 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
     const Mechanics now = mechanics(one.scene, motion.samples[k].states);
     const double time = static_cast<double>(k) * one.dt, given = stored(one.scene, time);
     budget.fall = std::max(budget.fall, first.potential - now.potential);
-    const double share = precise ? kPreciseShare
-                                 : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt /
-                                                                           one.substeps);
+    const double share =
+        precise ? kPreciseShare
+                : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt / one.substeps);
     double bound = share * (budget.kinetic + budget.fall + given);
     if (!precise) bound += slack_of_places(one, motion.samples[k], reach);
     const double gain = now.kinetic + now.potential - budget.start - given;

@@ -82,6 +82,11 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     }
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
+  std::vector<bool> given(pairs.size(), false);  // in each other from the start: joints may keep them there
+  const bool intruded = std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
+    return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
+           action.kind == ActionKind::SetType;
+  });
   const int lasting = std::max(3, static_cast<int>(kLasting / one.dt));
   std::vector<Outline> now(parts.size());
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
@@ -94,10 +99,14 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
       double depth = 0;
       if (sample.present[a.body] && sample.present[b.body] && boxes_meet(now[i], now[j], 0))
         depth = -separation(now[i], now[j]);
-      double bound = std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
-                               2 * length(one.scene.gravity) * one.dt * one.dt});
+      double bound =
+          std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
+                    2 * length(one.scene.gravity) * one.dt * one.dt});
       if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
-      if (depth <= bound) {
+      if (k == 0 && depth > bound) given[n] = true;
+      // A body that was put where another is may leave it no way out; it has to be awake then.
+      const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
+      if (depth <= bound || given[n] || (intruded && !asleep)) {
         in[n] = 0, least[n] = INFINITY;
         continue;
       }
@@ -135,8 +144,7 @@ Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) 
       const Outline sensor = placed(a.outline, sample.states[a.body]);
       for (const Part& b : parts) {
         if (senses(one, b.body) || b.body == a.body || !sample.present[b.body] || b.line) continue;
-        if (one.scene.bodies[b.body].type == BodyType::Static ||
-            !may_touch(a.shape->filter, b.shape->filter))
+        if (one.scene.bodies[b.body].type == BodyType::Static || !may_touch(a.shape->filter, b.shape->filter))
           continue;
         const double apart = separation(sensor, placed(b.outline, sample.states[b.body]));
         const auto at = nearest.try_emplace({a.body, b.body}, apart).first;
@@ -148,17 +156,17 @@ Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) 
       const bool bad = open ? apart > margin : apart < -margin;
       const int count = wrong[visit] = bad ? wrong[visit] + 1 : 0;
       if (count < 4) continue;
-      return Objection{.judge = "sensors",
-                       .what = fmt::format("{} {} {}, {:.3g} m {}", one.scene.bodies[visit.sensor].name,
-                                           open ? "still sees" : "does not see",
-                                           one.scene.bodies[visit.visitor].name, std::abs(apart),
-                                           open ? "away" : "inside"),
-                       .right = "a sensor sees what overlaps it, and nothing else",
-                       .figure = std::abs(apart),
-                       .bound = margin,
-                       .unit = "m",
-                       .time = static_cast<double>(k + 1) * one.dt,
-                       .subject = one.scene.bodies[visit.visitor].name};
+      return Objection{
+          .judge = "sensors",
+          .what = fmt::format("{} {} {}, {:.3g} m {}", one.scene.bodies[visit.sensor].name,
+                              open ? "still sees" : "does not see", one.scene.bodies[visit.visitor].name,
+                              std::abs(apart), open ? "away" : "inside"),
+          .right = "a sensor sees what overlaps it, and nothing else",
+          .figure = std::abs(apart),
+          .bound = margin,
+          .unit = "m",
+          .time = static_cast<double>(k + 1) * one.dt,
+          .subject = one.scene.bodies[visit.visitor].name};
     }
   }
   return {};
@@ -183,10 +191,11 @@ Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
     const Sample& sample = motion.samples[k];
     for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
       const Body& body = one.scene.bodies[i];
-      bool bad = sample.present[i] && sample.asleep[i] && body.gravity_scale != 0 && !body.lock_y &&
-                 !body.lock_x;
+      bool bad =
+          sample.present[i] && sample.asleep[i] && body.gravity_scale != 0 && !body.lock_y && !body.lock_x;
       for (const Joint& joint : one.scene.joints)
-        std::visit([&](const auto& j) { bad = bad && j.body_a != body.name && j.body_b != body.name; }, joint);
+        std::visit([&](const auto& j) { bad = bad && j.body_a != body.name && j.body_b != body.name; },
+                   joint);
       // The least distance to anything is long in coming: asked for once it sleeps for a while.
       hanging[i] = bad ? hanging[i] + 1 : 0;
       if (hanging[i] < 10 || hanging[i] % 10 != 0) continue;
@@ -247,16 +256,15 @@ Verdict expectation_law(const Case& one, const Engine&, const Motion& motion) {
           break;
       }
       if (value >= expected.lower && value <= expected.upper) continue;
-      return Objection{
-          .judge = expected.name,
-          .what = fmt::format("{} of {} is {:.6g}, which should lie in {:.6g} to {:.6g}",
-                              kQuantityNames[static_cast<std::size_t>(expected.quantity)], expected.body, value,
-                              expected.lower, expected.upper),
-          .right = expected.why,
-          .figure = value,
-          .bound = value < expected.lower ? expected.lower : expected.upper,
-          .time = time,
-          .subject = expected.body};
+      return Objection{.judge = expected.name,
+                       .what = fmt::format("{} of {} is {:.6g}, which should lie in {:.6g} to {:.6g}",
+                                           kQuantityNames[static_cast<std::size_t>(expected.quantity)],
+                                           expected.body, value, expected.lower, expected.upper),
+                       .right = expected.why,
+                       .figure = value,
+                       .bound = value < expected.lower ? expected.lower : expected.upper,
+                       .time = time,
+                       .subject = expected.body};
     }
   }
   return {};

@@ -86,14 +86,15 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
           engine.kind == Engine::Kind::Precise ? 1e-5 * size : kGapShare * size + 2 * speed * step;
       open[i] = gap > bound ? open[i] + 1 : 0;
       if (open[i] < kLasting) continue;
-      return Objection{.judge = "joint_gap",
-                       .what = fmt::format("joint '{}' is open by {:.3g} m", name_of(one.scene.joints[i]), gap),
-                       .right = "joints stay closed",
-                       .figure = gap,
-                       .bound = bound,
-                       .unit = "m",
-                       .time = static_cast<double>(k) * one.dt,
-                       .subject = name_of(one.scene.joints[i])};
+      return Objection{
+          .judge = "joint_gap",
+          .what = fmt::format("joint '{}' is open by {:.3g} m", name_of(one.scene.joints[i]), gap),
+          .right = "joints stay closed",
+          .figure = gap,
+          .bound = bound,
+          .unit = "m",
+          .time = static_cast<double>(k) * one.dt,
+          .subject = name_of(one.scene.joints[i])};
     }
   }
   return {};

@@ -28,8 +28,7 @@ Motion run_backend(const Engine& engine, const Case& one, const RunOptions& opti
   const std::size_t count = one.scene.bodies.size();
   const auto begin = Clock::now();
   try {
-    const auto simulator =
-        engine.backend->create(one.scene, settings_of(one, engine, options.refine));
+    const auto simulator = engine.backend->create(one.scene, settings_of(one, engine, options.refine));
     for (int step = 0; step <= one.steps; ++step) {
       if (step > 0) simulator->advance(options.refine);
       Sample sample{std::vector<BodyState>(count), std::vector<bool>(count, true),
@@ -57,9 +56,7 @@ Engine::Kind kind_of(const std::string_view name) {
 
 Engine::Engine(const reference::Backend& of) : backend(&of), kind(kind_of(of.name())) {}
 
-double Engine::epsilon() const {
-  return kind == Kind::DoubleWorld || kind == Kind::Precise ? 1.2e-16 : 6e-8;
-}
+double Engine::epsilon() const { return kind == Kind::DoubleWorld || kind == Kind::Precise ? 1.2e-16 : 6e-8; }
 
 std::string unsupported(const Engine& engine, const Case& one) {
   if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine, 1));

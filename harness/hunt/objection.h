@@ -11,13 +11,13 @@ namespace plumb::harness::hunt {
 
 /// A judge's sentence about a run.
 struct Objection {
-  std::string law{};      ///< that was broken: one of `laws()`, or the symmetries
-  std::string judge{};    ///< the same, but for an expectation its name
-  std::string what{};     ///< one line that says what is wrong: "energy has grown"
-  std::string right{};    ///< one line that says what is right
+  std::string law{};    ///< that was broken: one of `laws()`, or the symmetries
+  std::string judge{};  ///< the same, but for an expectation its name
+  std::string what{};   ///< one line that says what is wrong: "energy has grown"
+  std::string right{};  ///< one line that says what is right
   double figure = 0, bound = 0;
   std::string unit{};
-  double time = 0;      ///< s, when it was first seen
+  double time = 0;        ///< s, when it was first seen
   std::string subject{};  ///< a body, joint or pair; may be empty
 };
 

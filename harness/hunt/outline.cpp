@@ -26,8 +26,7 @@ struct Cores {
   void operator()(const Polygon& p) const { out.push_back({convex_corners(p.points), p.radius}); }
   void operator()(const Segment& s) const { out.push_back({{s.start, s.end}, 0}); }
   void operator()(const Chain& c) const {
-    for (std::size_t i = 0; i + 1 < c.points.size(); ++i)
-      out.push_back({{c.points[i], c.points[i + 1]}, 0});
+    for (std::size_t i = 0; i + 1 < c.points.size(); ++i) out.push_back({{c.points[i], c.points[i + 1]}, 0});
     if (c.closed) out.push_back({{c.points.back(), c.points.front()}, 0});
   }
 };

@@ -10,8 +10,8 @@ namespace plumb::harness::hunt {
 /// apart from the engine's own geometry.
 struct Outline {
   std::vector<Vec2d> core{};  ///< m, counter-clockwise
-  double radius = 0;        ///< m
-  Vec2d low{}, high{};      ///< m, of a box that holds it
+  double radius = 0;          ///< m
+  Vec2d low{}, high{};        ///< m, of a box that holds it
 };
 
 /// A shape as outlines in its body's frame: one, or of a chain one a segment.

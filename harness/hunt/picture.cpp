@@ -42,7 +42,9 @@ Window window_of(const Case& one) {
   return {middle - half, middle + half};
 }
 
-bool drawable(Vec2d p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::abs(p.x) < 1e5 && std::abs(p.y) < 1e5; }
+bool drawable(Vec2d p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::abs(p.x) < 1e5 && std::abs(p.y) < 1e5;
+}
 
 std::string drawn(const Window& window, const Outline& outline, const std::string& style) {
   std::string points;
@@ -56,8 +58,8 @@ std::string drawn(const Window& window, const Outline& outline, const std::strin
     const Vec2d at = window.at(outline.core.front());
     return fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n", at.x, at.y, radius, style);
   }
-  return fmt::format("<polygon points=\"{}\" {} stroke-width=\"{:.2f}\" stroke-linejoin=\"round\"/>\n", points,
-                     style, std::max(1.0, 2 * radius));
+  return fmt::format("<polygon points=\"{}\" {} stroke-width=\"{:.2f}\" stroke-linejoin=\"round\"/>\n",
+                     points, style, std::max(1.0, 2 * radius));
 }
 
 std::string bodies(const Case& one, const Window& window, const Sample& sample, const std::string& style) {
@@ -83,14 +85,16 @@ std::string picture(const Case& one, const std::vector<Shown>& motions, const st
   const Window window = window_of(one);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" font-family=\"sans-serif\" "
-      "font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"4\" y=\"14\">{2}</text>\n",
+      "font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<text x=\"4\" "
+      "y=\"14\">{2}</text>\n",
       kSide * static_cast<double>(motions.size()), kSide + kHead, escaped(caption));
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const Motion& motion = motions[i].motion;
     out += fmt::format("<svg x=\"{}\" width=\"{}\" height=\"{}\">\n<text x=\"4\" y=\"32\">{}</text>\n",
                        kSide * static_cast<double>(i), kSide, kSide + kHead, escaped(motions[i].title));
     if (!motion.samples.empty()) {
-      out += bodies(one, window, motion.samples.front(), "fill=\"#ddd\" fill-opacity=\"0.6\" stroke=\"#999\"");
+      out +=
+          bodies(one, window, motion.samples.front(), "fill=\"#ddd\" fill-opacity=\"0.6\" stroke=\"#999\"");
       for (std::size_t body = 0; body < one.scene.bodies.size(); ++body) {
         std::string points;
         for (const Sample& sample : motion.samples) {

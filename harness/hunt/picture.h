@@ -13,7 +13,8 @@ struct Shown {
   Motion motion{};
 };
 
-/// The motions side by side as SVG: where the bodies start (grey), the paths of their centres, and where they end.
+/// The motions side by side as SVG: where the bodies start (grey), the paths of their centres, and where they
+/// end.
 std::string picture(const Case& one, const std::vector<Shown>& motions, const std::string& caption);
 
 }  // namespace plumb::harness::hunt

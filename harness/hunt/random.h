@@ -14,9 +14,9 @@ class Random {
   /// Starts the stream of one scene: `seed` of the hunt, `index` of the scene.
   Random(std::uint64_t seed, std::uint64_t index);
 
-  double unit();                          ///< 0 <= x < 1
+  double unit();                           ///< 0 <= x < 1
   double within(double low, double high);  ///< uniform, on a grid of 1/1000 of the range
-  int whole(int low, int high);           ///< both included
+  int whole(int low, int high);            ///< both included
   bool chance(double probability);
 
   /// Draws from 1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8 and their multiples by powers of ten, each as likely.

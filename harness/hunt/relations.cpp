@@ -12,8 +12,8 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr double kPerturbation = 1e-6;
-// Of the smallest body: what differs by more is another motion. A perturbation has to stay far below it.
-constexpr double kShare = 0.1, kCalm = 0.02;
+// Of the largest body: what differs by more is another motion. A perturbation has to stay far below it.
+constexpr double kShare = 0.1, kCalm = 0.01;
 constexpr double kShift = 64;  // m, so that no place is rounded
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
@@ -37,21 +37,22 @@ Verdict compare(const Case& one, const Engine& engine, const Motion& motion, con
                 const std::string& name, const std::string& right, double share = kShare) {
   if (!motion.failure.empty()) return {};
   const std::vector<double> off = apart(one, motion, other);
-  const double size = typical_size(one.scene), bound = share * size;
+  const double bound = share * largest_size(one.scene);
   std::size_t k = 0;
   while (k < off.size() && off[k] <= bound) ++k;
   if (k == off.size()) return {};
   const std::vector<double> calm = growth(one, engine, motion);
   if (k >= calm.size() || calm[k] > kCalm * bound) return {};
-  return Objection{.law = name,
-                   .judge = name,
-                   .what = fmt::format("is {:.3g} m off the other run, where a perturbation of 1e-6 is {:.2g} m", off[k],
-                                       calm[k]),
-                   .right = right,
-                   .figure = off[k],
-                   .bound = bound,
-                   .unit = "m",
-                   .time = static_cast<double>(k) * one.dt};
+  return Objection{
+      .law = name,
+      .judge = name,
+      .what = fmt::format("is {:.3g} m off the other run, where a perturbation of 1e-6 is {:.2g} m", off[k],
+                          calm[k]),
+      .right = right,
+      .figure = off[k],
+      .bound = bound,
+      .unit = "m",
+      .time = static_cast<double>(k) * one.dt};
 }
 
 Verdict mirror(const Case& one, const Engine& engine, const Motion& motion) {
@@ -61,7 +62,8 @@ Verdict mirror(const Case& one, const Engine& engine, const Motion& motion) {
 
 Verdict turn(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = mapped(run(engine, turned(one)), [](const BodyState& s) { return turned(s); });
-  return compare(one, engine, motion, other, "turn", "a scene that is turned with its gravity moves the same way");
+  return compare(one, engine, motion, other, "turn",
+                 "a scene that is turned with its gravity moves the same way");
 }
 
 Verdict shift(const Case& one, const Engine& engine, const Motion& motion) {
@@ -90,7 +92,8 @@ Verdict units(const Case& one, const Engine& engine, const Motion& motion) {
 
 Verdict sleep(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = run(engine, one, {.flip_sleep = true});
-  return compare(one, engine, motion, other, "sleep_switch", "sleep changes nothing of the motion", 5 * kShare);
+  return compare(one, engine, motion, other, "sleep_switch", "sleep changes nothing of the motion",
+                 5 * kShare);
 }
 
 Verdict restored(const Case& one, const Engine& engine, const Motion& motion) {
@@ -116,7 +119,8 @@ bool unscaled(const Case& one, const Engine& engine) {
 bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
 bool plain_world(const Case& one, const Engine& engine) { return plain(one, engine) && engine.is_world(); }
 bool law_free(const Case& one, const Engine& engine) {
-  return plain(one, engine) && std::none_of(one.scene.forces.begin(), one.scene.forces.end(), [](const auto& law) {
+  return plain(one, engine) &&
+         std::none_of(one.scene.forces.begin(), one.scene.forces.end(), [](const auto& law) {
            return std::holds_alternative<PointForce>(law) || std::holds_alternative<SinusoidalForce>(law) ||
                   std::holds_alternative<Torque>(law);
          });
@@ -156,9 +160,10 @@ std::vector<double> growth(const Case& one, const Engine& engine, const Motion& 
 
 const std::vector<Relation>& relations() {
   static const std::vector<Relation> all{
-      {"mirror", law_free, mirror},     {"turn", law_free, turn},          {"shift", law_free, shift},
-      {"relabel", plain, relabel},      {"units", unscaled, units},        {"sleep_switch", plain_world, sleep},
-      {"restore", is_world, restored},  {"precise", plain_world, precise_relation},
+      {"mirror", law_free, mirror},    {"turn", law_free, turn},
+      {"shift", law_free, shift},      {"relabel", plain, relabel},
+      {"units", unscaled, units},      {"sleep_switch", plain_world, sleep},
+      {"restore", is_world, restored}, {"precise", plain_world, precise_relation},
       {"jury", plain, jury_relation}};
   return all;
 }

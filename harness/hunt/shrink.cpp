@@ -62,7 +62,8 @@ class Shrinker {
       : best_(std::move(one)),
         still_fails_(still_fails),
         left_(most),
-        end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+        end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
   Case shrunk() {
     for (bool smaller = true; smaller && going();) {
@@ -105,8 +106,9 @@ class Shrinker {
         at -= count;
         if (at + count > best_.scene.bodies.size()) continue;
         any = try_change([&](Case& one) {
-          for (std::size_t i = at + count; i-- > at;) remove_body(one, i);
-        }) || any;
+                for (std::size_t i = at + count; i-- > at;) remove_body(one, i);
+              }) ||
+              any;
       }
     }
     return any;
@@ -121,14 +123,16 @@ class Shrinker {
 
   bool shapes() {
     bool any = false;
-    for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
+    // What is expected rests on the shapes of those that it names.
+    for (std::size_t i = 0; i < best_.scene.bodies.size() && best_.expectations.empty(); ++i) {
       for (std::size_t k = best_.scene.bodies[i].shapes.size(); k-- > 0;) {
         any = try_change([&](Case& one) {
-          Body& body = one.scene.bodies[i];
-          if (body.type == BodyType::Dynamic && !body.inertia && !body.fixed_rotation)
-            body.inertia = inertia_of(body);
-          body.shapes.erase(body.shapes.begin() + static_cast<std::ptrdiff_t>(k));
-        }) || any;
+                Body& body = one.scene.bodies[i];
+                if (body.type == BodyType::Dynamic && !body.inertia && !body.fixed_rotation)
+                  body.inertia = inertia_of(body);
+                body.shapes.erase(body.shapes.begin() + static_cast<std::ptrdiff_t>(k));
+              }) ||
+              any;
       }
     }
     return any;
@@ -138,16 +142,19 @@ class Shrinker {
     bool any = false;
     for (std::size_t i = best_.actions.size(); i-- > 0;)
       any = try_change([&](Case& one) {
-        one.actions.erase(one.actions.begin() + static_cast<std::ptrdiff_t>(i));
-      }) || any;
+              one.actions.erase(one.actions.begin() + static_cast<std::ptrdiff_t>(i));
+            }) ||
+            any;
     for (std::size_t i = best_.expectations.size(); i-- > 0;)
       any = try_change([&](Case& one) {
-        one.expectations.erase(one.expectations.begin() + static_cast<std::ptrdiff_t>(i));
-      }) || any;
+              one.expectations.erase(one.expectations.begin() + static_cast<std::ptrdiff_t>(i));
+            }) ||
+            any;
     for (std::size_t i = best_.sensors.size(); i-- > 0;)
       any = try_change([&](Case& one) {
-        one.sensors.erase(one.sensors.begin() + static_cast<std::ptrdiff_t>(i));
-      }) || any;
+              one.sensors.erase(one.sensors.begin() + static_cast<std::ptrdiff_t>(i));
+            }) ||
+            any;
     return any;
   }
 
@@ -184,9 +191,8 @@ class Shrinker {
             using Kind = std::decay_t<decltype(sample)>;
             const auto drop = [&](auto member) {
               if (!(sample.*member)) return;
-              any = try_change([&](Case& one) {
-                (std::get<Kind>(one.scene.joints[i]).*member).reset();
-              }) || any;
+              any = try_change([&](Case& one) { (std::get<Kind>(one.scene.joints[i]).*member).reset(); }) ||
+                    any;
             };
             if constexpr (requires { sample.limits.value(); }) drop(&Kind::limits);
             if constexpr (requires { sample.motor.value(); }) drop(&Kind::motor);
@@ -208,7 +214,8 @@ class Shrinker {
     };
     // What is expected stands in figures of the places.
     if (!best_.scene.joints.empty() || !best_.expectations.empty()) return;
-    if (try_change([&](Case& one) { std::for_each(one.scene.bodies.begin(), one.scene.bodies.end(), round); }))
+    if (try_change(
+            [&](Case& one) { std::for_each(one.scene.bodies.begin(), one.scene.bodies.end(), round); }))
       return;
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
       Case copy = best_;

@@ -17,9 +17,7 @@ struct End {
   const Body* body = nullptr;  // none: the fixed frame
   Vec2d anchor{};              // m, in the body's frame
 
-  double mass() const {
-    return body != nullptr && body->type == BodyType::Dynamic ? body->mass : INFINITY;
-  }
+  double mass() const { return body != nullptr && body->type == BodyType::Dynamic ? body->mass : INFINITY; }
   double inertia() const {  // about the anchor
     if (body == nullptr || body->type != BodyType::Dynamic || body->fixed_rotation) return INFINITY;
     return inertia_of(*body) + body->mass * dot(anchor, anchor);
@@ -130,8 +128,7 @@ struct Closed {
   }
   bool operator()(const PrismaticJoint& j) const {
     const Held h = held(scene, j);
-    return !outside(j.limits, along(scene, h, j.axis), slack) &&
-           std::abs(h.angle - j.reference_angle) < 0.01;
+    return !outside(j.limits, along(scene, h, j.axis), slack) && std::abs(h.angle - j.reference_angle) < 0.01;
   }
   bool operator()(const WheelJoint& j) const {
     return !outside(j.limits, along(scene, held(scene, j), j.axis), slack);
@@ -174,6 +171,14 @@ double typical_size(const Scene& scene) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (scene.bodies[i].type == BodyType::Dynamic && all[i] > 0) least = std::min(least, all[i]);
   return std::isfinite(least) ? least : 1;
+}
+
+double largest_size(const Scene& scene) {
+  const std::vector<double> all = reaches(scene);
+  double most = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (scene.bodies[i].type == BodyType::Dynamic) most = std::max(most, all[i]);
+  return most > 0 ? most : 1;
 }
 
 bool joined(const Scene& scene, std::size_t a, std::size_t b) {
@@ -223,8 +228,8 @@ bool starts_apart(const Scene& scene) {
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       const Part &a = parts[i], &b = parts[k];
-      const bool dynamic = scene.bodies[a.body].type == BodyType::Dynamic ||
-                           scene.bodies[b.body].type == BodyType::Dynamic;
+      const bool dynamic =
+          scene.bodies[a.body].type == BodyType::Dynamic || scene.bodies[b.body].type == BodyType::Dynamic;
       if (a.body == b.body || !dynamic || a.outline.low.x > b.outline.high.x ||
           b.outline.low.x > a.outline.high.x || a.outline.low.y > b.outline.high.y ||
           b.outline.low.y > a.outline.high.y || !may_touch(a.shape->filter, b.shape->filter) ||

@@ -14,6 +14,9 @@ std::vector<double> reaches(const Scene& scene);
 /// The smallest reach of a dynamic body, m; 1 where there is none.
 double typical_size(const Scene& scene);
 
+/// The largest reach of a dynamic body, m; 1 where there is none.
+double largest_size(const Scene& scene);
+
 /// Whether a joint keeps two bodies from touching.
 bool joined(const Scene& scene, std::size_t a, std::size_t b);
 
@@ -25,7 +28,8 @@ bool driven(const Case& one);
 /// follow a pose hold at the start at most.
 double stored(const Scene& scene, double time);
 
-/// Whether no two shapes that may touch lie in each other at the start, by more than a hundredth of the smaller.
+/// Whether no two shapes that may touch lie in each other at the start, by more than a hundredth of the
+/// smaller.
 bool starts_apart(const Scene& scene);
 
 /// Whether all joints and limits fit at the start, within 1 % of the smallest body and 0.01 rad.

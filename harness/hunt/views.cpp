@@ -22,7 +22,8 @@ void change(Scene& scene, const Vector& vector, const Point& point) {
     std::visit(
         [&](auto& j) {
           if constexpr (requires { j.target; }) j.target = point(j.target);
-          if constexpr (requires { j.ground_a; }) j.ground_a = point(j.ground_a), j.ground_b = point(j.ground_b);
+          if constexpr (requires { j.ground_a; })
+            j.ground_a = point(j.ground_a), j.ground_b = point(j.ground_b);
           if constexpr (requires { j.anchor_a; })
             if (j.body_a == kWorld) j.anchor_a = point(j.anchor_a);
           if constexpr (requires { j.anchor_b; })
@@ -97,7 +98,8 @@ Case mirrored(Case one) {
     for (Shape& shape : body.shapes) {
       shape.angle = -shape.angle, shape.surface_speed = -shape.surface_speed;
       // The front of a chain is to the right of its way.
-      if (auto* chain = std::get_if<Chain>(&shape.geometry)) std::reverse(chain->points.begin(), chain->points.end());
+      if (auto* chain = std::get_if<Chain>(&shape.geometry))
+        std::reverse(chain->points.begin(), chain->points.end());
     }
   }
   for (Joint& joint : one.scene.joints) {
@@ -131,7 +133,10 @@ Case turned(Case one) {
             if (j.body_a == kWorld) j.target_angle += kQuarter;
           } else if constexpr (requires { j.tooth; }) {
             if (j.body_a == kWorld) j.phase += kQuarter;
-          } else if constexpr (requires { j.ratio; j.phase; }) {
+          } else if constexpr (requires {
+                                 j.ratio;
+                                 j.phase;
+                               }) {
             j.phase += (j.body_b == kWorld ? 0 : kQuarter) - (j.body_a == kWorld ? 0 : j.ratio * kQuarter);
           }
         },
@@ -141,7 +146,8 @@ Case turned(Case one) {
 }
 
 Case shifted(Case one, Vec2d by) {
-  change(one.scene, [](Vec2d v) { return v; }, [by](Vec2d p) { return p + by; });
+  change(
+      one.scene, [](Vec2d v) { return v; }, [by](Vec2d p) { return p + by; });
   return one;
 }
 
@@ -180,7 +186,8 @@ Case rescaled(Case one, double length, double time, double mass) {
     std::visit(
         [&](auto& j) {
           using Kind = std::decay_t<decltype(j)>;
-          constexpr bool kSlides = std::is_same_v<Kind, PrismaticJoint> || std::is_same_v<Kind, DistanceJoint>;
+          constexpr bool kSlides =
+              std::is_same_v<Kind, PrismaticJoint> || std::is_same_v<Kind, DistanceJoint>;
           // The axis has no length of its own.
           if constexpr (requires { j.axis; }) j.axis = (1 / length) * j.axis;
           if constexpr (requires { j.spring.hertz; }) ticks(j.spring);
@@ -233,7 +240,8 @@ BodyState mirrored(const BodyState& s) {
   return {mirror(s.position), -s.angle, mirror(s.velocity), -s.angular_velocity};
 }
 BodyState turned(const BodyState& s) {
-  return {{s.position.y, -s.position.x}, s.angle - kQuarter, {s.velocity.y, -s.velocity.x}, s.angular_velocity};
+  return {
+      {s.position.y, -s.position.x}, s.angle - kQuarter, {s.velocity.y, -s.velocity.x}, s.angular_velocity};
 }
 
 }  // namespace plumb::harness::hunt

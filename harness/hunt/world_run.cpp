@@ -48,8 +48,10 @@ class EventBook {
     Changes touches, visits;
     for (const TouchEvent& event : events.begin) ++touches[pair(event)];
     for (const TouchEvent& event : events.end) --touches[pair(event)];
-    for (const SensorEvent& event : events.sensor_begin) ++visits[{key_of(event.sensor), key_of(event.visitor)}];
-    for (const SensorEvent& event : events.sensor_end) --visits[{key_of(event.sensor), key_of(event.visitor)}];
+    for (const SensorEvent& event : events.sensor_begin)
+      ++visits[{key_of(event.sensor), key_of(event.visitor)}];
+    for (const SensorEvent& event : events.sensor_end)
+      --visits[{key_of(event.sensor), key_of(event.visitor)}];
     apply("touch", touches, touches_, time, faults);
     apply("visit to a sensor", visits, visits_, time, faults);
   }
@@ -64,8 +66,8 @@ class EventBook {
           ++at;
           continue;
         }
-        faults.push_back({time, fmt::format("a {} that began does not end when a shape of it is destroyed",
-                                            what)});
+        faults.push_back(
+            {time, fmt::format("a {} that began does not end when a shape of it is destroyed", what)});
         at = pairs.erase(at);
       }
     };
@@ -173,10 +175,10 @@ class Run {
       out.present[i] = bodies_[i].has_value();
       if (out.present[i]) {
         out.states[i] = world_.state(*bodies_[i]);
-        out.asleep[i] = case_.scene.bodies[i].type == BodyType::Dynamic && !world_.awake(*bodies_[i]);
+        out.asleep[i] = world_.type(*bodies_[i]) == BodyType::Dynamic && !world_.awake(*bodies_[i]);
       } else {
-        out.states[i] = before.samples.empty() ? initial_state(case_.scene.bodies[i])
-                                               : before.samples.back().states[i];
+        out.states[i] =
+            before.samples.empty() ? initial_state(case_.scene.bodies[i]) : before.samples.back().states[i];
       }
     }
     return out;
@@ -185,8 +187,8 @@ class Run {
   void create(std::size_t index) {
     Scene alone{.name = "one body", .bodies = {case_.scene.bodies[index]}};
     Body& body = alone.bodies.front();
-    const bool sensor = std::find(case_.sensors.begin(), case_.sensors.end(), body.name) !=
-                        case_.sensors.end();
+    const bool sensor =
+        std::find(case_.sensors.begin(), case_.sensors.end(), body.name) != case_.sensors.end();
     std::vector<Shape> shapes;
     if (sensor) {
       if (!body.inertia && body.type == BodyType::Dynamic) body.inertia = inertia_of(body);
@@ -194,8 +196,8 @@ class Run {
     }
     bodies_[index] = add_scene(world_, alone).bodies.front();
     for (const Shape& shape : shapes) {
-      ShapeDefinition definition{.position = shape.position, .angle = shape.angle, .filter = shape.filter,
-                                 .sensor = true};
+      ShapeDefinition definition{
+          .position = shape.position, .angle = shape.angle, .filter = shape.filter, .sensor = true};
       std::visit(
           [&](const auto& geometry) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(geometry)>, Chain>)

@@ -10,7 +10,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// The engine that shows how it should have been: Precise where it takes the scene, else another precision or Box2D.
+// The engine that shows how it should have been: Precise where it takes the scene, else another precision or
+// Box2D.
 std::string second_engine(const Finding& finding) {
   for (const char* name : {"plumb-precise", "box2d", "plumb-world-double", "plumb-world"}) {
     if (name == finding.engine) continue;
@@ -33,14 +34,13 @@ void write_finding(const Finding& finding, const std::string& folder, const std:
   for (const std::string& engine : {finding.engine, second_engine(finding)}) {
     if (engine.empty()) continue;
     try {
-      shown.push_back({engine, run(Engine(reference::find_backend(engine)), finding.smallest,
-                                   {.seconds = 2})});
+      shown.push_back(
+          {engine, run(Engine(reference::find_backend(engine)), finding.smallest, {.seconds = 2})});
     } catch (const Error&) {  // an engine that was given by a command
     }
   }
-  const std::string caption =
-      fmt::format("{} | right: {} | plumb hunt --replay {}.json", finding.objection.what,
-                  finding.objection.right, name);
+  const std::string caption = fmt::format("{} | right: {} | plumb hunt --replay {}.json",
+                                          finding.objection.what, finding.objection.right, name);
   write_whole(path + ".svg", picture(finding.smallest, shown, caption));
 }
 

@@ -37,13 +37,15 @@ void intruder(Draft& draft) {
   draft.restitution = 0;
   draft.out.sleeping = draft.out.sleeping || random.chance(0.7);
   const int step = later(draft);
-  const BodyType type = random.pick({BodyType::Static, BodyType::Static, BodyType::Kinematic, BodyType::Dynamic});
+  const BodyType type =
+      random.pick({BodyType::Static, BodyType::Static, BodyType::Kinematic, BodyType::Dynamic});
   const double size = random.within(0.5, 1) * s;
   if (random.chance(0.5)) {
     const int made = draft.box(at, size, size, 0, type);
     draft.out.actions.push_back({.kind = ActionKind::Create, .step = step, .target = draft.name(made)});
   } else {  // it comes from elsewhere
-    const int made = draft.box({at.x + 30 * s, at.y + 40 * s}, size, size, 0, type == BodyType::Dynamic ? BodyType::Static : type);
+    const int made = draft.box({at.x + 30 * s, at.y + 40 * s}, size, size, 0,
+                               type == BodyType::Dynamic ? BodyType::Static : type);
     draft.out.actions.push_back(
         {.kind = ActionKind::Teleport, .step = step, .target = draft.name(made), .position = at});
   }
@@ -89,13 +91,15 @@ void sensor(Draft& draft) {
       draft.out.expectations.clear();
       break;
     case 2:
-      draft.out.actions.push_back({.kind = ActionKind::DestroyShape, .step = step, .target = draft.name(made)});
+      draft.out.actions.push_back(
+          {.kind = ActionKind::DestroyShape, .step = step, .target = draft.name(made)});
       break;
     default:
-      draft.out.actions.push_back({.kind = ActionKind::Teleport,
-                                   .step = step,
-                                   .target = draft.name(made),
-                                   .position = at + Vec2d{random.within(-2, 2) * s, random.within(-2, 2) * s}});
+      draft.out.actions.push_back(
+          {.kind = ActionKind::Teleport,
+           .step = step,
+           .target = draft.name(made),
+           .position = at + Vec2d{random.within(-2, 2) * s, random.within(-2, 2) * s}});
   }
 }
 
@@ -104,7 +108,8 @@ void change(Draft& draft) {
   Random& random = draft.random;
   const int at = any_dynamic(draft), step = later(draft);
   const bool type = random.chance(0.5);
-  Action action{.kind = type ? ActionKind::SetType : ActionKind::SetFilter, .step = step, .target = draft.name(at)};
+  Action action{
+      .kind = type ? ActionKind::SetType : ActionKind::SetFilter, .step = step, .target = draft.name(at)};
   action.type = random.pick({BodyType::Static, BodyType::Kinematic});
   draft.out.actions.push_back(action);
   if (random.chance(0.5)) {
@@ -127,12 +132,13 @@ const Register b{{.name = "removal",
                   .weight = 1,
                   .fits = has_dynamic,
                   .build = removal}};
-const Register c{{.name = "release",
-                  .title = "a joint is destroyed",
-                  .role = Idiom::Role::Disturbance,
-                  .weight = 0.7,
-                  .fits = [](const Draft& draft) { return has_dynamic(draft) && !draft.out.scene.joints.empty(); },
-                  .build = release}};
+const Register c{
+    {.name = "release",
+     .title = "a joint is destroyed",
+     .role = Idiom::Role::Disturbance,
+     .weight = 0.7,
+     .fits = [](const Draft& draft) { return has_dynamic(draft) && !draft.out.scene.joints.empty(); },
+     .build = release}};
 const Register d{{.name = "sensor",
                   .title = "a sensor that is destroyed or moved",
                   .role = Idiom::Role::Disturbance,

@@ -33,7 +33,8 @@ void build(Draft& draft) {
   draft.pass_each_other(first);
 }
 
-const Register r{{.name = "cantilever", .title = "boards in a row that hold each other", .weight = 1.5, .build = build}};
+const Register r{
+    {.name = "cantilever", .title = "boards in a row that hold each other", .weight = 1.5, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

@@ -12,8 +12,9 @@ void build(Draft& draft) {
     if (capsules) {
       const bool flat = width > height;
       const double r = (flat ? height : width) / 2;
-      draft.add(flat ? Capsule{{-width / 2, 0}, {width / 2, 0}, r} : Capsule{{0, -height / 2}, {0, height / 2}, r},
-                at, 0, BodyType::Static);
+      draft.add(
+          flat ? Capsule{{-width / 2, 0}, {width / 2, 0}, r} : Capsule{{0, -height / 2}, {0, height / 2}, r},
+          at, 0, BodyType::Static);
     } else {
       draft.box(at, width, height, 0, BodyType::Static);
     }
@@ -22,10 +23,7 @@ void build(Draft& draft) {
   add({0, inside + wall / 2}, long_way, wall);
   add({-half - wall / 2, half}, wall, long_way);
   add({half + wall / 2, half}, wall, long_way);
-  draft.site = {.kind = Site::Kind::Enclosure,
-                .width = inside,
-                .height = inside,
-                .friction = draft.friction};
+  draft.site = {.kind = Site::Kind::Enclosure, .width = inside, .height = inside, .friction = draft.friction};
 }
 
 const Register r{{.name = "closed_box",

@@ -51,7 +51,8 @@ void build(Draft& draft) {
   draft.pass_each_other(first);
 }
 
-const Register r{{.name = "door", .title = "two bodies and a joint that holds an angle", .weight = 1.2, .build = build}};
+const Register r{
+    {.name = "door", .title = "two bodies and a joint that holds an angle", .weight = 1.2, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

@@ -36,7 +36,11 @@ void build(Draft& draft) {
             j.target_position = rotation_of(a).inverse() * j.target_position;
             j.target_angle += b - a;
           }
-          if constexpr (requires { j.ratio; j.phase; }) j.phase += b - j.ratio * a;
+          if constexpr (requires {
+                          j.ratio;
+                          j.phase;
+                        })
+            j.phase += b - j.ratio * a;
           if constexpr (requires { j.tooth; }) j.phase += b - a;
         },
         joint);

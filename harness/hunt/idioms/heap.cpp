@@ -19,7 +19,8 @@ void build(Draft& draft) {
       const double thin = random.ladder(1e-4, 1e-1) * size;
       const int corners = random.whole(3, 5);
       for (int k = 0; k < corners; ++k)
-        needle.points.push_back({size * (static_cast<double>(k) / (corners - 1) - 0.5), k % 2 == 0 ? -thin : thin});
+        needle.points.push_back(
+            {size * (static_cast<double>(k) / (corners - 1) - 0.5), k % 2 == 0 ? -thin : thin});
       draft.add(needle, at, angle);
     } else {
       draft.any(at, size, angle);

@@ -37,8 +37,10 @@ void build(Draft& draft) {
   keeps.why = "what slides on a level floor without friction keeps its speed";
   // The parts of the floor that it comes to.
   for (int i = 0; i < made; ++i) {
-    const double reach = draft.body(i).shapes.size() > 1 ? draft.site.width : reach_of(draft.body(i).shapes.front().geometry);
-    if (draft.body(i).position.x + reach > from - 2 * s && draft.body(i).position.x - reach < from + way + 2 * s)
+    const double reach =
+        draft.body(i).shapes.size() > 1 ? draft.site.width : reach_of(draft.body(i).shapes.front().geometry);
+    if (draft.body(i).position.x + reach > from - 2 * s &&
+        draft.body(i).position.x - reach < from + way + 2 * s)
       keeps.needs.push_back(draft.name(i));
   }
   keeps.needs.push_back(draft.name(made));

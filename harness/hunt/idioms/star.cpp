@@ -44,7 +44,8 @@ void build(Draft& draft) {
   if (!floor || random.chance(0.3)) draft.whirl(first, middle, random.within(-10, 10));
 }
 
-const Register r{{.name = "star", .title = "arms around a hub", .weight = 2, .enclosure = true, .build = build}};
+const Register r{
+    {.name = "star", .title = "arms around a hub", .weight = 2, .enclosure = true, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

@@ -12,8 +12,10 @@ void build(Draft& draft) {
   const bool sticks = random.chance(0.5);
   for (int i = 0; i < count; ++i) {
     const double size = random.within(0.2, 1) * s, angle = random.within(-3, 3);
-    const Vec2d at{random.within(-0.4, 0.4) * (inside - 2 * size), inside / 2 + random.within(-0.4, 0.4) * (inside - 2 * size)};
-    const int made = sticks ? draft.box(at, size, size * random.ladder(0.02, 0.2), angle) : draft.any(at, size, angle);
+    const Vec2d at{random.within(-0.4, 0.4) * (inside - 2 * size),
+                   inside / 2 + random.within(-0.4, 0.4) * (inside - 2 * size)};
+    const int made =
+        sticks ? draft.box(at, size, size * random.ladder(0.02, 0.2), angle) : draft.any(at, size, angle);
     draft.body(made).velocity = speed * direction(random.within(-3, 3));
     draft.body(made).angular_velocity = random.within(-spin, spin);
   }

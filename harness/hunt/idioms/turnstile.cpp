@@ -29,7 +29,8 @@ void build(Draft& draft) {
   Expectation& blocked = draft.expect("is_stopped", bar, Quantity::Angle);
   blocked.upper = 0.3;
   blocked.why = "a bar does not turn through a post";
-  blocked.needs = {draft.name(bar), draft.name(stop), std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back())};
+  blocked.needs = {draft.name(bar), draft.name(stop),
+                   std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back())};
 }
 
 const Register r{{.name = "turnstile",

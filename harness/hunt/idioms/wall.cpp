@@ -16,8 +16,9 @@ void build(Draft& draft) {
     for (Shape& shape : draft.body(i).shapes) shape.friction = draft.friction, shape.restitution = 0;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns - (bond ? row % 2 : 0); ++column)
-      draft.box({(column + (bond && row % 2 == 1 ? 0.5 : 0) - 0.5 * (columns - 1)) * width, (row + 0.5) * height},
-                width, height);
+      draft.box(
+          {(column + (bond && row % 2 == 1 ? 0.5 : 0) - 0.5 * (columns - 1)) * width, (row + 0.5) * height},
+          width, height);
   draft.out.sleeping = draft.random.chance(0.2);
   draft.out.steps = static_cast<int>(8 / draft.out.dt);
   for (int i = first; i < draft.count(); ++i) {
@@ -34,12 +35,8 @@ void build(Draft& draft) {
   }
 }
 
-const Register r{{.name = "wall",
-                  .title = "bricks at rest",
-                  .weight = 1,
-                  .air = false,
-                  .level = true,
-                  .build = build}};
+const Register r{
+    {.name = "wall", .title = "bricks at rest", .weight = 1, .air = false, .level = true, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt
