@@ -33,8 +33,9 @@ struct Options {
   EngineOptions engines;
   std::string out = "hunt", format = "console", minutes, replay;
   std::uint64_t seed = 1, scenes = 0;
+  std::int64_t draw = -1;
   int jobs = 0;
-  bool list = false, draw = false;
+  bool list = false;
 };
 
 void list() {
@@ -114,8 +115,9 @@ int start(const Options& options) {
                             .seed = options.seed,
                             .scenes = options.scenes,
                             .folder = options.out};
-  if (options.draw) {
-    print(hunting::to_json(hunting::compose(options.seed, options.scenes, what.families)) + "\n");
+  if (options.draw >= 0) {
+    const auto index = static_cast<std::uint64_t>(options.draw);
+    print(hunting::to_json(hunting::compose(options.seed, index, what.families)) + "\n");
     return kOk;
   }
   std::vector<std::unique_ptr<reference::Backend>> programs;
@@ -176,7 +178,9 @@ void add_hunt(CLI::App& app, Action& chosen) {
   command->add_option("--replay", options->replay, "a finding's file, to be run and judged again")
       ->type_name("FILE");
   command->add_flag("--list", options->list, "what scenes are composed of");
-  command->add_flag("--draw", options->draw, "print the scene of number --scenes instead, as JSON");
+  command->add_option("--draw", options->draw, "print the scene of that number, from 0, and run nothing")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
   command->footer(
       "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-world,box2d --seed 7\n"
       "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"

@@ -231,7 +231,7 @@ Case perturbed(Case one, double by, std::uint64_t seed) {
     body.position.x += size * off(), body.position.y += size * off();
     body.angle += off();
     body.velocity.x += size * off(), body.velocity.y += size * off();
-    body.angular_velocity += off();
+    if (!body.fixed_rotation) body.angular_velocity += off();
   }
   return one;
 }

@@ -14,7 +14,7 @@ void build(Draft& draft) {
     draft.body(made).velocity = {(i == 0 ? 1 : -0.5 * i) * random.ladder(0.5, 20) * s, 0};
     draft.body(made).angular_velocity = random.within(-20, 20);
     if (random.chance(0.2)) draft.body(made).linear_damping = random.ladder(0.1, 10);
-    if (random.chance(0.1)) draft.body(made).fixed_rotation = true;
+    if (random.chance(0.1)) draft.body(made).fixed_rotation = true, draft.body(made).angular_velocity = 0;
     if (random.chance(0.2)) {
       draft.body(made).shapes.push_back(
           {.geometry = draft.any_geometry(0.5 * s), .position = {0.4 * about, 0.2 * about}});

@@ -11,7 +11,7 @@ void build(Draft& draft) {
     Body& body = draft.body((first + i) % draft.count());
     if (body.type != BodyType::Dynamic) continue;
     body.velocity += Vec2d{random.within(-5, 5) * draft.size, random.within(-2, 2) * draft.size};
-    body.angular_velocity += random.within(-10, 10);
+    if (!body.fixed_rotation) body.angular_velocity += random.within(-10, 10);
     break;
   }
   std::erase_if(draft.out.expectations, [](const Expectation& each) { return each.name != "stays_inside"; });

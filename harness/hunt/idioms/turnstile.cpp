@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {
@@ -6,9 +8,11 @@ namespace {
 // A bar that turns about its middle, or its end, until a post stands in its way.
 void build(Draft& draft) {
   Random& random = draft.random;
-  const double s = draft.size, half = random.within(0.5, 3) * s, thick = random.ladder(0.02, 0.2) * s;
-  const double rate = random.ladder(1, 30), at = random.within(0.2, 0.97) * half;
-  const double post = random.ladder(0.02, 0.2) * s, from = -random.within(0.5, 1.2);
+  const double s = draft.size, half = random.within(0.5, 3) * s, at = random.within(0.2, 0.97) * half;
+  // So thin that they are apart at the start: a post covers 0.3 rad of the bar's way at most.
+  const double thick = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
+  const double post = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
+  const double rate = random.ladder(1, 30), from = -random.within(0.5, 1.2);
   const Vec2d middle{0, draft.site.kind == Site::Kind::Air ? 0 : 1.2 * half};
   if (draft.site.kind != Site::Kind::Air) draft.site.kind = Site::Kind::Air;
   const bool whole = random.chance(0.6), capsule = random.chance(0.3);

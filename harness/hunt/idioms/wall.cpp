@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {
@@ -20,6 +22,7 @@ void build(Draft& draft) {
           {(column + (bond && row % 2 == 1 ? 0.5 : 0) - 0.5 * (columns - 1)) * width, (row + 0.5) * height},
           width, height);
   draft.out.sleeping = draft.random.chance(0.2);
+  draft.out.dt = std::min(draft.out.dt, 1.0 / 60), draft.out.substeps = std::max(draft.out.substeps, 4);
   draft.out.steps = static_cast<int>(8 / draft.out.dt);
   for (int i = first; i < draft.count(); ++i) {
     Expectation& stands = draft.expect("stands", i, Quantity::Drift);
