@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
@@ -23,7 +24,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSceneSeconds = 60, kRunSeconds = 10;
+constexpr double kSceneSeconds = 60;  // of processor time, as the next
+constexpr rlim_t kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time is over, for findings to be made smaller
 // Scenes whose process died are examined again, each engine on its own.
 constexpr std::uint64_t kCrashed = 0xFF;
@@ -98,10 +100,12 @@ class Workshop {
     const auto fails = [&](const Case& candidate) {
       const Outcome outcome = isolate(
           [&] {
+            const rlimit limit{kRunSeconds, kRunSeconds + 1};
+            setrlimit(RLIMIT_CPU, &limit);
             examine(engine, candidate);
             return std::string();
           },
-          kRunSeconds);
+          20.0 * kRunSeconds);
       if (outcome.kind != Outcome::Kind::Crashed && outcome.kind != Outcome::Kind::Timeout) return false;
       how = outcome.text;
       return true;

@@ -1,16 +1,15 @@
 #include "harness/hunt/motion.h"
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <exception>
 
 #include "engine/scene/error.h"
+#include "harness/hunt/processor_time.h"
 #include "harness/hunt/world_run.h"
 
 namespace plumb::harness::hunt {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 bool finite(const BodyState& s) {
   return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
@@ -26,7 +25,7 @@ reference::StepSettings settings_of(const Case& one, const Engine& engine, int r
 Motion run_backend(const Engine& engine, const Case& one, const RunOptions& options) {
   Motion out{.dt = one.dt};
   const std::size_t count = one.scene.bodies.size();
-  const auto begin = Clock::now();
+  const double begin = processor_seconds();
   try {
     const auto simulator = engine.backend->create(one.scene, settings_of(one, engine, options.refine));
     for (int step = 0; step <= one.steps; ++step) {
@@ -37,7 +36,7 @@ Motion run_backend(const Engine& engine, const Case& one, const RunOptions& opti
       for (const BodyState& state : sample.states)
         if (!finite(state)) throw Error(Error::Kind::Run, "state", "", "", "is not finite");
       out.samples.push_back(std::move(sample));
-      if (std::chrono::duration<double>(Clock::now() - begin).count() > options.seconds) break;
+      if (processor_seconds() - begin > options.seconds) break;
     }
   } catch (const std::exception& error) {
     out.failure = error.what();
@@ -57,6 +56,12 @@ Engine::Kind kind_of(const std::string_view name) {
 Engine::Engine(const reference::Backend& of) : backend(&of), kind(kind_of(of.name())) {}
 
 double Engine::epsilon() const { return kind == Kind::DoubleWorld || kind == Kind::Precise ? 1.2e-16 : 6e-8; }
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 std::string unsupported(const Engine& engine, const Case& one) {
   if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine, 1));

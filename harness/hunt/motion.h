@@ -51,7 +51,7 @@ struct RunOptions {
   int refine = 1;           ///< each step in so many
   int restore_at = -1;      ///< step after which a World is saved and goes on as another
   bool flip_sleep = false;  ///< sleep on where it is off, and the other way around
-  double seconds = 5;       ///< of wall time, after which the run is given up
+  double seconds = 5;       ///< of processor time, after which the run is given up
 };
 
 /// Empty, or why `engine` does not take `one`.

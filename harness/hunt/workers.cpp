@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <exception>
 
 #include <fcntl.h>
@@ -19,6 +20,8 @@ namespace plumb::harness::hunt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kPatience = 20;  // times the processor time, of a machine that others use
 
 bool write_all(int file, const char* data, std::size_t size) {
   while (size > 0) {
@@ -63,6 +66,14 @@ bool read_all(int file, char* data, std::size_t size) {
   _exit(0);
 }
 
+// Processor time of another process, s; 0 where it is gone.
+double processor_seconds_of(pid_t process) {
+  clockid_t clock{};
+  timespec now{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &now) != 0) return 0;
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 std::string how_it_died(int status) {
   if (!WIFSIGNALED(status)) return fmt::format("its process ended with {}", WEXITSTATUS(status));
   const char* name = sigabbrev_np(WTERMSIG(status));
@@ -77,6 +88,7 @@ struct Workers::Worker {
   bool at_work = false;
   std::uint64_t task = 0;
   Clock::time_point deadline;
+  double began = 0;  // s, processor time
   std::string received;
 };
 
@@ -164,7 +176,8 @@ std::vector<Answer> Workers::wait() {
       out.push_back({worker.task, Answer::Kind::Died, how_it_died(status)});
       close(worker.tasks), close(worker.answers);
       worker = {};
-    } else if (Clock::now() > worker.deadline) {
+    } else if (Clock::now() > worker.deadline ||
+               processor_seconds_of(worker.process) - worker.began > seconds_) {
       out.push_back({worker.task, Answer::Kind::Hung, fmt::format("no end within {:g} s", seconds_)});
       end(worker);
     }

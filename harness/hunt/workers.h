@@ -22,7 +22,7 @@ class Workers {
  public:
   using Work = std::function<std::string(std::uint64_t task)>;
 
-  /// `seconds`: of wall time that a piece may take.
+  /// `seconds`: of processor time that a piece may take, and a twentieth of the wall time.
   Workers(int count, double seconds, Work work);
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;

@@ -1,7 +1,6 @@
 #include "harness/hunt/world_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <map>
@@ -16,11 +15,11 @@
 #include "engine/world/add_scene.h"
 #include "engine/world/scene_forces.h"
 #include "engine/world/snapshot.h"
+#include "harness/hunt/processor_time.h"
 
 namespace plumb::harness::hunt {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Key = std::pair<std::uint32_t, std::uint32_t>;
 
 template <class Tag>
@@ -125,7 +124,7 @@ class Run {
   }
 
   Motion go() {
-    const auto begin = Clock::now();
+    const double begin = processor_seconds();
     Motion out{.dt = case_.dt};
     SceneParts parts;
     for (const auto& id : bodies_) parts.bodies.push_back(id.value_or(BodyId{}));
@@ -155,7 +154,7 @@ class Run {
         restore(other, save(world_));
         world_ = std::move(other);
       }
-      if (std::chrono::duration<double>(Clock::now() - begin).count() > options_.seconds) break;
+      if (processor_seconds() - begin > options_.seconds) break;
     }
     return out;
   }
