@@ -18,8 +18,8 @@ struct Finding {
   std::string kind{};  ///< judge, and what the smallest case is made of
 };
 
-/// What the case is made of: its idioms that still have bodies, kinds of joints, of shapes, of actions.
-std::string made_of(const Case& one);
+/// Names what of the case matters to a law: its kinds of joints, of shapes, of actions.
+std::string made_of(const Case& one, const std::string& law = "");
 
 /// One line of JSON.
 std::string to_json(const Finding& finding);

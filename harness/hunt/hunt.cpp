@@ -71,7 +71,7 @@ class Workshop {
 
   Finding finding(std::size_t engine, const Case& one, const Objection& objection) const {
     Finding out{.engine = options_.engines[engine].name(), .objection = objection, .smallest = one};
-    out.kind = objection.judge + ": " + made_of(one);
+    out.kind = objection.judge + ": " + made_of(one, objection.law);
     return out;
   }
 
@@ -178,8 +178,15 @@ class Hunt {
       if (line.contains("finding"))
         remember({line.at("scene_of").get<std::uint64_t>(), finding_from_json(line["finding"].dump())});
     }
-    for (const Found& found : std::vector<Found>(findings_))
-      if (!found.finding.shrunk) want_smaller(found.scene, found.finding);
+    // Those that nobody had the time to make smaller.
+    std::set<std::string> small;
+    const auto key = [](const Found& found) {
+      return fmt::format("{} {} {}", found.scene, found.finding.engine, found.finding.objection.law);
+    };
+    for (const Found& found : findings_)
+      if (found.finding.shrunk) small.insert(key(found));
+    for (const Found& found : findings_)
+      if (!found.finding.shrunk && !small.contains(key(found))) want_smaller(found.scene, found.finding);
   }
 
   void count_scene(const Json& line) {

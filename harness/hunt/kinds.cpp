@@ -83,10 +83,10 @@ std::string kinds_text(const Hunted& hunted) {
     std::string engines, idioms;
     for (const std::string& engine : kind.engines) engines += (engines.empty() ? "" : ", ") + engine;
     for (const std::string& idiom : kind.idioms) idioms += (idioms.empty() ? "" : ", ") + idiom;
-    out +=
-        fmt::format("{:>6} {:>6} {:>6}  {:<20} {}\n{:>22}{} ({})\n{:>22}{}\n", kind.first, kind.count,
-                    kind.smallest.smallest.scene.bodies.size(), kind.smallest.objection.judge,
-                    made_of(kind.smallest.smallest), "", engines, idioms, "", kind.smallest.objection.what);
+    out += fmt::format("{:>6} {:>6} {:>6}  {:<20} {}\n{:>22}{} ({})\n{:>22}{}\n", kind.first, kind.count,
+                       kind.smallest.smallest.scene.bodies.size(), kind.smallest.objection.judge,
+                       made_of(kind.smallest.smallest, kind.smallest.objection.law), "", engines, idioms, "",
+                       kind.smallest.objection.what);
   }
   return out;
 }

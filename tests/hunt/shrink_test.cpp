@@ -48,7 +48,7 @@ TEST(Finding, ReadsBack) {
       .objection = {.law = "energy", .judge = "energy", .what = "it grew", .right = "it does not"},
       .smallest = compose(1, 4)};
   finding.objection.figure = INFINITY;
-  finding.kind = "energy: " + made_of(finding.smallest);
+  finding.kind = "energy: " + made_of(finding.smallest, "energy");
   EXPECT_EQ(to_json(finding_from_json(to_json(finding))), to_json(finding));
 }
 

@@ -8,9 +8,12 @@ void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
   const int count = random.whole(1, 3);
+  const bool inside = draft.site.kind == Site::Kind::Enclosure;
+  const double height = inside ? draft.site.height / 2 : 0, apart = inside ? draft.site.width / 4 : 3 * s;
   for (int i = 0; i < count; ++i) {
     const double about = random.ladder(0.3, 2) * s, angle = random.within(-3, 3);
-    const int made = draft.any({3.0 * i * s, random.within(-0.5, 0.5) * s}, about, angle);
+    const int made =
+        draft.any({(i - (inside ? 1 : 0)) * apart, height + random.within(-0.5, 0.5) * s}, about, angle);
     draft.body(made).velocity = {(i == 0 ? 1 : -0.5 * i) * random.ladder(0.5, 20) * s, 0};
     draft.body(made).angular_velocity = random.within(-20, 20);
     if (random.chance(0.2)) draft.body(made).linear_damping = random.ladder(0.1, 10);

@@ -11,7 +11,8 @@ void build(Draft& draft) {
   const double s = draft.size, hub = random.within(0.1, 0.5) * s, arm = random.within(0.5, 2) * s;
   const int arms = random.whole(2, 7), first = draft.count();
   const bool floor = draft.site.kind == Site::Kind::Floor;
-  const Vec2d middle{0, floor ? (arm + hub) * random.within(1.1, 1.5) : 0};
+  const double inside = draft.site.kind == Site::Kind::Enclosure ? draft.site.height / 2 : 0;
+  const Vec2d middle{0, floor ? (arm + hub) * random.within(1.1, 1.5) : inside};
   const double from = floor && random.chance(0.5) ? -2.6 : random.within(0, 1);
   const double spread = floor && random.chance(0.5) ? 2.1 : kTurn * (arms - 1) / arms;
   const int kind = random.whole(0, 6);
