@@ -21,6 +21,7 @@ void add_sweep(CLI::App& app, Action& chosen);
 void add_front(CLI::App& app, Action& chosen);
 void add_tune(CLI::App& app, Action& chosen);
 void add_stress(CLI::App& app, Action& chosen);
+void add_hunt(CLI::App& app, Action& chosen);
 void add_limits(CLI::App& app, Action& chosen);
 void add_thresholds(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   add_front(app, action);
   add_tune(app, action);
   add_stress(app, action);
+  add_hunt(app, action);
   add_thresholds(app, action);
   add_limits(app, action);
   add_report(app, action);

@@ -1,0 +1,196 @@
+#include "harness/hunt/hunt.h"
+
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "app/progress_line.h"
+#include "app/selection.h"
+#include "app/usage.h"
+#include "engine/scene/json.h"
+#include "harness/hunt/examine.h"
+#include "harness/interrupt.h"
+#include "harness/style.h"
+#include "harness/text_file.h"
+
+namespace plumb::app {
+namespace {
+
+namespace hunting = harness::hunt;
+
+constexpr double kMinutes = 10;
+
+struct Options {
+  std::vector<std::string> names;
+  EngineOptions engines;
+  std::string out = "hunt", format = "console", minutes, replay;
+  std::uint64_t seed = 1, scenes = 0;
+  std::int64_t draw = -1;
+  int jobs = 0;
+  bool list = false;
+};
+
+void list() {
+  using Role = hunting::Idiom::Role;
+  constexpr std::pair<Role, const char*> kRoles[] = {{Role::Structure, "structures (families)"},
+                                                     {Role::Support, "supports"},
+                                                     {Role::Disturbance, "disturbances"}};
+  for (const auto& [role, title] : kRoles) {
+    print(fmt::format("{}\n", title));
+    for (const hunting::Idiom& idiom : hunting::idioms())
+      if (idiom.role == role) print(fmt::format("  {:<16} {}\n", idiom.name, idiom.title));
+  }
+}
+
+std::vector<const hunting::Idiom*> chosen_families(const std::vector<std::string>& names) {
+  std::vector<const hunting::Idiom*> out;
+  for (const std::string& name : names) {
+    const hunting::Idiom* idiom = &hunting::find_idiom(name);
+    if (idiom->role != hunting::Idiom::Role::Structure)
+      throw UsageError(
+          fmt::format("'{}' is no structure: it comes with others by itself; see `plumb hunt --list`", name));
+    if (std::find(out.begin(), out.end(), idiom) == out.end()) out.push_back(idiom);
+  }
+  return out;
+}
+
+std::vector<hunting::Engine> engines_of(const Options& options, const std::vector<std::string>& usual,
+                                        std::vector<std::unique_ptr<reference::Backend>>& programs) {
+  EngineOptions wanted = options.engines;
+  if (wanted.names.empty() && wanted.commands.empty()) wanted.names = usual;
+  if (wanted.names.empty())
+    for (const std::string& command : wanted.commands)
+      wanted.names.push_back(command.substr(0, command.find('=')));
+  std::vector<hunting::Engine> out;
+  for (const reference::Backend* backend : chosen_engines(wanted, programs)) out.emplace_back(*backend);
+  return out;
+}
+
+int replay(const Options& options) {
+  const std::string text = harness::read_text(options.replay);
+  const bool is_finding = nlohmann::json::parse(text, nullptr, false).contains("case");
+  const hunting::Case one =
+      is_finding ? hunting::finding_from_json(text).smallest : hunting::case_from_json(text);
+  std::vector<std::string> usual{"plumb-world", "plumb-world-double"};
+  if (is_finding) usual = {hunting::finding_from_json(text).engine};
+  std::vector<std::unique_ptr<reference::Backend>> programs;
+  bool objected = false;
+  for (const hunting::Engine& engine : engines_of(options, usual, programs)) {
+    const hunting::Examined seen = hunting::examine(engine, one);
+    if (!seen.skipped.empty()) print(fmt::format("{}: skipped: {}\n", engine.name(), seen.skipped));
+    if (seen.skipped.empty() && seen.objections.empty())
+      print(fmt::format("{}: no judge objects\n", engine.name()));
+    for (const hunting::Objection& objection : seen.objections) {
+      objected = true;
+      print(fmt::format("{}: {} at {:.3g} s: {}\n  right: {}\n", engine.name(), objection.judge,
+                        objection.time, objection.what, objection.right));
+    }
+  }
+  return objected ? kCheckFailed : kOk;
+}
+
+std::string progress_text(std::uint64_t scenes, std::uint64_t findings, double passed,
+                          const hunting::HuntOptions& what) {
+  std::string text = fmt::format("{} scenes, {} findings", scenes, findings);
+  if (passed > 1) text += fmt::format(", {:.0f} scenes a minute", 60 * static_cast<double>(scenes) / passed);
+  if (what.seconds > 0) text += fmt::format(", about {:.0f} s left", std::max(0.0, what.seconds - passed));
+  return text;
+}
+
+int start(const Options& options) {
+  if (options.list) {
+    list();
+    return kOk;
+  }
+  if (!options.replay.empty()) return replay(options);
+  hunting::HuntOptions what{.families = chosen_families(options.names),
+                            .seed = options.seed,
+                            .scenes = options.scenes,
+                            .folder = options.out};
+  if (options.draw >= 0) {
+    const auto index = static_cast<std::uint64_t>(options.draw);
+    print(hunting::to_json(hunting::compose(options.seed, index, what.families)) + "\n");
+    return kOk;
+  }
+  std::vector<std::unique_ptr<reference::Backend>> programs;
+  what.engines = engines_of(options, {"plumb-world", "plumb-world-double"}, programs);
+  what.jobs =
+      options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  what.seconds = !options.minutes.empty() ? 60 * parse_positive("--minutes", options.minutes)
+                 : options.scenes > 0     ? 0
+                                          : 60 * kMinutes;
+  ProgressLine progress;
+  harness::catch_interrupts();
+  hunting::HuntEvents events;
+  events.progress = [&](std::uint64_t scenes, std::uint64_t findings, double passed) {
+    progress.say(progress_text(scenes, findings, passed, what));
+  };
+  const hunting::Hunted done = hunting::hunt(what, events);
+  progress.clear();
+  for (const hunting::Kind& kind : done.kinds)
+    hunting::write_finding(kind.smallest, options.out + "/findings", kind.file);
+  if (options.format == "json") {
+    print(hunting::kinds_json(done) + "\n");
+  } else {
+    print(hunting::kinds_text(done));
+    print(
+        fmt::format("\n{} scenes, {} runs, {} skipped: {} kinds of findings; each is in {}/findings, and\n"
+                    "`plumb hunt --replay FILE` runs one again\n",
+                    done.scenes, done.runs, done.skipped, done.kinds.size(), options.out));
+  }
+  if (done.interrupted) {
+    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", options.out);
+    return kInterrupted;
+  }
+  return done.kinds.empty() ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void add_hunt(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
+  auto options = std::make_shared<Options>();
+  command->add_option("families", options->names, "structures to draw from (default: all); see --list")
+      ->type_name("FAMILY");
+  options->engines.add_to(*command);
+  command->add_option("--seed", options->seed, "draws other scenes (default 1)")->type_name("N");
+  command->add_option("--minutes", options->minutes, "how long to hunt (default 10)")->type_name("T");
+  command->add_option("--scenes", options->scenes, "stop after so many scenes")->type_name("N");
+  command->add_option("--jobs", options->jobs, "processes (default: one a core)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command
+      ->add_option("--out", options->out,
+                   "folder for what is found; a hunt that is there goes on (default hunt)")
+      ->check(problem_with_path)
+      ->type_name("DIR");
+  command->add_option("--format", options->format, "console or json")
+      ->check(CLI::IsMember({"console", "json"}));
+  command->add_option("--replay", options->replay, "a finding's file, to be run and judged again")
+      ->type_name("FILE");
+  command->add_flag("--list", options->list, "what scenes are composed of");
+  command->add_option("--draw", options->draw, "print the scene of that number, from 0, and run nothing")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  command->footer(
+      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-world,box2d --seed 7\n"
+      "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"
+      "  plumb hunt --replay hunt/findings/001-energy.json\n"
+      "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the "
+      "scenes\n"
+      "under way; the same command goes on. See docs/hunting.md. Exit codes: 0 nothing was found; 1 "
+      "something\n"
+      "was; 2 usage; 130 interrupted.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,44 @@
+#include "harness/hunt/idiom.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+// Sticks, needles and others fly about in a closed box.
+void build(Draft& draft) {
+  Random& random = draft.random;
+  const double s = draft.size, inside = draft.site.width;
+  const int count = random.whole(1, 6), first = draft.count();
+  const double speed = random.ladder(1, 200) * s, spin = random.chance(0.5) ? 0 : random.ladder(1, 100);
+  const bool sticks = random.chance(0.5);
+  for (int i = 0; i < count; ++i) {
+    const double size = random.within(0.2, 1) * s, angle = random.within(-3, 3);
+    const Vec2d at{random.within(-0.4, 0.4) * (inside - 2 * size),
+                   inside / 2 + random.within(-0.4, 0.4) * (inside - 2 * size)};
+    const int made =
+        sticks ? draft.box(at, size, size * random.ladder(0.02, 0.2), angle) : draft.any(at, size, angle);
+    draft.body(made).velocity = speed * direction(random.within(-3, 3));
+    draft.body(made).angular_velocity = random.within(-spin, spin);
+  }
+  if (random.chance(0.6) || count > 1) draft.pass_each_other(first);
+  for (int i = first; i < draft.count(); ++i) {
+    for (const Quantity quantity : {Quantity::X, Quantity::Y}) {
+      Expectation& stays = draft.expect("stays_inside", i, quantity);
+      stays.lower = quantity == Quantity::X ? -inside / 2 : 0;
+      stays.upper = stays.lower + inside;
+      stays.why = "nothing leaves a closed box";
+      for (int wall = 0; wall < first; ++wall) stays.needs.push_back(draft.name(wall));
+      stays.needs.push_back(draft.name(i));
+    }
+  }
+}
+
+const Register r{{.name = "thrown",
+                  .title = "sticks and others that fly about",
+                  .weight = 1.5,
+                  .air = false,
+                  .floor = false,
+                  .enclosure = true,
+                  .build = build}};
+
+}  // namespace
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,148 @@
+// Other engines as judges: Precise alone, and the rivals with it as a jury.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "harness/hunt/relations.h"
+#include "harness/hunt/subject.h"
+#include "harness/isolate.h"
+
+namespace plumb::harness::hunt {
+
+namespace {
+
+constexpr double kSeconds = 2;     // that another engine may take
+constexpr double kShare = 0.2;     // of the largest body
+constexpr std::size_t kMost = 12;  // bodies that Precise is asked about
+constexpr double kCalm = 0.02;
+
+double length(Vec2d v) { return std::hypot(v.x, v.y); }
+
+/// What a method of first order may be off by at each sample, m: the way of three steps, at the speed that
+/// bodies have and fall at.
+std::vector<double> bounds(const Case& one, const Motion& motion) {
+  std::vector<double> out;
+  const double g = length(one.scene.gravity), share = kShare * largest_size(one.scene);
+  double fastest = 0;
+  for (std::size_t k = 0; k < motion.samples.size(); ++k) {
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
+      if (one.scene.bodies[i].type == BodyType::Dynamic)
+        fastest = std::max(fastest, length(motion.samples[k].states[i].velocity));
+    out.push_back(share + 3 * one.dt * (fastest + g * static_cast<double>(k) * one.dt));
+  }
+  return out;
+}
+
+std::optional<Motion> run_by(const char* name, const Case& one) {
+  const reference::Backend& backend = reference::find_backend(name);
+  if (!backend.identity().available) return {};
+  const Engine engine(backend);
+  if (!unsupported(engine, one).empty()) return {};
+  Motion out = engine.kind == Engine::Kind::Precise ? run_guarded(engine, one, kSeconds)
+                                                    : run(engine, one, {.seconds = kSeconds});
+  if (out.samples.empty()) return {};
+  return out;
+}
+
+// Moving contacts and loose joints bend each engine its own way; what no judge knows is left out.
+bool judged(const Case& one, const Motion& motion) {
+  return motion.failure.empty() && starts_closed(one.scene) && starts_apart(one.scene) &&
+         one.scene.bodies.size() <= 3 * kMost;
+}
+
+std::string as_bytes(const Motion& motion) {
+  std::string out;
+  for (const Sample& sample : motion.samples)
+    out.append(reinterpret_cast<const char*>(sample.states.data()), sample.states.size() * sizeof(BodyState));
+  return out;
+}
+
+/// The first sample at which `a` leaves `b` by more than its bound; none: never, while both last.
+std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motion& b,
+                                   const std::vector<double>& bound, double times = 1) {
+  const std::vector<double> off = apart(one, a, b);
+  for (std::size_t k = 0; k < off.size(); ++k)
+    if (off[k] > times * bound[k]) return k;
+  return {};
+}
+
+Objection objection(const std::string& name, const Case& one, double off, double bound, std::size_t k,
+                    const std::string& right) {
+  return {.law = name,
+          .judge = name,
+          .what = fmt::format("is {:.3g} m off", off),
+          .right = right,
+          .figure = off,
+          .bound = bound,
+          .unit = "m",
+          .time = static_cast<double>(k) * one.dt};
+}
+
+}  // namespace
+
+Motion run_guarded(const Engine& engine, const Case& one, double seconds) {
+  const Outcome outcome = isolate([&] { return as_bytes(run(engine, one, {.seconds = seconds})); }, seconds);
+  Motion out{.dt = one.dt};
+  const std::size_t bodies = one.scene.bodies.size(), size = bodies * sizeof(BodyState);
+  if (outcome.kind != Outcome::Kind::Done || size == 0) return out;
+  for (std::size_t at = 0; at + size <= outcome.text.size(); at += size) {
+    Sample sample{std::vector<BodyState>(bodies), std::vector<bool>(bodies, true),
+                  std::vector<bool>(bodies, false)};
+    std::memcpy(sample.states.data(), outcome.text.data() + at, size);
+    out.samples.push_back(std::move(sample));
+  }
+  return out;
+}
+
+Verdict precise_relation(const Case& one, const Engine& engine, const Motion& motion) {
+  const auto dynamic = std::count_if(one.scene.bodies.begin(), one.scene.bodies.end(),
+                                     [](const Body& b) { return b.type == BodyType::Dynamic; });
+  if (!judged(one, motion) || static_cast<std::size_t>(dynamic) > kMost) return {};
+  const auto precise = run_by("plumb-precise", one);
+  if (!precise) return {};
+  const std::vector<double> bound = bounds(one, *precise);
+  const auto k = parting(one, motion, *precise, bound);
+  if (!k) return {};
+  // Where the motion forks within what a step may be off by, both ways are right.
+  const std::vector<double> calm = growth(one, engine, motion);
+  const std::vector<double> own = growth(one, Engine(reference::find_backend("plumb-precise")), *precise);
+  if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k])
+    return {};
+  return objection("precise", one, apart(one, motion, *precise)[*k], bound[*k], *k,
+                   "Precise, and a perturbation of it, go another way");
+}
+
+Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!judged(one, motion)) return {};
+  std::vector<Motion> jury;
+  for (const char* name : {"plumb-precise", "box2d", "bullet"}) {
+    if (engine.name() == name) continue;
+    if (auto other = run_by(name, one)) jury.push_back(std::move(*other));
+  }
+  if (jury.size() < 2) return {};
+  std::vector<double> bound = bounds(one, jury.front());
+  for (const Motion& other : jury) bound.resize(std::min(bound.size(), other.samples.size()));
+  bound.resize(std::min(bound.size(), motion.samples.size()));
+  std::vector<std::vector<double>> from_jury, among_jury;
+  for (std::size_t i = 0; i < jury.size(); ++i) {
+    from_jury.push_back(apart(one, motion, jury[i]));
+    for (std::size_t j = i + 1; j < jury.size(); ++j) among_jury.push_back(apart(one, jury[i], jury[j]));
+  }
+  for (std::size_t k = 0; k < bound.size(); ++k) {
+    double among = 0, nearest = INFINITY;
+    for (const auto& off : from_jury) nearest = std::min(nearest, off[k]);
+    for (const auto& off : among_jury) among = std::max(among, off[k]);
+    if (among > bound[k]) return {};
+    if (nearest <= 2 * bound[k]) continue;
+    const std::vector<double> calm = growth(one, engine, motion);
+    if (k >= calm.size() || calm[k] > kCalm * bound[k]) return {};
+    return objection("jury", one, nearest, 2 * bound[k], k,
+                     "the other engines agree with each other, not with this one");
+  }
+  return {};
+}
+
+}  // namespace plumb::harness::hunt

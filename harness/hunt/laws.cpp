@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/energy.h"
+#include "harness/hunt/objection.h"
+#include "harness/hunt/subject.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+double length(Vec2d v) { return std::hypot(v.x, v.y); }
+
+// Steps of semi-implicit Euler keep an energy that differs from the true one by a share of w h / 2.
+constexpr double kEnergyShare = 0.02, kMostShare = 0.3;
+constexpr double kPreciseShare = 1e-5;
+
+/// What a motion may have of energy, and has.
+struct Budget {
+  double start = 0, kinetic = 0, fall = 0, fastest_turn = 0;
+};
+
+// What a step and the gap of contacts may add: each body falls a step's way, or its own hundredth, late.
+double slack_of_places(const Case& one, const Sample& sample, const std::vector<double>& reach) {
+  double sum = 0;
+  const double g = length(one.scene.gravity);
+  for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+    const Body& body = one.scene.bodies[i];
+    if (body.type != BodyType::Dynamic) continue;
+    const double way = std::min(length(sample.states[i].velocity) * one.dt, reach[i]);
+    sum += body.mass * std::abs(body.gravity_scale) * g * (0.5 * way + 0.01 * reach[i] + g * one.dt * one.dt);
+    sum += body.mass * 1e-6 * reach[i] * reach[i];
+  }
+  return sum;
+}
+
+bool left_alone(const Case& one) {
+  if (driven(one) || !one.scene.forces.empty()) return false;
+  for (const Body& body : one.scene.bodies) {
+    if (body.type != BodyType::Dynamic && (!body.shapes.empty())) return false;
+    if (body.linear_damping != 0 || body.lock_x || body.lock_y) return false;
+  }
+  for (const Joint& joint : one.scene.joints) {
+    const bool held = std::visit(
+        [&](const auto& j) {
+          const auto fixed = [&](const std::string& name) {
+            const auto at = find_body(one.scene, name);
+            return !at || one.scene.bodies[*at].type != BodyType::Dynamic;
+          };
+          return fixed(j.body_a) || fixed(j.body_b);
+        },
+        joint);
+    if (held || std::holds_alternative<PulleyJoint>(joint)) return false;
+  }
+  return true;
+}
+
+std::size_t dynamic_bodies(const Scene& scene) {
+  return static_cast<std::size_t>(std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                                [](const Body& b) { return b.type == BodyType::Dynamic; }));
+}
+
+}  // namespace
+
+const std::vector<Law>& laws() {
+  static const std::vector<Law> all{{"finite", finite_law},
+                                    {"expectation", expectation_law},
+                                    {"energy", energy_law},
+                                    {"joint_gap", joint_gap_law},
+                                    {"joint_angle", joint_angle_law},
+                                    {"penetration", penetration_law},
+                                    {"momentum", momentum_law},
+                                    {"angular_momentum", angular_momentum_law},
+                                    {"events", event_law},
+                                    {"sensors", sensor_law},
+                                    {"sleep", sleep_law}};
+  return all;
+}
+
+Verdict finite_law(const Case& one, const Engine&, const Motion& motion) {
+  if (motion.failure.empty()) return {};
+  return Objection{.judge = "finite",
+                   .what = motion.failure,
+                   .right = "the run goes on to its end, and every number is finite",
+                   .time = static_cast<double>(motion.samples.size()) * one.dt};
+}
+
+Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (driven(one) || motion.samples.empty() || !starts_closed(one.scene) || !starts_apart(one.scene))
+    return {};
+  const bool precise = engine.kind == Engine::Kind::Precise;
+  const std::vector<double> reach = reaches(one.scene);
+  const Mechanics first = mechanics(one.scene, motion.samples.front().states);
+  Budget budget{.start = first.kinetic + first.potential, .kinetic = first.kinetic};
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    const Mechanics now = mechanics(one.scene, motion.samples[k].states);
+    const double time = static_cast<double>(k) * one.dt, given = stored(one.scene, time);
+    budget.fall = std::max(budget.fall, first.potential - now.potential);
+    const double share =
+        precise ? kPreciseShare
+                : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt / one.substeps);
+    double bound = share * (budget.kinetic + budget.fall + given);
+    if (!precise) bound += slack_of_places(one, motion.samples[k], reach);
+    const double gain = now.kinetic + now.potential - budget.start - given;
+    if (gain > bound) {
+      return Objection{
+          .judge = "energy",
+          .what = fmt::format("energy has grown by {:.3g} J; {:.3g} J is all that it had to spend", gain,
+                              budget.kinetic + budget.fall + given),
+          .right = "energy never grows: nothing drives these bodies beyond what springs and motors hold",
+          .figure = gain,
+          .bound = bound,
+          .unit = "J",
+          .time = time};
+    }
+    if (!one.scene.joints.empty() && budget.fastest_turn == 0)
+      for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
+        budget.fastest_turn =
+            std::max(budget.fastest_turn, std::abs(motion.samples.front().states[i].angular_velocity));
+  }
+  return {};
+}
+
+Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!left_alone(one) || motion.samples.empty() || dynamic_bodies(one.scene) == 0) return {};
+  const Mechanics first = mechanics(one.scene, motion.samples.front().states);
+  Vec2d weight{};
+  for (const Body& body : one.scene.bodies)
+    if (body.type == BodyType::Dynamic) weight += body.mass * body.gravity_scale * one.scene.gravity;
+  double most = first.sum_of_momenta;
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    const double time = static_cast<double>(k) * one.dt;
+    const Mechanics now = mechanics(one.scene, motion.samples[k].states);
+    most = std::max(most, std::min(now.sum_of_momenta, 10 * most + length(weight) * time));
+    const double off = length(now.momentum - first.momentum - time * weight);
+    const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
+    const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
+    const double bound = (engine.epsilon() * roundings + tolerance) * (most + length(weight) * time);
+    if (off > bound && off > 0) {
+      return Objection{.judge = "momentum",
+                       .what = fmt::format("the sum of momenta is off by {:.3g} kg m/s", off),
+                       .right = "momentum is kept to rounding: nothing from outside acts but gravity",
+                       .figure = off,
+                       .bound = bound,
+                       .unit = "kg m/s",
+                       .time = time};
+    }
+  }
+  return {};
+}
+
+Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!left_alone(one) || motion.samples.empty() || length(one.scene.gravity) > 0) return {};
+  for (const Body& body : one.scene.bodies)
+    if (body.angular_damping != 0 || body.fixed_rotation) return {};
+  const auto about_centre = [&](const Sample& sample) {
+    Vec2d centre{};
+    double mass = 0;
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+      if (one.scene.bodies[i].type != BodyType::Dynamic) continue;
+      centre += one.scene.bodies[i].mass * sample.states[i].position;
+      mass += one.scene.bodies[i].mass;
+    }
+    std::vector<BodyState> states = sample.states;
+    for (BodyState& state : states) state.position -= (1 / mass) * centre;
+    return mechanics(one.scene, states);
+  };
+  if (dynamic_bodies(one.scene) == 0) return {};
+  const Mechanics first = about_centre(motion.samples.front());
+  double most = first.sum_of_angular_momenta, impulse = 0;
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    const Mechanics now = about_centre(motion.samples[k]);
+    const double time = static_cast<double>(k) * one.dt;
+    most = std::max(most, std::min(now.sum_of_angular_momenta, 4 * most));
+    // An impulse J on bodies that pass each other at v acts a step's way v dt beside its line at most.
+    impulse = std::max(impulse, 2 * first.kinetic * one.dt);
+    const double off = std::abs(now.angular_momentum - first.angular_momentum);
+    const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;
+    const double bound = share * most + (engine.kind == Engine::Kind::Precise ? 0 : 4 * impulse);
+    if (off > bound && off > 0) {
+      return Objection{.judge = "angular_momentum",
+                       .what = fmt::format("the sum of angular momenta is off by {:.3g} kg m^2/s", off),
+                       .right = "angular momentum is kept: nothing from outside acts",
+                       .figure = off,
+                       .bound = bound,
+                       .unit = "kg m^2/s",
+                       .time = time};
+    }
+  }
+  return {};
+}
+
+}  // namespace plumb::harness::hunt

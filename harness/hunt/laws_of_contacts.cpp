@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "harness/hunt/objection.h"
+#include "harness/hunt/outline.h"
+#include "harness/hunt/subject.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+// s for which shapes have to lie in each other: blows press them together for a moment.
+constexpr double kLasting = 0.5;
+constexpr double kWidthShare = 0.15, kReachShare = 0.02;
+
+double length(Vec2d v) { return std::hypot(v.x, v.y); }
+
+struct Part {
+  std::size_t body;
+  const Shape* shape;
+  Outline outline;
+  double width, reach;
+  bool line;
+};
+
+bool senses(const Case& one, std::size_t body) {
+  return std::find(one.sensors.begin(), one.sensors.end(), one.scene.bodies[body].name) != one.sensors.end();
+}
+
+std::vector<Part> parts_of(const Case& one) {
+  std::vector<Part> out;
+  for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
+    for (const Shape& shape : one.scene.bodies[i].shapes)
+      for (Outline& outline : outlines_of(shape)) {
+        const double width = width_of(outline), reach = reach_of(outline);
+        const bool line = outline.core.size() == 2 && outline.radius == 0;
+        out.push_back({i, &shape, std::move(outline), width, reach, line});
+      }
+  return out;
+}
+
+bool boxes_meet(const Outline& a, const Outline& b, double margin) {
+  return a.low.x - margin < b.high.x && b.low.x - margin < a.high.x && a.low.y - margin < b.high.y &&
+         b.low.y - margin < a.high.y;
+}
+
+std::string pair_name(const Case& one, const Part& a, const Part& b) {
+  return fmt::format("{} and {}", one.scene.bodies[a.body].name, one.scene.bodies[b.body].name);
+}
+
+bool filters_change(const Case& one) {
+  return std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
+    return action.kind == ActionKind::SetFilter || action.kind == ActionKind::DestroyShape;
+  });
+}
+
+bool types_change(const Case& one) {
+  return std::any_of(one.actions.begin(), one.actions.end(),
+                     [](const Action& action) { return action.kind == ActionKind::SetType; });
+}
+
+bool pressed(const Case& one) {
+  for (const Body& body : one.scene.bodies)
+    if (body.type == BodyType::Kinematic && (length(body.velocity) > 0 || body.angular_velocity != 0))
+      return true;
+  for (const Joint& joint : one.scene.joints)
+    if (std::holds_alternative<MouseJoint>(joint) || std::holds_alternative<MotorJoint>(joint)) return true;
+  return false;
+}
+
+}  // namespace
+
+Verdict penetration_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (filters_change(one) || pressed(one) || motion.samples.size() < 2) return {};
+  const std::vector<Part> parts = parts_of(one);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = i + 1; j < parts.size(); ++j) {
+      const Part &a = parts[i], &b = parts[j];
+      const bool dynamic = one.scene.bodies[a.body].type == BodyType::Dynamic ||
+                           one.scene.bodies[b.body].type == BodyType::Dynamic;
+      if (a.body != b.body && dynamic && !a.line && !b.line && !senses(one, a.body) && !senses(one, b.body) &&
+          may_touch(a.shape->filter, b.shape->filter) && !joined(one.scene, a.body, b.body))
+        pairs.emplace_back(i, j);
+    }
+  std::vector<int> in(pairs.size(), 0);
+  std::vector<double> least(pairs.size(), INFINITY);
+  std::vector<bool> given(pairs.size(), false);  // in each other from the start: joints may keep them there
+  const bool intruded = std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
+    return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
+           action.kind == ActionKind::SetType;
+  });
+  const int lasting = std::max(3, static_cast<int>(kLasting / one.dt));
+  std::vector<Outline> now(parts.size());
+  for (std::size_t k = 0; k < motion.samples.size(); ++k) {
+    const Sample& sample = motion.samples[k];
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      now[i] = placed(parts[i].outline, sample.states[parts[i].body]);
+    for (std::size_t n = 0; n < pairs.size(); ++n) {
+      const auto [i, j] = pairs[n];
+      const Part &a = parts[i], &b = parts[j];
+      double depth = 0;
+      if (sample.present[a.body] && sample.present[b.body] && boxes_meet(now[i], now[j], 0))
+        depth = -separation(now[i], now[j]);
+      double bound =
+          std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
+                    2 * length(one.scene.gravity) * one.dt * one.dt});
+      if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
+      if (k == 0 && depth > bound) given[n] = true;
+      // A body that was put where another is may leave it no way out; it has to be awake then.
+      const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
+      if (depth <= bound || given[n] || (intruded && !asleep)) {
+        in[n] = 0, least[n] = INFINITY;
+        continue;
+      }
+      ++in[n];
+      // What was there at the start, or was put there, may go slowly, as long as it goes.
+      if (in[n] == lasting / 2) least[n] = depth;
+      if (in[n] < lasting || depth < 0.7 * least[n]) {
+        if (in[n] >= lasting) in[n] = 0, least[n] = INFINITY;
+        continue;
+      }
+      return Objection{.judge = "penetration",
+                       .what = fmt::format("{} lie in each other by {:.3g} m, for {:.2g} s",
+                                           pair_name(one, a, b), depth, in[n] * one.dt),
+                       .right = "shapes do not stay in each other: an overlap is pushed out",
+                       .figure = depth,
+                       .bound = bound,
+                       .unit = "m",
+                       .time = static_cast<double>(k) * one.dt,
+                       .subject = pair_name(one, a, b)};
+    }
+  }
+  return {};
+}
+
+Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) {
+  // Sensors do not see static bodies, which a visitor may become.
+  if (!engine.is_world() || one.sensors.empty() || filters_change(one) || types_change(one)) return {};
+  const std::vector<Part> parts = parts_of(one);
+  const double margin = 0.05 * typical_size(one.scene);
+  std::map<Visit, int> wrong;
+  for (std::size_t k = 0; k < motion.visits.size(); ++k) {
+    const Sample& sample = motion.samples[k + 1];
+    std::map<Visit, double> nearest;
+    for (const Part& a : parts) {
+      if (!senses(one, a.body) || !sample.present[a.body] || a.line) continue;
+      const Outline sensor = placed(a.outline, sample.states[a.body]);
+      for (const Part& b : parts) {
+        if (senses(one, b.body) || b.body == a.body || !sample.present[b.body] || b.line) continue;
+        if (one.scene.bodies[b.body].type == BodyType::Static || !may_touch(a.shape->filter, b.shape->filter))
+          continue;
+        const double apart = separation(sensor, placed(b.outline, sample.states[b.body]));
+        const auto at = nearest.try_emplace({a.body, b.body}, apart).first;
+        at->second = std::min(at->second, apart);
+      }
+    }
+    for (const auto& [visit, apart] : nearest) {
+      const bool open = std::binary_search(motion.visits[k].begin(), motion.visits[k].end(), visit);
+      const bool bad = open ? apart > margin : apart < -margin;
+      const int count = wrong[visit] = bad ? wrong[visit] + 1 : 0;
+      if (count < 4) continue;
+      return Objection{
+          .judge = "sensors",
+          .what = fmt::format("{} {} {}, {:.3g} m {}", one.scene.bodies[visit.sensor].name,
+                              open ? "still sees" : "does not see", one.scene.bodies[visit.visitor].name,
+                              std::abs(apart), open ? "away" : "inside"),
+          .right = "a sensor sees what overlaps it, and nothing else",
+          .figure = std::abs(apart),
+          .bound = margin,
+          .unit = "m",
+          .time = static_cast<double>(k + 1) * one.dt,
+          .subject = one.scene.bodies[visit.visitor].name};
+    }
+  }
+  return {};
+}
+
+Verdict event_law(const Case&, const Engine&, const Motion& motion) {
+  if (motion.event_faults.empty()) return {};
+  return Objection{.judge = "events",
+                   .what = motion.event_faults.front().what,
+                   .right = "what begins ends once, also when a body or shape is destroyed",
+                   .figure = static_cast<double>(motion.event_faults.size()),
+                   .unit = "events",
+                   .time = motion.event_faults.front().time};
+}
+
+Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!engine.is_world() || length(one.scene.gravity) == 0 || !one.scene.forces.empty()) return {};
+  const std::vector<Part> parts = parts_of(one);
+  const std::vector<double> reach = reaches(one.scene);
+  std::vector<int> hanging(one.scene.bodies.size(), 0);
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    const Sample& sample = motion.samples[k];
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+      const Body& body = one.scene.bodies[i];
+      bool bad =
+          sample.present[i] && sample.asleep[i] && body.gravity_scale != 0 && !body.lock_y && !body.lock_x;
+      for (const Joint& joint : one.scene.joints)
+        std::visit([&](const auto& j) { bad = bad && j.body_a != body.name && j.body_b != body.name; },
+                   joint);
+      // The least distance to anything is long in coming: asked for once it sleeps for a while.
+      hanging[i] = bad ? hanging[i] + 1 : 0;
+      if (hanging[i] < 10 || hanging[i] % 10 != 0) continue;
+      double least = INFINITY;
+      for (const Part& a : parts)
+        for (const Part& b : parts) {
+          if (a.body != i || b.body == i || !sample.present[b.body] || senses(one, b.body)) continue;
+          least = std::min(least, separation(placed(a.outline, sample.states[i]),
+                                             placed(b.outline, sample.states[b.body])));
+        }
+      const double bound = 0.05 * reach[i];
+      if (least <= bound) continue;
+      return Objection{.judge = "sleep",
+                       .what = fmt::format("{} sleeps in the air, {:.3g} m from anything", body.name, least),
+                       .right = "what loses its support wakes and falls",
+                       .figure = least,
+                       .bound = bound,
+                       .unit = "m",
+                       .time = static_cast<double>(k) * one.dt,
+                       .subject = body.name};
+    }
+  }
+  return {};
+}
+
+Verdict expectation_law(const Case& one, const Engine&, const Motion& motion) {
+  for (const Expectation& expected : one.expectations) {
+    const auto body = find_body(one.scene, expected.body);
+    if (!body) continue;
+    std::optional<Vec2d> from;
+    for (std::size_t k = 0; k < motion.samples.size(); ++k) {
+      const double time = static_cast<double>(k) * one.dt;
+      if (time < expected.from - 1e-9 || time > expected.to + 1e-9) continue;
+      const BodyState& s = motion.samples[k].states[*body];
+      if (!from) from = s.position;
+      double value = 0;
+      switch (expected.quantity) {
+        case Quantity::X:
+          value = s.position.x;
+          break;
+        case Quantity::Y:
+          value = s.position.y;
+          break;
+        case Quantity::Angle:
+          value = s.angle;
+          break;
+        case Quantity::VelocityX:
+          value = s.velocity.x;
+          break;
+        case Quantity::VelocityY:
+          value = s.velocity.y;
+          break;
+        case Quantity::AngularVelocity:
+          value = s.angular_velocity;
+          break;
+        case Quantity::Drift:
+          value = length(s.position - *from);
+          break;
+      }
+      if (value >= expected.lower && value <= expected.upper) continue;
+      return Objection{.judge = expected.name,
+                       .what = fmt::format("{} of {} is {:.6g}, which should lie in {:.6g} to {:.6g}",
+                                           kQuantityNames[static_cast<std::size_t>(expected.quantity)],
+                                           expected.body, value, expected.lower, expected.upper),
+                       .right = expected.why,
+                       .figure = value,
+                       .bound = value < expected.lower ? expected.lower : expected.upper,
+                       .time = time,
+                       .subject = expected.body};
+    }
+  }
+  return {};
+}
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/math/trigonometry.h"
+#include "harness/hunt/objection.h"
+#include "harness/hunt/subject.h"
+#include "harness/joint_gap.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+// Samples for which a joint has to be open: blows open joints for a moment.
+constexpr int kLasting = 6;
+constexpr double kGapShare = 0.05;   // of the lengths that the joint turns
+constexpr double kAngleBound = 0.2;  // rad
+
+double length(Vec2d v) { return std::hypot(v.x, v.y); }
+
+const std::string& name_of(const Joint& joint) {
+  return std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
+}
+
+bool may_break(const Joint& joint) {
+  return std::visit([](const auto& j) { return j.break_force > 0 || j.break_torque > 0; }, joint);
+}
+
+bool judged(const Case& one) {
+  return one.actions.empty() && !one.scene.joints.empty() && starts_closed(one.scene);
+}
+
+/// An angle of b relative to a that is held within a range.
+struct Hold {
+  double angle = 0;  // rad, relative to the reference
+  double lower = 0, upper = 0;
+};
+
+std::optional<Hold> hold_of(const Scene& scene, const Joint& joint, const std::vector<BodyState>& states) {
+  return std::visit(
+      [&](const auto& j) -> std::optional<Hold> {
+        using Kind = std::decay_t<decltype(j)>;
+        const auto angle = [&](const std::string& name) {
+          const auto at = find_body(scene, name);
+          return at ? states[*at].angle : 0;
+        };
+        if constexpr (std::is_same_v<Kind, RevoluteJoint>) {
+          if (j.limits)
+            return Hold{angle(j.body_b) - angle(j.body_a) - j.reference_angle, j.limits->lower,
+                        j.limits->upper};
+        } else if constexpr (std::is_same_v<Kind, WeldJoint>) {
+          if (!j.angular_spring) return Hold{angle(j.body_b) - angle(j.body_a) - j.reference_angle, 0, 0};
+        } else if constexpr (std::is_same_v<Kind, PrismaticJoint>) {
+          return Hold{angle(j.body_b) - angle(j.body_a) - j.reference_angle, 0, 0};
+        } else if constexpr (std::is_same_v<Kind, GearJoint>) {
+          return Hold{angle(j.body_b) - j.ratio * angle(j.body_a) - j.phase, 0, 0};
+        }
+        return {};
+      },
+      joint);
+}
+
+}  // namespace
+
+Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!judged(one)) return {};
+  const JointGaps gaps(one.scene);
+  const std::vector<double> reach = reaches(one.scene);
+  std::vector<int> open(one.scene.joints.size(), 0);
+  const double step = engine.kind == Engine::Kind::Precise ? 0 : one.dt / one.substeps;
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    const std::vector<BodyState>& states = motion.samples[k].states;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (may_break(one.scene.joints[i])) continue;
+      double size = 0, speed = 0;
+      for (const auto& end : {gaps.end_a(i), gaps.end_b(i)}) {
+        if (!end.body || one.scene.bodies[*end.body].type != BodyType::Dynamic) continue;
+        const BodyState& s = states[*end.body];
+        const double arm = length(end.anchor);
+        size += std::max(arm, reach[*end.body]);
+        // The way that the bend of its path is off its tangent in a substep.
+        speed += std::abs(s.angular_velocity) * arm * std::min(1.0, std::abs(s.angular_velocity) * step);
+      }
+      const double gap = gaps.gap(i, states);
+      const double bound =
+          engine.kind == Engine::Kind::Precise ? 1e-5 * size : kGapShare * size + 2 * speed * step;
+      open[i] = gap > bound ? open[i] + 1 : 0;
+      if (open[i] < kLasting) continue;
+      return Objection{
+          .judge = "joint_gap",
+          .what = fmt::format("joint '{}' is open by {:.3g} m", name_of(one.scene.joints[i]), gap),
+          .right = "joints stay closed",
+          .figure = gap,
+          .bound = bound,
+          .unit = "m",
+          .time = static_cast<double>(k) * one.dt,
+          .subject = name_of(one.scene.joints[i])};
+    }
+  }
+  return {};
+}
+
+Verdict joint_angle_law(const Case& one, const Engine&, const Motion& motion) {
+  if (!judged(one)) return {};
+  std::vector<int> off(one.scene.joints.size(), 0);
+  for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      if (may_break(one.scene.joints[i])) continue;
+      const auto hold = hold_of(one.scene, one.scene.joints[i], motion.samples[k].states);
+      if (!hold) continue;
+      const double beyond = std::max(hold->angle - hold->upper, hold->lower - hold->angle);
+      off[i] = beyond > kAngleBound ? off[i] + 1 : 0;
+      if (off[i] < kLasting) continue;
+      return Objection{.judge = "joint_angle",
+                       .what = fmt::format("joint '{}' is {:.3g} rad beyond what it holds",
+                                           name_of(one.scene.joints[i]), beyond),
+                       .right = "joints hold their angles and limits",
+                       .figure = beyond,
+                       .bound = kAngleBound,
+                       .unit = "rad",
+                       .time = static_cast<double>(k) * one.dt,
+                       .subject = name_of(one.scene.joints[i])};
+    }
+  }
+  return {};
+}
+
+}  // namespace plumb::harness::hunt

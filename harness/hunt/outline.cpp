@@ -1,0 +1,115 @@
+#include "harness/hunt/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/math/trigonometry.h"
+#include "engine/scene/geometry.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double length(Vec2d v) { return std::sqrt(dot(v, v)); }
+
+struct Cores {
+  std::vector<Outline>& out;
+
+  void operator()(const Circle& c) const { out.push_back({{{0, 0}}, c.radius}); }
+  void operator()(const Box& b) const {
+    const double x = b.width / 2, y = b.height / 2;
+    out.push_back({{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, 0});
+  }
+  void operator()(const Capsule& c) const { out.push_back({{c.start, c.end}, c.radius}); }
+  void operator()(const Polygon& p) const { out.push_back({convex_corners(p.points), p.radius}); }
+  void operator()(const Segment& s) const { out.push_back({{s.start, s.end}, 0}); }
+  void operator()(const Chain& c) const {
+    for (std::size_t i = 0; i + 1 < c.points.size(); ++i) out.push_back({{c.points[i], c.points[i + 1]}, 0});
+    if (c.closed) out.push_back({{c.points.back(), c.points.front()}, 0});
+  }
+};
+
+double to_edge(Vec2d p, Vec2d a, Vec2d b) {
+  const Vec2d along = b - a;
+  const double squared = dot(along, along);
+  const double t = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0;
+  return length(p - (a + t * along));
+}
+
+// The largest gap along the normals of a's edges; negative: the overlap.
+double gap_along_normals(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b) {
+  double most = -kInfinity;
+  for (std::size_t i = 0; i < a.size() && a.size() > 1; ++i) {
+    const Vec2d along = a[(i + 1) % a.size()] - a[i];
+    const double size = length(along);
+    if (size == 0) continue;
+    const Vec2d normal{along.y / size, -along.x / size};
+    double own = -kInfinity, other = kInfinity;
+    for (const Vec2d p : a) own = std::max(own, dot(normal, p - a[i]));
+    for (const Vec2d p : b) other = std::min(other, dot(normal, p - a[i]));
+    most = std::max(most, other - own);
+  }
+  return most;
+}
+
+double nearest(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b) {
+  double least = kInfinity;
+  for (const Vec2d p : a)
+    for (std::size_t i = 0; i < b.size(); ++i)
+      least = std::min(least, to_edge(p, b[i], b[(i + 1) % b.size()]));
+  return least;
+}
+
+}  // namespace
+
+std::vector<Outline> outlines_of(const Shape& shape) {
+  std::vector<Outline> out;
+  std::visit(Cores{out}, shape.geometry);
+  const Rotation<double> turn = rotation_of(shape.angle);
+  for (Outline& outline : out)
+    for (Vec2d& p : outline.core) p = shape.position + turn * p;
+  return out;
+}
+
+Outline placed(const Outline& outline, const BodyState& state) {
+  const Rotation<double> turn = rotation_of(state.angle);
+  Outline out{{}, outline.radius, {kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  for (const Vec2d p : outline.core) {
+    const Vec2d at = state.position + turn * p;
+    out.core.push_back(at);
+    out.low = {std::min(out.low.x, at.x), std::min(out.low.y, at.y)};
+    out.high = {std::max(out.high.x, at.x), std::max(out.high.y, at.y)};
+  }
+  const Vec2d r{outline.radius, outline.radius};
+  out.low -= r, out.high += r;
+  return out;
+}
+
+double separation(const Outline& a, const Outline& b) {
+  const double apart = std::max(gap_along_normals(a.core, b.core), gap_along_normals(b.core, a.core));
+  const double cores = apart < 0 ? apart : std::min(nearest(a.core, b.core), nearest(b.core, a.core));
+  return cores - a.radius - b.radius;
+}
+
+double width_of(const Outline& outline) {
+  const std::vector<Vec2d>& core = outline.core;
+  double least = core.size() < 3 ? 0 : kInfinity;
+  for (std::size_t i = 0; i < core.size() && core.size() > 2; ++i) {
+    const Vec2d along = core[(i + 1) % core.size()] - core[i];
+    const double size = length(along);
+    double most = 0;
+    for (const Vec2d p : core) most = std::max(most, std::abs(cross(along, p - core[i])));
+    if (size > 0) least = std::min(least, most / size);
+  }
+  return least + 2 * outline.radius;
+}
+
+double reach_of(const Outline& outline) {
+  double most = 0;
+  for (const Vec2d p : outline.core) most = std::max(most, length(p));
+  return most + outline.radius;
+}
+
+}  // namespace plumb::harness::hunt

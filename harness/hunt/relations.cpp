@@ -1,0 +1,175 @@
+#include "harness/hunt/relations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/hunt/subject.h"
+#include "harness/hunt/views.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+constexpr double kPerturbation = 1e-6;
+// Of the largest body: what differs by more is another motion. A perturbation has to stay far below it.
+constexpr double kShare = 0.1, kCalm = 0.01;
+constexpr double kGuardSeconds = 2;
+constexpr double kShift = 64;  // m, so that no place is rounded
+
+double length(Vec2d v) { return std::hypot(v.x, v.y); }
+
+bool plain(const Case& one, const Engine&) { return !one.world_only(); }
+
+template <class Map>
+Motion mapped(Motion motion, const Map& map) {
+  for (Sample& sample : motion.samples)
+    for (BodyState& state : sample.states) state = map(state);
+  return motion;
+}
+
+Motion reversed(Motion motion) {
+  for (Sample& sample : motion.samples) std::reverse(sample.states.begin(), sample.states.end());
+  return motion;
+}
+
+/// Objects where the other run leaves the first though a perturbation of the first does not.
+Verdict compare(const Case& one, const Engine& engine, const Motion& motion, const Motion& other,
+                const std::string& name, const std::string& right, double share = kShare) {
+  if (!motion.failure.empty()) return {};
+  const std::vector<double> off = apart(one, motion, other);
+  const double bound = share * largest_size(one.scene);
+  std::size_t k = 0;
+  while (k < off.size() && off[k] <= bound) ++k;
+  if (k == off.size()) return {};
+  const std::vector<double> calm = growth(one, engine, motion);
+  if (k >= calm.size() || calm[k] > kCalm * bound) return {};
+  return Objection{
+      .law = name,
+      .judge = name,
+      .what = fmt::format("is {:.3g} m off the other run, where a perturbation of 1e-6 is {:.2g} m", off[k],
+                          calm[k]),
+      .right = right,
+      .figure = off[k],
+      .bound = bound,
+      .unit = "m",
+      .time = static_cast<double>(k) * one.dt};
+}
+
+Verdict mirror(const Case& one, const Engine& engine, const Motion& motion) {
+  const Motion other = mapped(run(engine, mirrored(one)), [](const BodyState& s) { return mirrored(s); });
+  return compare(one, engine, motion, other, "mirror", "a mirrored scene moves as the mirror shows");
+}
+
+Verdict turn(const Case& one, const Engine& engine, const Motion& motion) {
+  const Motion other = mapped(run(engine, turned(one)), [](const BodyState& s) { return turned(s); });
+  return compare(one, engine, motion, other, "turn",
+                 "a scene that is turned with its gravity moves the same way");
+}
+
+Verdict shift(const Case& one, const Engine& engine, const Motion& motion) {
+  const Vec2d by{kShift, -kShift};
+  const Motion other = mapped(run(engine, shifted(one, by)), [by](BodyState s) {
+    s.position -= by;
+    return s;
+  });
+  return compare(one, engine, motion, other, "shift", "it does not matter where a scene lies");
+}
+
+Verdict relabel(const Case& one, const Engine& engine, const Motion& motion) {
+  const Motion other = reversed(run(engine, relabelled(one)));
+  return compare(one, engine, motion, other, "relabel",
+                 "it does not matter in which order bodies and joints are added", 2 * kShare);
+}
+
+// Masses by sixteen, lengths by two and times by two: speeds and forces change with them.
+Verdict units(const Case& one, const Engine& engine, const Motion& motion) {
+  const Motion other = mapped(run(engine, rescaled(one, 2, 2, 16)), [](BodyState s) {
+    s.position = 0.5 * s.position;
+    return s;
+  });
+  return compare(one, engine, motion, other, "units", "units of length, time and mass do not matter");
+}
+
+Verdict sleep(const Case& one, const Engine& engine, const Motion& motion) {
+  const Motion other = run(engine, one, {.flip_sleep = true});
+  return compare(one, engine, motion, other, "sleep_switch", "sleep changes nothing of the motion",
+                 5 * kShare);
+}
+
+Verdict restored(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!motion.failure.empty()) return {};
+  const Motion other = run(engine, one, {.restore_at = one.steps / 2});
+  const std::vector<double> off = apart(one, motion, other);
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    if (off[k] == 0) continue;
+    return Objection{.law = "restore",
+                     .judge = "restore",
+                     .what = fmt::format("is {:.3g} m off after it was saved and restored", off[k]),
+                     .right = "a world that is saved and restored goes on with the same bits",
+                     .figure = off[k],
+                     .unit = "m",
+                     .time = static_cast<double>(k) * one.dt};
+  }
+  return {};
+}
+
+bool unscaled(const Case& one, const Engine& engine) {
+  return plain(one, engine) && engine.is_world() && one.scene.forces.empty() && !one.sleeping;
+}
+bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
+bool plain_world(const Case& one, const Engine& engine) { return plain(one, engine) && engine.is_world(); }
+bool law_free(const Case& one, const Engine& engine) {
+  return plain(one, engine) &&
+         std::none_of(one.scene.forces.begin(), one.scene.forces.end(), [](const auto& law) {
+           return std::holds_alternative<PointForce>(law) || std::holds_alternative<SinusoidalForce>(law) ||
+                  std::holds_alternative<Torque>(law);
+         });
+}
+
+}  // namespace
+
+std::vector<double> apart(const Case& one, const Motion& a, const Motion& b) {
+  const std::vector<double> reach = reaches(one.scene);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < std::min(a.samples.size(), b.samples.size()); ++k) {
+    double most = 0;
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+      if (one.scene.bodies[i].type != BodyType::Dynamic || !a.samples[k].present[i]) continue;
+      const BodyState &s = a.samples[k].states[i], &t = b.samples[k].states[i];
+      most = std::max(most, length(s.position - t.position) + reach[i] * std::abs(s.angle - t.angle));
+    }
+    out.push_back(most);
+  }
+  return out;
+}
+
+std::vector<double> growth(const Case& one, const Engine& engine, const Motion& motion) {
+  std::vector<double> out(motion.samples.size(), 0);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Case off_a_little = perturbed(one, seed == 3 ? 30 * kPerturbation : kPerturbation, seed);
+    const Motion other = engine.kind == Engine::Kind::Precise
+                             ? run_guarded(engine, off_a_little, kGuardSeconds)
+                             : run(engine, off_a_little);
+    const std::vector<double> off = apart(one, motion, other);
+    out.resize(std::min(out.size(), off.size()));
+    double most = 0;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      most = std::max(most, off[k]);
+      out[k] = std::max(out[k], most);
+    }
+  }
+  return out;
+}
+
+const std::vector<Relation>& relations() {
+  static const std::vector<Relation> all{
+      {"mirror", law_free, mirror},    {"turn", law_free, turn},
+      {"shift", law_free, shift},      {"relabel", plain, relabel},
+      {"units", unscaled, units},      {"sleep_switch", plain_world, sleep},
+      {"restore", is_world, restored}, {"precise", plain_world, precise_relation},
+      {"jury", plain, jury_relation}};
+  return all;
+}
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "harness/hunt/motion.h"
+
+namespace plumb::harness::hunt {
+
+/// `run` in a World of either precision, with the case's actions.
+template <class Real>
+Motion run_world(const Case& one, const RunOptions& options);
+
+extern template Motion run_world<float>(const Case&, const RunOptions&);
+extern template Motion run_world<double>(const Case&, const RunOptions&);
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,141 @@
+// The judges, with motions that are right or wrong by construction.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/hunt/examine.h"
+#include "harness/hunt/outline.h"
+#include "harness/hunt/relations.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+const Engine& world() {
+  static const Engine engine(reference::find_backend("plumb-world"));
+  return engine;
+}
+
+Case falling() {
+  Case one;
+  one.scene = {.name = "a ball falls", .gravity = {0, -10}};
+  one.scene.bodies = {{.name = "ball", .position = {0, 5}, .shapes = {{.geometry = Circle{0.5}}}}};
+  one.steps = 60;
+  return one;
+}
+
+/// The motion that `state` says, sampled as a run is.
+template <class State>
+Motion made_up(const Case& one, const State& state) {
+  Motion out{.dt = one.dt};
+  for (int k = 0; k <= one.steps; ++k) {
+    Sample sample;
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+      sample.states.push_back(state(i, k * one.dt));
+      sample.present.push_back(true);
+      sample.asleep.push_back(false);
+    }
+    out.samples.push_back(std::move(sample));
+  }
+  return out;
+}
+
+TEST(Laws, AFallKeepsThemAll) {
+  const Case one = falling();
+  const Motion motion = made_up(one, [](std::size_t, double t) {
+    return BodyState{.position = {0, 5 - 5 * t * t}, .velocity = {0, -10 * t}};
+  });
+  for (const Law& law : laws()) EXPECT_FALSE(law.judge(one, world(), motion)) << law.name;
+}
+
+TEST(Laws, WhatFallsTooFastHasGainedEnergyAndMomentum) {
+  const Case one = falling();
+  const Motion motion = made_up(one, [](std::size_t, double t) {
+    return BodyState{.position = {0, 5 - 5 * t * t}, .velocity = {0, -11 * t}};
+  });
+  EXPECT_TRUE(energy_law(one, world(), motion));
+  EXPECT_TRUE(momentum_law(one, world(), motion));
+}
+
+TEST(Laws, ABodyThatStartsToSpinByItselfBreaksTheLawOfAngularMomentum) {
+  Case one = falling();
+  one.scene.gravity = {0, 0};
+  const Motion motion = made_up(one, [](std::size_t, double t) {
+    return BodyState{.position = {0, 5}, .angular_velocity = t};
+  });
+  EXPECT_TRUE(angular_momentum_law(one, world(), motion));
+  EXPECT_FALSE(momentum_law(one, world(), motion));
+}
+
+TEST(Laws, ShapesThatStayInEachOtherAreSeenAndThoseThatPartAreNot) {
+  Case one = falling();
+  one.scene.bodies.push_back({.name = "floor",
+                              .type = BodyType::Static,
+                              .position = {0, -0.5},
+                              .shapes = {{.geometry = Box{10, 1}}}});
+  const auto sunk = [](double depth) {
+    return [depth](std::size_t i, double t) {
+      return BodyState{.position = i == 0 ? Vec2d{0, t < 0.1 ? 0.6 : 0.5 - depth} : Vec2d{0, -0.5}};
+    };
+  };
+  EXPECT_TRUE(penetration_law(one, world(), made_up(one, sunk(0.3))));
+  EXPECT_FALSE(penetration_law(one, world(), made_up(one, sunk(0.005))));
+}
+
+TEST(Laws, AnOpenJointIsSeen) {
+  Case one = falling();
+  one.scene.joints = {
+      RevoluteJoint{.name = "pin", .body_a = std::string(kWorld), .body_b = "ball", .anchor_a = {0, 5}}};
+  EXPECT_FALSE(joint_gap_law(one, world(), made_up(one, [](std::size_t, double) {
+                               return BodyState{.position = {0, 5}};
+                             })));
+  EXPECT_TRUE(joint_gap_law(one, world(), made_up(one, [](std::size_t, double t) {
+                              return BodyState{.position = {0, 5 - t}, .velocity = {0, -1}};
+                            })));
+}
+
+TEST(Laws, ExpectationsAreHeldAgainstTheStates) {
+  Case one = falling();
+  one.expectations = {
+      {.name = "stays", .body = "ball", .quantity = Quantity::Y, .lower = 4, .why = "it does"}};
+  const auto fall = [](std::size_t, double t) { return BodyState{.position = {0, 5 - 5 * t * t}}; };
+  const Verdict verdict = expectation_law(one, world(), made_up(one, fall));
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->judge, "stays");
+  one.expectations.front().to = 0.2;
+  EXPECT_FALSE(expectation_law(one, world(), made_up(one, fall)));
+}
+
+TEST(Outline, DistancesAreThoseOfGeometry) {
+  const auto at = [](const Geometry& geometry, Vec2d position, double angle = 0) {
+    return placed(outlines_of({.geometry = geometry}).front(), {.position = position, .angle = angle});
+  };
+  const Outline box = at(Box{2, 2}, {0, 0});
+  EXPECT_NEAR(separation(box, at(Circle{0.5}, {3, 0})), 1.5, 1e-12);
+  EXPECT_NEAR(separation(box, at(Circle{0.5}, {2, 2})), std::sqrt(2.0) - 0.5, 1e-12);
+  EXPECT_NEAR(separation(box, at(Circle{0.5}, {1, 0})), -0.5, 1e-12);
+  EXPECT_NEAR(separation(box, at(Box{2, 2}, {1.5, 0})), -0.5, 1e-12);
+  EXPECT_NEAR(separation(box, at(Box{1, 1}, {3, 0}, M_PI / 4)), 2 - std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(separation(box, at(Capsule{{-1, 0}, {1, 0}, 0.25}, {0, 2})), 0.75, 1e-12);
+  EXPECT_NEAR(width_of(outlines_of({.geometry = Box{3, 0.5}}).front()), 0.5, 1e-12);
+}
+
+TEST(Examine, ABallThatIsAtRestOnTheGroundIsRightInEveryEngine) {
+  Case one = falling();
+  one.scene.bodies.front().position = {0, 0.5};
+  one.scene.bodies.push_back({.name = "floor",
+                              .type = BodyType::Static,
+                              .position = {0, -0.5},
+                              .shapes = {{.geometry = Box{10, 1}}}});
+  for (const char* name : {"plumb-world", "plumb-world-double", "plumb-precise"}) {
+    const Engine engine(reference::find_backend(name));
+    for (const std::string& judge : judge_names()) {
+      const Examined seen = examine(engine, one, judge);
+      EXPECT_TRUE(seen.skipped.empty()) << seen.skipped;
+      for (const Objection& objection : seen.objections)
+        ADD_FAILURE() << name << ": " << judge << ": " << objection.what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumb::harness::hunt
