@@ -44,23 +44,23 @@ std::string as_text(std::span<const Result> results, const std::string& format, 
   return text;
 }
 
-// All that the folder holds, not this run alone. What was measured is safe by now, so that a report that
-// cannot be written is said and does not change how the comparison ends.
-void report(const Options& options, std::span<const reference::Backend* const> engines) {
+// Writes a report of all that the folder holds, not of this run alone. False when it could not be written:
+// what was measured is safe by then.
+bool report(const Options& options, std::span<const reference::Backend* const> engines) {
   const std::string path = harness::report::default_report_path(options.out);
   try {
     if (!harness::report::write_report(options.out, path, engines)) {
-      fmt::print(stderr,
-                 "plumb: interrupted; the results are complete, `plumb report {}` writes the report\n",
-                 options.out);
-      return;
+      notice(fmt::format("interrupted; the results are complete, `plumb report {}` writes the report",
+                         options.out));
+      return true;
     }
   } catch (const Error& error) {
-    fmt::print(stderr, "plumb: there is no report: {}\n", error.what());
-    return;
+    notice(fmt::format("there is no report: {}; `plumb report {}` tries again", error.what(), options.out));
+    return false;
   }
   if (options.format == "console") print(fmt::format("the report is in {}\n", path));
   flush();
+  return true;
 }
 
 int start(const Options& options) {
@@ -93,11 +93,10 @@ int start(const Options& options) {
   if (options.format == "console") print(harness::summary(comparison.results, style));
   flush();
   if (comparison.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; {} finished results are in {}\n", comparison.results.size(),
-               log.path());
+    notice(fmt::format("interrupted; {} finished results are in {}", comparison.results.size(), log.path()));
     return kInterrupted;
   }
-  report(options, what.engines);
+  if (!report(options, what.engines)) return kUsage;
   return comparison.as_expected() ? kOk : kCheckFailed;
 }
 

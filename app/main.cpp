@@ -45,7 +45,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   const std::vector<std::string> names = subcommand_names(app);
   if (first.empty()) {
-    fmt::print(stderr, "{}", app.help());
+    write_error(app.help());
     return kUsage;
   }
   if (first == "bench") return run_bench(argc, argv);
@@ -70,7 +70,9 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   keep_standard_files();
+  // Writing then fails with an error, which is reported, and does not end the program.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("plumb, a 2D rigid-body engine and the harness that proves it", "plumb");
   app.set_version_flag("--version", fmt::format("plumb {}", harness::version()));
   app.require_subcommand(0, 1);

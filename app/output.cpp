@@ -3,11 +3,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "engine/scene/error.h"
+#include "engine/scene/text.h"
 
 namespace plumb::app {
 namespace {
@@ -34,6 +36,14 @@ void keep_standard_files() {
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail();
+}
+
+void notice(std::string_view text) { write_error("plumb: " + printable(text, std::string::npos) + "\n"); }
+
+void write_error(std::string_view text) {
+  // Not fmt::print, which throws.
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
 }
 
 void flush() {

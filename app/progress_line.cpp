@@ -1,10 +1,12 @@
 #include "app/progress_line.h"
 
-#include <cstdio>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/output.h"
+#include "engine/scene/text.h"
 #include "harness/style.h"
 
 namespace plumb::app {
@@ -24,16 +26,15 @@ void ProgressLine::show(const harness::Progress& progress) {
 
 void ProgressLine::say(const std::string& text) {
   if (!on_) return;
-  const auto width = static_cast<std::size_t>(harness::Style::of_file(STDERR_FILENO).width - 1);
-  fmt::print(stderr, "\r\x1b[K{}", text.substr(0, width));
-  std::fflush(stderr);
+  // Less than a line, with the three dots that may follow what is cut off.
+  const auto width = static_cast<std::size_t>(std::max(harness::Style::of_file(STDERR_FILENO).width - 4, 1));
+  write_error("\r\x1b[K" + printable(text, width));
   shown_ = true;
 }
 
 void ProgressLine::clear() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  write_error("\r\x1b[K");
   shown_ = false;
 }
 

@@ -24,7 +24,7 @@ int start(const Options& options) {
       options.out.empty() ? harness::report::default_report_path(options.folder) : options.out;
   harness::catch_interrupts();
   if (!harness::report::write_report(options.folder, out, reference::backends())) {
-    fmt::print(stderr, "plumb: interrupted; no report was written\n");
+    notice("interrupted; no report was written");
     return kInterrupted;
   }
   print(fmt::format("the report is in {}\n", out));

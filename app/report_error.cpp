@@ -1,11 +1,9 @@
 #include "app/report_error.h"
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
-
-#include <fmt/format.h>
+#include <system_error>
 
 #include "app/exit_codes.h"
 #include "app/output.h"
@@ -17,7 +15,7 @@ namespace plumb::app {
 namespace {
 
 int report(const std::string& text, int code) {
-  fmt::print(stderr, "plumb: {}\n", text);
+  notice(text);
   return code;
 }
 
@@ -45,6 +43,8 @@ int reporting_errors(const std::function<int()>& action) {
     return report(error.what() + what_next(error), error.kind() == Error::Kind::Run ? kCheckFailed : kUsage);
   } catch (const std::bad_alloc&) {
     return report("there is not enough memory for this scene", kCheckFailed);
+  } catch (const std::system_error& error) {
+    return report(error.what(), kUsage);
   } catch (const std::exception& error) {
     return report(error.what(), kCheckFailed);
   }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,6 +59,23 @@ int sample_count(double duration, double dt, int every) {
   return harness::step_count(duration, dt) / every;
 }
 
+// A number that is none is not data: the run ends before it is written.
+void require_finite(const Options& options, const Scene& scene, double time,
+                    std::span<const BodyState> states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& s = states[i];
+    const double values[] = {s.position.x, s.position.y, s.angle,
+                             s.velocity.x, s.velocity.y, s.angular_velocity};
+    if (std::all_of(std::begin(values), std::end(values), [](double value) { return std::isfinite(value); }))
+      continue;
+    throw Error(
+        Error::Kind::Run, fmt::format("engine '{}'", options.engine), "", "",
+        fmt::format("the state of body '{}' is not finite at t = {:g} s; what came before is on stdout. A "
+                    "smaller --dt or more --substeps may help",
+                    scene.bodies[i].name, time));
+  }
+}
+
 int run(const Options& options, const reference::Backend& backend, const reference::StepSettings& settings,
         const Source& source, int every, int samples) {
   const auto simulator = backend.create(source.scene, settings);
@@ -76,12 +95,15 @@ int run(const Options& options, const reference::Backend& backend, const referen
     fmt::print(stderr, "{}: {}\n", options.engine, complaint);
   std::vector<BodyState> states(source.scene.bodies.size());
   simulator->read(states);
+  require_finite(options, source.scene, 0, states);
   write(0, states);
   long step = 0;
   const auto sink = [&](double, std::span<const BodyState> now) {
     if (harness::interrupted()) throw Interrupted{};
     step += every;
-    write(static_cast<double>(step) * settings.dt, now);
+    const double time = static_cast<double>(step) * settings.dt;
+    require_finite(options, source.scene, time, now);
+    write(time, now);
   };
   try {
     simulator->record(samples, every, states.size(), sink);
@@ -92,7 +114,7 @@ int run(const Options& options, const reference::Backend& backend, const referen
   std::string did;
   for (const auto& [name, value] : simulator->report())
     did += fmt::format("{}{} {}", did.empty() ? "" : ", ", name, value);
-  if (!did.empty()) fmt::print(stderr, "{}: {}\n", options.engine, did);
+  if (!did.empty()) notice(fmt::format("{}: {}", options.engine, did));
   return kOk;
 }
 

@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/output.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
+#include "engine/scene/text.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -47,7 +49,7 @@ scenarios::Instance one_instance(const std::string& name, int size) {
   if (members.size() > 1) {
     std::string others;
     for (const auto& member : members) others += (others.empty() ? "" : ", ") + member.label();
-    fmt::print(stderr, "plumb: '{}' is {} scenes: {}; this is the first\n", name, members.size(), others);
+    notice(fmt::format("'{}' is {} scenes: {}; this is the first", name, members.size(), others));
   }
   return members.front();
 }
@@ -77,7 +79,7 @@ scenarios::Instance file_instance(const std::string& path, const std::string& du
   if (!duration.empty()) source.duration = parse_positive("--duration", duration);
   auto scenario = std::make_unique<scenarios::Scenario>();
   scenario->name = source.scene.name.empty() ? path : source.scene.name;
-  scenario->summary = fmt::format("from the file '{}'", path);
+  scenario->summary = "from the file " + plumb::quoted(path);
   scenario->build = [source](std::string_view, int) {
     return scenarios::Problem{.scene = source.scene, .duration = source.duration};
   };

@@ -105,7 +105,7 @@ int start(const Options& options) {
   const stress::Stressed done = stress::stress(what, events);
   progress.clear();
   if (done.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", options.out);
+    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
     return kInterrupted;
   }
   if (options.format != "console") {

@@ -77,7 +77,7 @@ int start(const Options& options) {
   const sweep::Swept swept = sweep::sweep(what, events);
   progress.clear();
   if (swept.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", options.out);
+    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
     return kInterrupted;
   }
   if (options.format == "console") {

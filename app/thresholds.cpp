@@ -84,7 +84,7 @@ int start(const Options& options) {
   const thresholds::Searched searched = thresholds::find_missing(requests, how, record, say);
   progress.clear();
   if (searched.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", record.path());
+    notice(fmt::format("interrupted; the same command goes on from what is in {}", record.path()));
     return kInterrupted;
   }
   show(searched.findings, options.format);

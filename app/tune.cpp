@@ -56,7 +56,7 @@ int start(const Options& options) {
   const sweep::Tuned tuned = sweep::tune(what, [&](const std::string& text) { progress.say(text); });
   progress.clear();
   if (tuned.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; a search keeps nothing, --seconds makes it shorter\n");
+    notice("interrupted; a search keeps nothing, --seconds makes it shorter");
     return kInterrupted;
   }
   print(options.format == "json" ? sweep::tune_json(what, tuned)

@@ -1,9 +1,11 @@
 #include "harness/text_file.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -43,10 +45,14 @@ std::string read_text(const std::string& path, const std::string& advice) {
 std::string read_text(std::istream& in, const std::string& subject) {
   std::string text;
   char buffer[65536];
+  errno = 0;
   while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
     if (text.size() > kLargest) fail(subject, "has more than 1 GiB, and is not read any further");
   }
+  // Standard input is read through stdio, which keeps the error to itself.
+  if (in.bad() || (&in == &std::cin && std::ferror(stdin) != 0))
+    fail(subject, fmt::format("cannot be read to its end: {}", std::strerror(errno)));
   return text;
 }
 

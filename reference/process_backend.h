@@ -14,7 +14,10 @@ namespace plumb::reference {
 /// What is let an engine's program.
 struct ProcessLimits {
   double seconds = 30;                 ///< for each line of an answer, and for the program to take a request
-  std::size_t line_bytes = 64u << 20;  ///< longest line of an answer
+  std::size_t line_bytes = 64u << 20;  ///< longest line of a run, where states grow with the bodies
+  /// Longest line of any other answer: greetings and settings take a few thousand, and what is read of them
+  /// is printed.
+  std::size_t answer_bytes = 1u << 20;
 };
 
 /// A program that did not keep to the protocol. `what()` names the engine, what it was asked, what it did

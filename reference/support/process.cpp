@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include <thread>
 
 #include "engine/scene/text.h"
+#include "reference/support/supervisor.h"
 
 namespace plumb::reference {
 namespace {
@@ -74,30 +74,8 @@ std::string locate(const std::string& name) {
   return name;  // execvp looks in PATH
 }
 
-/// What a child does between fork and exec: only calls that are safe there. Reports an errno through
-/// `problem`.
-[[noreturn]] void become(const char* program, char** arguments, const std::array<int, 3>& streams,
-                         pid_t parent, int problem) {
-  setpgid(0, 0);
-  // When the host is killed, nothing else would end an engine that hangs.
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
-  bool ready = true;
-  for (int target = 0; target < 3; ++target) {
-    ready = dup2(streams[static_cast<std::size_t>(target)], target) == target && ready;
-  }
-  signal(SIGPIPE, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (ready) execvp(program, arguments);
-  const int number = errno;
-  if (write(problem, &number, sizeof number) < 0) _exit(126);
-  _exit(127);
-}
-
-/// Starts `command` with its standard streams on the given pipe ends, in a process group of its own. Returns
-/// 0 or an errno.
+/// Starts `command` under a supervisor, whose number becomes `pid`, with its standard streams on the given
+/// pipe ends. Returns 0 or an errno.
 int spawn(const std::vector<std::string>& command, const std::array<int, 3>& streams, pid_t& pid) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -112,18 +90,17 @@ int spawn(const std::vector<std::string>& command, const std::array<int, 3>& str
   pthread_sigmask(SIG_SETMASK, &all, &before);
   const pid_t parent = getpid();
   const pid_t child = fork();
-  if (child == 0) become(program.c_str(), arguments.data(), streams, parent, problem.write.get());
+  if (child == 0) supervise({program.c_str(), arguments.data(), streams}, parent, problem.write.get());
   const int fork_problem = errno;
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) return fork_problem;
 
-  setpgid(child, child);  // the child does the same; whoever comes first
   problem.write.close();
   int number = 0;
   ssize_t count = 0;
   while ((count = read(problem.read.get(), &number, sizeof number)) < 0 && errno == EINTR) {
   }
-  if (count == 0) {  // closed by the exec
+  if (count == 0) {  // closed when the program was executed
     pid = child;
     return 0;
   }
@@ -203,14 +180,14 @@ void Process::write_line(std::string_view line, const std::string& request) {
     } else if (errno == EAGAIN || errno == EINTR) {
       if (!wait_for_pipes(deadline, true)) throw timed_out();
       if (!read_output()) throw ended();
-      if (received_.size() > limits_.line_bytes) throw too_long();
+      if (received_.size() > limits_.line_bytes) throw too_long(limits_.line_bytes);
     } else {
       throw ended();
     }
   }
 }
 
-std::string Process::read_line() {
+std::string Process::read_line(std::size_t most) {
   const auto deadline = next_deadline();
   while (true) {
     const std::size_t newline = received_.find('\n', scanned_);
@@ -218,16 +195,16 @@ std::string Process::read_line() {
       std::string line = received_.substr(0, newline);
       received_.erase(0, newline + 1);
       scanned_ = 0;
-      if (line.size() > limits_.line_bytes) break;
+      if (line.size() > most) break;
       return line;
     }
     scanned_ = received_.size();
-    if (received_.size() > limits_.line_bytes) break;
+    if (received_.size() > most) break;
     if (pid_ < 0 || !output_.open()) throw ended();
     if (!wait_for_pipes(deadline, false)) throw timed_out();
     if (!read_output()) throw ended();
   }
-  throw too_long();
+  throw too_long(most);
 }
 
 Process::Clock::time_point Process::next_deadline() const {
@@ -281,9 +258,8 @@ ProcessError Process::timed_out() {
   return fail(Fault::Timeout, "it did not answer within " + shortest(limits_.seconds) + " s");
 }
 
-ProcessError Process::too_long() {
-  return fail(Fault::Protocol,
-              "it sent a line of more than " + std::to_string(limits_.line_bytes) + " bytes");
+ProcessError Process::too_long(std::size_t most) {
+  return fail(Fault::Protocol, "it sent a line of more than " + std::to_string(most) + " bytes");
 }
 
 ProcessError Process::ended() {
@@ -336,8 +312,7 @@ bool Process::wait_for_end(milliseconds limit) const {
 
 void Process::kill_and_reap() {
   if (pid_ <= 0 || !owned()) return;
-  // The group before the wait: until the leader is reaped, no other group can have its number.
-  kill(-pid_, SIGKILL);
+  kill(pid_, SIGTERM);
   while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   pid_ = -1;

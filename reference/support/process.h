@@ -33,9 +33,9 @@ class FileDescriptor {
 };
 
 /// A running program that is talked to in lines, over its standard input and output. Its standard error is
-/// read along and its last lines go into every `ProcessError`. The program leads a process group of its own:
-/// when the owner is done with it, it and whatever it started are gone, and reaped. It also dies with the
-/// thread that started it. A copy that a fork of the owner inherits leaves the program alone.
+/// read along and its last lines go into every `ProcessError`. The program runs under a supervisor
+/// (supervisor.h): when it ends, when the owner is done with it, and when the thread that started it dies, it
+/// and whatever it started are gone. A copy that a fork of the owner inherits leaves the program alone.
 class Process {
  public:
   /// Starts `command`. Throws `ProcessError` (Start).
@@ -52,8 +52,8 @@ class Process {
   /// Sends `line` and a newline; `request` says in errors what is being asked. Throws `ProcessError`.
   void write_line(std::string_view line, const std::string& request);
 
-  /// The next line, without its newline. Throws `ProcessError`.
-  std::string read_line();
+  /// The next line, of at most `most` bytes, without its newline. Throws `ProcessError`.
+  std::string read_line(std::size_t most);
 
   /// An error about the last request, with what the program said on stderr. The program is killed.
   ProcessError fail(ProcessError::Fault fault, std::string problem);
@@ -67,7 +67,7 @@ class Process {
   void read_errors();
   ProcessError ended();
   ProcessError timed_out();
-  ProcessError too_long();
+  ProcessError too_long(std::size_t most);
   std::string status_when_ended();
   std::string last_words();
   bool wait_for_end(std::chrono::milliseconds limit) const;
@@ -77,7 +77,7 @@ class Process {
   ProcessLimits limits_;
   std::string request_;
   pid_t owner_;
-  pid_t pid_ = -1;
+  pid_t pid_ = -1;  ///< of the supervisor
   int status_ = 0;  ///< of wait(2), once reaped
   FileDescriptor input_, output_, errors_;
   std::string received_;     ///< output that has not been handed out

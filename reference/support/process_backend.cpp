@@ -31,9 +31,12 @@ struct Launch {
 class Session {
  public:
   explicit Session(const Launch& launch)
-      : engine_(launch.engine), process_(launch.engine, launch.command, launch.limits) {
+      : engine_(launch.engine),
+        limits_(launch.limits),
+        process_(launch.engine, launch.command, launch.limits) {
     process_.write_line(Json{{"request", "hello"}, {"protocol", protocol::kVersion}}.dump(), "hello");
-    read_answer([this](const Json& answer) { hello_ = protocol::hello_from_json(answer); });
+    read_answer(limits_.answer_bytes,
+                [this](const Json& answer) { hello_ = protocol::hello_from_json(answer); });
   }
 
   ~Session() {
@@ -52,7 +55,7 @@ class Session {
   Loaded load(const std::string& request) {
     Loaded out;
     process_.write_line(request, "load");
-    read_answer([&](const Json& answer) { out = protocol::loaded_from_json(answer); });
+    read_answer(limits_.answer_bytes, [&](const Json& answer) { out = protocol::loaded_from_json(answer); });
     return out;
   }
 
@@ -62,7 +65,7 @@ class Session {
     process_.write_line(Json{{"request", "run"}, {"samples", samples}, {"every", every}}.dump(), "run");
     for (int sample = 1; sample <= samples; ++sample) {
       const double due = start + static_cast<double>(sample) * every * dt;
-      read_answer([&](const Json& answer) {
+      read_answer(limits_.line_bytes, [&](const Json& answer) {
         const double time = protocol::sample_from_json(answer, states);
         if (!(std::abs(time - due) <= dt / 2)) {
           throw protocol::Malformed("its \"t\" is " + shortest(time) + " where " + shortest(due) + " is due");
@@ -71,15 +74,17 @@ class Session {
       sink(due, states);
     }
     double nanoseconds = 0;
-    read_answer([&](const Json& answer) { nanoseconds = protocol::done_from_json(answer); });
+    read_answer(limits_.answer_bytes,
+                [&](const Json& answer) { nanoseconds = protocol::done_from_json(answer); });
     return nanoseconds;
   }
 
  private:
-  /// Hands the next line to `take`, and turns whatever is wrong with it into an error about this engine.
+  /// Hands the next line, of at most `most` bytes, to `take`, and turns whatever is wrong with it into an
+  /// error about this engine.
   template <class Take>
-  void read_answer(const Take& take) {
-    const std::string line = process_.read_line();
+  void read_answer(std::size_t most, const Take& take) {
+    const std::string line = process_.read_line(most);
     try {
       const Json answer = protocol::parse_line(line);
       if (answer.contains("error")) throw protocol::error_from_json(answer["error"], engine_);
@@ -92,6 +97,7 @@ class Session {
   }
 
   std::string engine_;
+  ProcessLimits limits_;
   Process process_;
   protocol::Hello hello_;
 };

@@ -56,6 +56,33 @@ int whole_number_or(const Json& message, const char* name, int fallback) {
 /// A setting's value as text: strings as they stand, other values as JSON writes them.
 std::string as_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
+/// Most entries of a list that an engine describes itself with: each is printed, checked and searched.
+constexpr std::size_t kMostEntries = 1000;
+/// Most bytes of a text that is shown to people.
+constexpr std::size_t kMostText = 400;
+
+/// The list `name`, empty where there is none. Throws `Malformed` for more than `kMostEntries`.
+Json list(const Json& message, const char* name) {
+  Json out = member<Json>(message, name, Json::array());
+  if (out.size() > kMostEntries)
+    throw Malformed("its \"" + std::string(name) + "\" has " + std::to_string(out.size()) +
+                    " entries; at most " + std::to_string(kMostEntries) + " are read");
+  return out;
+}
+
+/// Returns `text`, which is sent back to the engine one day. Throws `Malformed` for one that cannot be
+/// printed.
+std::string checked_word(const char* name, std::string text) {
+  if (has_control_character(text))
+    throw Malformed("its \"" + std::string(name) + "\" has control characters: " + plumb::quoted(text));
+  return text;
+}
+
+/// The text `name` for people, as it can be printed.
+std::string text_for_people(const Json& message, const char* name) {
+  return printable(member<std::string>(message, name, ""), kMostText);
+}
+
 double finite_number(const Json& value, const char* what) {
   if (value.is_null()) throw NotFinite(std::string(what) + " is not finite");
   if (!value.is_number()) throw Malformed(std::string(what) + " is " + printable(value.dump()));
@@ -173,19 +200,20 @@ Hello hello_from_json(const Json& message) {
                     std::to_string(kVersion));
   }
   Hello out;
-  out.name = member<std::string>(message, "name");
-  out.version = member<std::string>(message, "version");
+  out.name = printable(member<std::string>(message, "name"));
+  out.version = printable(member<std::string>(message, "version"));
   out.precision = member<std::string>(message, "precision");
   if (out.precision != "float" && out.precision != "double") {
     throw Malformed("its \"precision\" is " + plumb::quoted(out.precision));
   }
-  out.summary = member<std::string>(message, "summary", "");
+  out.summary = text_for_people(message, "summary");
   const Json method = member<Json>(message, "method");
   out.method = method_from_json(method);
   out.substeps = substeps_from_json(method);
-  for (const Json& each : member<Json>(message, "methods", Json::array())) {
+  for (const Json& each : list(message, "methods")) {
     const Json chosen = member<Json>(each, "method");
-    out.methods.push_back({member<std::string>(each, "option"), as_text(member<Json>(each, "value")),
+    out.methods.push_back({checked_word("option", member<std::string>(each, "option")),
+                           checked_word("value", as_text(member<Json>(each, "value"))),
                            method_from_json(chosen), substeps_from_json(chosen)});
   }
   using Names = std::vector<std::string>;
@@ -193,12 +221,16 @@ Hello hello_from_json(const Json& message) {
   out.joints = member<Names>(message, "joints", Names{});
   out.forces = member<Names>(message, "forces", Names{});
   out.features = member<Names>(message, "features", Names{});
-  for (const Json& option : member<Json>(message, "options", Json::array())) {
-    out.options.push_back({member<std::string>(option, "name"), as_text(member<Json>(option, "fallback")),
-                           member<std::string>(option, "help", "")});
+  for (const Json& option : list(message, "options")) {
+    out.options.push_back({checked_word("name", member<std::string>(option, "name")),
+                           checked_word("fallback", as_text(member<Json>(option, "fallback"))),
+                           text_for_people(option, "help")});
   }
-  for (const Json& knob : member<Json>(message, "knobs", Json::array())) {
-    out.knobs.push_back({member<std::string>(knob, "name"), member<Names>(knob, "values"),
+  for (const Json& knob : list(message, "knobs")) {
+    if (list(knob, "values").empty()) throw Malformed("a knob of it has no \"values\"");
+    Names values = member<Names>(knob, "values");
+    for (const std::string& value : values) checked_word("values", value);
+    out.knobs.push_back({checked_word("name", member<std::string>(knob, "name")), std::move(values),
                          member<bool>(knob, "ordered", true)});
   }
   return out;
@@ -230,8 +262,12 @@ Json to_json(const Settings& effective) {
 
 Settings effective_from_json(const Json& message) {
   if (!message.is_object()) throw Malformed("its \"effective_settings\" is " + printable(message.dump()));
+  if (message.size() > kMostEntries)
+    throw Malformed("its \"effective_settings\" has " + std::to_string(message.size()) +
+                    " entries; at most " + std::to_string(kMostEntries) + " are read");
   Settings out;
-  for (const auto& [name, value] : message.items()) out.emplace_back(name, as_text(value));
+  for (const auto& [name, value] : message.items())
+    out.emplace_back(printable(name), printable(as_text(value), kMostText));
   return out;
 }
 
@@ -241,7 +277,7 @@ Loaded loaded_from_json(const Json& message) {
     const Json& reason = message["unsupported"];
     if (!reason.is_string() || reason.get<std::string>().empty())
       throw Malformed("its \"unsupported\" is not a reason");
-    out.unsupported = printable(reason.get<std::string>(), 400);
+    out.unsupported = printable(reason.get<std::string>(), kMostText);
   } else if (message.contains("effective_settings")) {
     out.effective = effective_from_json(message["effective_settings"]);
   } else {
@@ -273,17 +309,18 @@ Json to_json(const Error& error) {
 Error error_from_json(const Json& message, const std::string& engine) {
   const std::string own_subject = "engine '" + engine + "'";
   if (!message.is_object()) {
-    return {Error::Kind::Run, own_subject, "", "", printable(as_text(message), 400)};
+    return {Error::Kind::Run, own_subject, "", "", printable(as_text(message), kMostText)};
   }
   Error::Kind kind = Error::Kind::Run;
   const auto given = member<std::string>(message, "kind", "run");
-  if (given == kDiverged) throw NotFinite(member<std::string>(message, "problem", "its state is not finite"));
+  if (given == kDiverged)
+    throw NotFinite(printable(member<std::string>(message, "problem", "its state is not finite"), kMostText));
   for (const auto& [value, name] : kKinds) {
     if (given == name) kind = value;
   }
-  return {kind, member<std::string>(message, "subject", own_subject),
-          member<std::string>(message, "field", ""), member<std::string>(message, "value", ""),
-          member<std::string>(message, "problem", "")};
+  return {kind, printable(member<std::string>(message, "subject", own_subject), kMostText),
+          text_for_people(message, "field"), text_for_people(message, "value"),
+          text_for_people(message, "problem")};
 }
 
 std::string sample_line(double time, std::span<const BodyState> states) {

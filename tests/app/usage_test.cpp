@@ -184,5 +184,68 @@ TEST(Output, AFullMediumIsAnError) {
   EXPECT_NE(folder.read("err").find("plumb: stdout"), std::string::npos) << folder.read("err");
 }
 
+// A run has data to give, whether or not somebody listens to what it says besides.
+TEST(Output, ARunWhoseStderrCannotBeWrittenGivesItsData) {
+  const Folder folder;
+  for (const std::string stderr_to : {"2>&-", "2>/dev/full", "2> >(true)"}) {
+    const std::string command = "bash -c '" + std::string(PLUMB_PROGRAM) +
+                                " run elastic_collision --duration 0.1 --format json " + stderr_to + " > " +
+                                folder.path("out") + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << stderr_to;
+    EXPECT_EQ(lines_of(folder.read("out")).size(), 7u) << stderr_to;
+    const std::string refused =
+        "bash -c '" + std::string(PLUMB_PROGRAM) + " run no-such-scene " + stderr_to + "'";
+    EXPECT_EQ(WEXITSTATUS(std::system(refused.c_str())), 2) << stderr_to;
+  }
+}
+
+TEST(Output, ControlCharactersOfArgumentsAndFilesAreEscaped) {
+  const Folder folder;
+  const std::string bad = folder.write("a\x1b[31m\n.json", "{");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"run", "\x1b[31m"},
+                                                    {"run", bad},
+                                                    {"run", "free_fall", "--engine", "\x1b[31m\x9b"},
+                                                    {"\x1b[31m"},
+                                                    {"run", "free_fall", "--\x1b[31m"},
+                                                    {"report", bad}}) {
+    const Ran ran = plumb(arguments);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_EQ(ran.err.find('\x1b'), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("\\x1b"), std::string::npos) << ran.err;
+    EXPECT_EQ(lines_of(ran.err).size(), 1u) << ran.err;
+  }
+}
+
+TEST(Output, AFileThatCannotBeReadIsNotTakenForAnEmptyOne) {
+  const Folder folder;
+  // A process's own memory is open to it, and begins with a page that is not there.
+  const std::string command = std::string(PLUMB_PROGRAM) + " run - < /proc/self/mem 2>" + folder.path("err");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_NE(folder.read("err").find("standard input: cannot be read"), std::string::npos)
+      << folder.read("err");
+  const std::string named = std::string(PLUMB_PROGRAM) + " run ./mem 2>" + folder.path("err");
+  std::filesystem::create_symlink("/proc/self/mem", folder.path("mem"));
+  EXPECT_EQ(WEXITSTATUS(std::system(("cd " + folder.path() + " && " + named).c_str())), 2);
+  EXPECT_NE(folder.read("err").find("cannot be read"), std::string::npos) << folder.read("err");
+}
+
+TEST(Output, AReportThatCannotBeWrittenEndsWithCode2) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path("r/report.html"));
+  const Ran ran =
+      plumb({"compare", "free_fall/vacuum", "--engine", "plumb", "--no-cost", "--out", folder.path("r")});
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  EXPECT_NE(ran.err.find("plumb: there is no report"), std::string::npos) << ran.err;
+}
+
+TEST(Output, AFileSizeLimitIsAnErrorLikeAFullMedium) {
+  const Folder folder;
+  const std::string command = "bash -c 'ulimit -f 1; " + std::string(PLUMB_PROGRAM) +
+                              " compare free_fall --engine plumb --no-cost --out " + folder.path("r") +
+                              " > /dev/null 2>" + folder.path("err") + "'";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(folder.read("err").rfind("plumb: ", 0), 0u) << folder.read("err");
+}
+
 }  // namespace
 }  // namespace plumb::app

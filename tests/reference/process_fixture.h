@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "reference/process_backend.h"
 #include "tests/reference/scenes.h"
@@ -132,7 +133,9 @@ for line in sys.stdin:
 )";
     const fs::path file = folder_.path() / "engine.py";
     std::ofstream(file) << kStart << definitions << kEnd;
-    return make_process_backend("test", {"python3", file.string()}, "", limits);
+    std::vector<std::string> command = wrapper_;
+    command.insert(command.end(), {"python3", file.string()});
+    return make_process_backend("test", command, "", limits);
   }
 
   /// Runs a step and checks how it fails.
@@ -160,6 +163,7 @@ for line in sys.stdin:
   }
 
   TemporaryFolder folder_;
+  std::vector<std::string> wrapper_;  ///< words before each engine's command
   int descriptors_ = 0, children_ = 0;
 };
 

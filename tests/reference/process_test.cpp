@@ -290,10 +290,98 @@ TEST_F(ProcessTest, AForkLeavesTheParentsEngineAlone) {
   EXPECT_EQ(backend->effective_settings(scene, {.dt = 0.125})[0].second, "0.125");
 }
 
+// A shell that stays, as a wrapper script does which has something left to do.
+const std::vector<std::string> kWrapper{"sh", "-c", "\"$@\"; exit $?", "wrapper"};
+
+// Keeps running whatever asks it to end, having written its number down.
+std::string deaf_engine(const fs::path& file, const std::string& before = "") {
+  return before +
+         "for s in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP): signal.signal(s, signal.SIG_IGN)\n" +
+         "with open('" + file.string() +
+         "', 'w') as f: f.write(str(os.getpid()))\nwhile True: time.sleep(0.01)";
+}
+
+TEST_F(ProcessTest, AnEngineBehindAWrapperEndsWithItsTime) {
+  wrapper_ = kWrapper;
+  const fs::path file = folder_.path() / "pid";
+  expect_failure(engine(deaf_engine(file), {.seconds = 5}), Fault::Timeout, "within 5 s");
+  EXPECT_TRUE(gone(file));
+}
+
+TEST_F(ProcessTest, AnEngineThatLeftForASessionOfItsOwnEndsWithItsTime) {
+  const fs::path file = folder_.path() / "pid";
+  expect_failure(engine("if os.fork() == 0:\n    os.setsid()\n    if os.fork() > 0: os._exit(0)\n" +
+                            indented(deaf_engine(file)) + "while True: time.sleep(0.01)",
+                        {.seconds = 5}),
+                 Fault::Timeout, "within 5 s");
+  EXPECT_TRUE(gone(file));
+}
+
+TEST_F(ProcessTest, AnEngineThatDiesAndLeavesAChildOnThePipeIsNoticedAtOnce) {
+  const auto start = std::chrono::steady_clock::now();
+  const fs::path file = folder_.path() / "pid";
+  expect_failure(engine("if os.fork() == 0:\n" + indented(deaf_engine(file)) + "while not os.path.exists('" +
+                            file.string() + "'): time.sleep(0.01)\nos._exit(3)",
+                        {.seconds = 60}),
+                 Fault::Crash, "it ended with exit code 3");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  EXPECT_TRUE(gone(file));
+}
+
+TEST_F(ProcessTest, LongDescriptionsAreRefusedAtABound) {
+  const auto many = script(
+      "def hello():\n    options = [{'name': 'o%d' % i, 'fallback': '1'} for i in range(1001)]\n"
+      "    send({'protocol': 1, 'name': 'test', 'version': '1', 'precision': 'double',\n"
+      "          'method': {'scheme': 'velocity_verlet', 'order': 2, 'epsilon': 2.2e-16},\n"
+      "          'shapes': [], 'options': options})\n");
+  EXPECT_THAT(many->identity().reason, HasSubstr("\"options\" has 1001 entries; at most 1000"));
+  const auto long_one = script("def hello():\n    say('{\"summary\": \"' + 'x' * 50000000 + '\"}\\n')\n");
+  EXPECT_THAT(long_one->identity().reason, HasSubstr("a line of more than 1048576 bytes"));
+  const auto settings = script(
+      "def load(scene, settings):\n    send({'effective_settings': {str(i): i for i in range(1001)}})\n");
+  EXPECT_THROW(settings->effective_settings(falling({}), {}), ProcessError);
+}
+
+TEST_F(ProcessTest, ControlCharactersInWhatAnEngineSaysAreEscaped) {
+  const auto backend = script(
+      "def hello():\n"
+      "    send({'protocol': 1, 'name': 'test', 'version': '\\x1b[2J1', 'precision': 'double',\n"
+      "          'summary': '\\x07', 'method': {'scheme': 'velocity_verlet', 'order': 2, 'epsilon': "
+      "2.2e-16},\n"
+      "          'shapes': ['circle'], 'options': [{'name': 'a', 'fallback': 1, 'help': '\\x1b[31m'}]})\n"
+      "def load(scene, settings):\n    send({'effective_settings': {'\\x1b': '\\x9b'}})\n");
+  EXPECT_EQ(backend->identity().version, "\\x1b[2J1");
+  EXPECT_EQ(backend->options()[0].help, "\\x1b[31m");
+  EXPECT_EQ(backend->effective_settings(falling({}), {}), (Settings{{"\\x1b", "\\xc2\\x9b"}}));
+  const auto named = script(
+      "def hello():\n"
+      "    send({'protocol': 1, 'name': 'test', 'version': '1', 'precision': 'double',\n"
+      "          'method': {'scheme': 'velocity_verlet', 'order': 2, 'epsilon': 2.2e-16},\n"
+      "          'shapes': [], 'options': [{'name': '\\x1b', 'fallback': 1}]})\n");
+  EXPECT_THAT(named->identity().reason, HasSubstr("control characters"));
+}
+
 TEST_F(ProcessTest, AnEngineDiesWithAHostThatIsKilled) {
   const fs::path file = folder_.path() / "pid";
   const auto backend =
       engine("with open('" + file.string() + "', 'w') as f: f.write(str(os.getpid()))\nwhile True: pass");
+  const pid_t host = fork();
+  if (host == 0) {
+    backend->create(falling({disc("ball", {})}), {})->advance(1);
+    _exit(0);
+  }
+  for (int i = 0; i < 1000 && !(fs::exists(file) && fs::file_size(file) > 0); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(host, SIGKILL);
+  waitpid(host, nullptr, 0);
+  EXPECT_TRUE(gone(file));
+}
+
+TEST_F(ProcessTest, AnEngineBehindAWrapperDiesWithAHostThatIsKilled) {
+  wrapper_ = kWrapper;
+  const fs::path file = folder_.path() / "pid";
+  const auto backend = engine(deaf_engine(file));
   const pid_t host = fork();
   if (host == 0) {
     backend->create(falling({disc("ball", {})}), {})->advance(1);

@@ -10,6 +10,7 @@
 #include "engine/world/snapshot.h"
 #include "engine/world/state_hash.h"
 #include "tests/world/allocations.h"
+#include "tests/world/golden.h"
 #include "tests/world/solver_scenes.h"
 
 // What holds of each solver: closed forms of bodies in flight, in collision, on slopes and on stacks, and
@@ -301,13 +302,11 @@ TEST(Solvers, AreChecked) {
 }
 
 TEST(Solvers, EachHasOneHashEverywhere) {
-  const std::uint64_t golden[] = {0x41e3376835141cd4u, 0xc582bb9c60e5ca9bu, 0x9e31027811580f27u,
-                                  0x10991ff4fbbe6d41u, 0xd02ac2b393e59265u};
   for (int i = 0; i < 5; ++i) {
     World world(with(static_cast<Solver>(i)));
     add_mixed_scene(world);
     run(world, 200);
-    EXPECT_EQ(world.hash(), golden[i]) << kSolverNames[i] << std::hex << " 0x" << world.hash();
+    test::expect_golden(name_of(static_cast<Solver>(i)), world.hash());
   }
 }
 

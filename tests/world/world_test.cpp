@@ -7,6 +7,7 @@
 
 #include "engine/scene/error.h"
 #include "tests/world/allocations.h"
+#include "tests/world/golden.h"
 #include "tests/world/ragdoll.h"
 #include "tests/world/support.h"
 
@@ -48,7 +49,7 @@ TEST(World, AFallingPileHasOneHashEverywhere) {
   add_pile(world, 60);
   add_ragdoll(world, {.at = {0, 14}});
   run(world, 1000);
-  EXPECT_EQ(world.hash(), 0x0db585f56b63fcb7u) << std::hex << world.hash();
+  test::expect_golden("falling_pile", world.hash());
 }
 
 TEST(World, StepsDoNotAllocateOnceWarm) {
