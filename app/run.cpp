@@ -92,7 +92,7 @@ int run(const Options& options, const reference::Backend& backend, const referen
     };
   }
   for (const std::string& complaint : joint_complaints(source.scene, kOpenJoint, kOpenJoint))
-    fmt::print(stderr, "{}: {}\n", options.engine, complaint);
+    notice(fmt::format("{}: {}", options.engine, complaint));
   std::vector<BodyState> states(source.scene.bodies.size());
   simulator->read(states);
   require_finite(options, source.scene, 0, states);
