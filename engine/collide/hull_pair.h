@@ -127,6 +127,19 @@ inline bool over_edge(const FacingEdges<Real>& edges) {
   return nearest_x >= 0 && nearest_x <= length;
 }
 
+/// Of two parallel edges beside each other: the incident edge's end that is nearer to the reference.
+/// Otherwise the `deepest` corner.
+template <class Real>
+int nearest_end(const FacingEdges<Real>& edges, int deepest) {
+  const Vec2<Real> tangent = perpendicular(edges.normal);
+  const Vec2<Real> start = edges.incident[1] - edges.reference[0],
+                   end = edges.incident[0] - edges.reference[0];
+  const Real rise = dot(edges.normal, end - start), start_x = dot(tangent, start), end_x = dot(tangent, end);
+  if (!(std::fabs(rise) < Real(kParallel) * (end_x - start_x))) return deepest;
+  if (end_x <= 0) return edges.incident_id[0];
+  return start_x >= dot(tangent, edges.reference[1] - edges.reference[0]) ? edges.incident_id[1] : deepest;
+}
+
 /// The faces of two hulls that are farthest out of each other.
 template <class Real>
 struct Faces {
@@ -137,10 +150,11 @@ struct Faces {
 /// the preference.
 template <class Real>
 ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
-                                   bool reference_is_b, Real reach, Vec2<Real> origin) {
+                                   const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
+  const bool reference_is_b = edges.reference_is_b;
   const Hull<Real>&reference = reference_is_b ? b : a, &other = reference_is_b ? a : b;
   const Vec2<Real> normal = reference.normal(face.edge);
-  const int corner = support<0>(other, normal);
+  const int corner = nearest_end(edges, support<0>(other, normal));
   const Vec2<Real> point = other.point(corner);
   const int end = along(reference, face.edge, point) < 0 ? face.edge : reference.next(face.edge);
   if (reference_is_b)
@@ -156,7 +170,7 @@ inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real
                                             Real reach, Vec2<Real> origin) {
   ContactManifold<Real> out = clip(edges, reach, origin);
   if (kOpen && out.count == 0)
-    out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges.reference_is_b, reach, origin);
+    out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges, reach, origin);
   return out;
 }
 
@@ -184,7 +198,10 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
-  const int corner = support<0>(other, reference.normal(edge));
+  // A line has no thickness that would keep its far end apart: of two that are equally deep the nearer one.
+  const bool line = a.count == 2 || b.count == 2;
+  const int deepest = support<0>(other, reference.normal(edge));
+  const int corner = line ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
   const int place = along(reference, edge, other.point(corner));
   bool use_b = nearer_b;
   if (place != 0) {

@@ -100,6 +100,14 @@ inline constexpr double kContactReachMost = 0.5;
 /// other: the error of carrying separations on is of second order in it.
 inline constexpr double kManifoldTravel = 0.002;
 
+/// Steps in a surface made of several shapes that do not count, as a share of the smaller extent of what
+/// touches there; gaps may be three times as wide. Below, planks that have settled to a thousandth would be
+/// stairs; above, real steps would be passed over.
+inline constexpr double kSeamTolerance = 0.002;
+/// What lies deeper than this in such a surface, as a share of the smaller extent, is pushed out as out of a
+/// single shape: across a seam it would be thrown.
+inline constexpr double kSeamDepth = 0.25;
+
 /// Broad-phase margin, as a share of the shape's extent, and how many steps of motion ahead it looks. Larger:
 /// fewer updates of the tree, more pairs to look at.
 inline constexpr double kBoxMargin = 0.1;

@@ -5,6 +5,7 @@
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/world/constants.h"
+#include "engine/world/seams.h"
 
 namespace plumb {
 namespace {
@@ -67,7 +68,9 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
   };
   const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
-  return {collide_convex(shape_a, shape_b, b_in_a, Real(tuning::kContactReach) * smaller),
+  const Real reach = Real(tuning::kContactReach) * smaller;
+  const ContactManifold<Real> manifold = collide_convex(shape_a, shape_b, b_in_a, reach);
+  return {manifold.count > 0 ? across_seams(w, contact, b_in_a, reach, manifold, closing) : manifold,
           rounded(at_a.rotation), between.template as<Real>(), static_cast<Real>(impact.exact_fraction) * dt};
 }
 

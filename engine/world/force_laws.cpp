@@ -41,8 +41,8 @@ Wrench<double> known_load(const WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-Vec2d middle_of(const WorldData<Real>& w, int body, double dt) {
-  return w.position[body] + (0.5 * dt) * w.motion[body].velocity.template as<double>();
+Vec2d place_of(const WorldData<Real>& w, int body, double dt) {
+  return w.position[body] + (place_share(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
 }
 
 void check(const Attraction& law, double dt) {
@@ -101,7 +101,7 @@ void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& l
   WorldData<Real>& w = settled(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const double mass = static_cast<double>(w.bodies[body].mass);
-    return {attraction_force(law, mass, middle_of(w, body, dt) - centre), 0};
+    return {attraction_force(law, mass, place_of(w, body, dt) - centre), 0};
   });
 }
 
@@ -112,13 +112,13 @@ void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attr
   world.position(centre);  // throws when the body is gone
   WorldData<Real>& w = settled(world);
   const int source = static_cast<int>(centre.index);
-  const Vec2d place = middle_of(w, source, dt);
+  const Vec2d place = place_of(w, source, dt);
   WrenchList list;
   Vec2d reaction{};
   for_each_law_body(w, options.wakes, [&](int body) {
     if (body == source) return;
     const double mass = static_cast<double>(w.bodies[body].mass);
-    const Vec2d force = attraction_force(law, mass, middle_of(w, body, dt) - place);
+    const Vec2d force = attraction_force(law, mass, place_of(w, body, dt) - place);
     list.add(body, {force, 0});
     if (is_sound(Wrench<double>{force, 0})) reaction -= force;
   });
@@ -154,7 +154,12 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
            static_cast<double>(w.motion[body].inverse_inertia) * turn * turn;
   };
   const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
-  const Vec2d pull = spring_tension(spring, length, rate, inverse_mass, dt) * axis;
+  // The tension is that of the step's middle: the length is given so that it is right at the places' share.
+  const auto shift = [&](BodyId body, int index, Vec2d end) {
+    return (place_share(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
+  };
+  const double length_then = length + shift(b, body_b, end_b) - shift(a, body_a, end_a);
+  const Vec2d pull = spring_tension(spring, length_then, rate, inverse_mass, dt) * axis;
   WrenchList list;
   if (moves_a) list.add(body_a, {pull, cross(arm_a, pull)});
   if (moves_b) list.add(body_b, {-pull, -cross(arm_b, pull)});

@@ -10,6 +10,7 @@
 #include "engine/world/contacts.h"
 #include "engine/world/encounter.h"
 #include "engine/world/narrow_phase.h"
+#include "engine/world/seams.h"
 #include "engine/world/step.h"
 
 namespace plumb {
@@ -55,9 +56,12 @@ ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord&
   const Rotation<Real> q = w.rotation[b];
   const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
   const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
-  if (!w.forms[contact.shape_a].chain) return collide_convex(shape_a, shape_b, b_in_a, reach);
   const Corner<Real>* chain = shape_a.corners;
-  return collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach);
+  const ContactManifold<Real> manifold =
+      w.forms[contact.shape_a].chain
+          ? collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach)
+          : collide_convex(shape_a, shape_b, b_in_a, reach);
+  return manifold.count > 0 ? across_seams(w, contact, b_in_a, reach, manifold) : manifold;
 }
 
 // Arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).

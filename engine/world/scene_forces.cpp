@@ -55,7 +55,7 @@ void SceneForces<Real>::place(const BasicWorld<Real>& world) {
   }
 }
 
-/// To the middle of the step, half of `dt` on, under the forces in `wrenches_`.
+/// To the middle of the step, half of `dt` on, under the forces in `wrenches_`; places by their own share.
 template <class Real>
 void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   const double half = 0.5 * dt;
@@ -63,8 +63,9 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
     const BodyState state = world.state(ids_[body]);
     const double mass = world.mass(ids_[body]), inertia = world.inertia(ids_[body]);
     Twist<double>& twist = twists_[body];
-    poses_[body] = {state.position + half * state.velocity,
-                    rotation_of(state.angle + half * state.angular_velocity)};
+    const double ahead = place_share(world.data(), static_cast<int>(ids_[body].index), dt) * dt;
+    poses_[body] = {state.position + ahead * state.velocity,
+                    rotation_of(state.angle + ahead * state.angular_velocity)};
     if (mass > 0) twist.velocity += half * (gravity_[body] + (1 / mass) * wrenches_[body].force);
     if (inertia > 0) twist.angular_velocity += half / inertia * wrenches_[body].torque;
     wrenches_[body] = {};
@@ -80,6 +81,7 @@ template <class Real>
 void SceneForces<Real>::stiffen(const BasicWorld<Real>& world, double dt) {
   struct End {
     Vec2d point{}, velocity{}, arm{};
+    double ahead = 0;  // s, after which its place counts
     double inverse_mass = 0, inverse_inertia = 0;
   };
   const auto end_of = [&](int body, Vec2d anchor) -> End {
@@ -87,7 +89,8 @@ void SceneForces<Real>::stiffen(const BasicWorld<Real>& world, double dt) {
     const Vec2d arm = poses_[body].rotation * anchor;
     End end{.point = poses_[body].position + arm,
             .velocity = twists_[body].velocity + cross(twists_[body].angular_velocity, arm),
-            .arm = arm};
+            .arm = arm,
+            .ahead = place_share(world.data(), static_cast<int>(ids_[body].index), dt) * dt};
     if (world.type(ids_[body]) != BodyType::Dynamic) return end;
     const double mass = world.mass(ids_[body]), inertia = world.inertia(ids_[body]);
     end.inverse_mass = mass > 0 ? 1 / mass : 0;
@@ -108,9 +111,11 @@ void SceneForces<Real>::stiffen(const BasicWorld<Real>& world, double dt) {
     spring.stiff = (k * dt + c) * dt * w > kStiffTurn * kStiffTurn;
     if (!spring.stiff) continue;
     const double rate = dot(axis, speed);
-    const double tension = (k * (length + 0.5 * dt * rate - spring.law.rest_length) + c * rate) /
+    const Vec2d shift = b.ahead * b.velocity - a.ahead * a.velocity;
+    const double along = dot(axis, shift);
+    const double tension = (k * (length + along - spring.law.rest_length) + c * rate) /
                            (1 + 0.25 * dt * dt * k * w + 0.5 * dt * c * w);
-    const Vec2d middle = way + 0.5 * dt * (speed - rate * axis);
+    const Vec2d middle = way + shift - along * axis;
     const Vec2d pull = tension / std::sqrt(length_squared(middle)) * middle;
     spring.on_a = {pull, cross(a.arm, pull)};
     spring.on_b = {-pull, -cross(b.arm, pull)};
