@@ -41,8 +41,7 @@ KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const
           ends.pose.offset = moving(b.position - a.position, along.place_b.velocity - along.place_a.velocity);
         }
         if constexpr (Rows::kAngle != AngleUse::None) {
-          double angle = angle_of_body(e.b) - e.ratio * angle_of_body(e.a) + e.angle_offset;
-          if (Rows::kAngle == AngleUse::Wrapped) angle = nearest_turn(angle, 0);
+          const double angle = angle_of_body(e.b) - e.ratio * angle_of_body(e.a) + e.angle_offset;
           ends.pose.angle = {angle,
                              along.place_b.angular_velocity - e.ratio * along.place_a.angular_velocity};
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -47,11 +48,23 @@ struct JointConstraint {
 
   /// Takes the definition's parameters; impulses and memory stay where they still mean the same.
   void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
+    const Rows last = kind;
+    const Range last_limits = limits();
     kind = Rows(definition, centre_a, centre_b);
     const JointRules rules = rules_of(definition);
     if constexpr (Rows::kTurn) turn.load(rules.turn);
+    if constexpr (kAngle != AngleUse::None) {
+      if (kind.reference != last.reference) {
+        angle.count = TurnCount::Born;
+      } else if (angle.count == TurnCount::Counted && !(limits() == last_limits)) {
+        angle.count = TurnCount::Limited;
+      }
+    }
     for (int i = 0; i < kAxial; ++i) axial[i].load(rules.axial[i]);
     if constexpr (Rows::kPoint) point.load(rules.point);
+    if constexpr (kRatchet) {
+      if (kind.reference != last.reference || kind.tooth != last.tooth) memory = {};
+    }
     if constexpr (kPulley) {
       // A length that was given is not the one as placed.
       if (definition.length) memory = {*definition.length, 1};
@@ -200,6 +213,16 @@ struct JointConstraint {
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }
+  /// Forgets impulses; the turns that were counted stay: a pose does not tell of them.
+  void put_elsewhere() {
+    scale(0);
+    if constexpr (kRatchet) memory = {};
+  }
+  /// The bodies' own angles, rad, with the turns that they have come: gears are put together there.
+  void meet(double angle_a, double angle_b) {
+    if constexpr (kAngle == AngleUse::Geared)
+      if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
+  }
 
  private:
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
@@ -228,26 +251,44 @@ struct JointConstraint {
     if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
+  /// rad, of the joint's angle. A ratchet's limit follows its angle.
+  Range limits() const {
+    Range range;
+    if constexpr (Rows::kTurn && !kRatchet) {
+      for (int i = 0; i < turn.count; ++i) {
+        const SolverRule<Real>& rule = turn.rule[i];
+        if (rule.role == RowRole::Limit) (rule.sign > 0 ? range.lower : range.upper) = rule.origin;
+      }
+    }
+    return range;
+  }
+
   /// The angle at the step's start. Turns are counted from where the last substep must have ended.
   void count_turns(const SolverBodies<Real>& bodies, Real h) requires(kAngle != AngleUse::None) {
     const Rotation<Real> q_a = bodies.rotation[a], q_b = bodies.rotation[b];
     const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
     if constexpr (kAngle == AngleUse::Geared) {
-      const double now_a = angle_of(q_a), now_b = angle_of(q_b);
-      angle.a = angle.known ? nearest_turn(now_a, angle.a + h * w_a) : now_a;
       // Gears are put together such that teeth meet: the first time, b's turn is the one that fits.
+      const bool born = angle.count == TurnCount::Born;
+      angle.a = nearest_turn(angle_of(q_a), angle.a + (born ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;
-      angle.b = nearest_turn(now_b, angle.known ? angle.b + h * w_b : fits);
+      angle.b = nearest_turn(angle_of(q_b), born ? fits : angle.b + h * w_b);
       angle.start = angle.b - fits;
       angle.start_a = angle.a;
     } else {
-      const double now = relative_angle(q_a, q_b);
-      angle.b = angle.known ? nearest_turn(now, angle.b + h * (w_b - w_a)) : now;
-      angle.start = angle.b - kind.reference;
-      if constexpr (kAngle == AngleUse::Wrapped) angle.start = nearest_turn(angle.start, 0);
+      const double now = relative_angle(q_a, q_b) - kind.reference;
+      const Range range = limits();
+      if (angle.count == TurnCount::Born) {
+        angle.start = angle_at_birth(now, range.lower, range.upper);
+      } else {
+        double last = angle.b - kind.reference + h * (w_b - w_a);
+        if (angle.count == TurnCount::Limited) last = std::min(std::max(last, range.lower), range.upper);
+        angle.start = nearest_turn(now, last);
+      }
+      angle.b = angle.start + kind.reference;
     }
     angle.start_b = angle.b;
-    angle.known = 1;
+    angle.count = TurnCount::Counted;
   }
 
   /// The ratchet has passed a tooth: it will not go back behind it.

@@ -275,6 +275,16 @@ void JointSet<Real>::forget(int joint) {
   parts_->at(joint, [](auto& constraint) { constraint.forget(); });
 }
 
+template <class Real>
+void JointSet<Real>::put_elsewhere(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.put_elsewhere(); });
+}
+
+template <class Real>
+void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
+  parts_->at(joint, [=](auto& constraint) { constraint.meet(angle_a, angle_b); });
+}
+
 // ---- Steps
 
 template <class Real>
