@@ -102,6 +102,11 @@ struct RowRules {
   int count = 0;
 
   void add(const RowRule& r) { rule[count++] = r; }
+  bool has(RowRole role) const {
+    for (int i = 0; i < count; ++i)
+      if (rule[i].role == role) return true;
+    return false;
+  }
   void add_spring(const std::optional<Spring>& spring, double target) {
     if (spring) add({.role = RowRole::Spring, .origin = target, .spring = *spring});
   }

@@ -6,6 +6,7 @@
 
 #include "engine/joints/pulley_joint.h"
 #include "engine/joints/ratchet_joint.h"
+#include "engine/joints/spring_mobility.h"
 #include "engine/solve/joint_angle.h"
 #include "engine/solve/joint_block.h"
 #include "engine/solve/joint_coordinate.h"
@@ -35,6 +36,7 @@ struct JointConstraint {
 
   int joint = 0, a = 0, b = 0;
   Real share = 1;                   ///< of its impulses that it applies at a time
+  bool alone = false;               ///< no other joint moves its bodies
   Real known_h = 0;                 ///< s, that the rules have been set for
   Vec2<Real> offset{}, offset_a{};  ///< m, at the step's start
   Vec2<Real> arm_b{};
@@ -102,16 +104,79 @@ struct JointConstraint {
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
-    if constexpr (Rows::kTurn) turn.evaluate(at.angle, v, step, share);
-    for (int i = 0; i < kAxial; ++i) {
-      axial[i].row = rows.axial[i];
-      axial[i].evaluate(rows.axial[i].residual, v, step, share);
-    }
+    evaluate_coordinates(at, rows, v, step, {share, alone});
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
-    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, share);
+  }
+
+  /// Turn, axial and point at a pose and its rows; `at.angle` and the residuals are the coordinates.
+  void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
+                            const JointVelocities<Real>& v, const JointStep<Real>& step,
+                            JointShare<Real> part) {
+    if constexpr (Rows::kTurn) {
+      if (turn_beside_rigid()) {
+        turn.evaluate_beside_rigid(at.angle, v, turn_spring_mobility(v, rows), step, part);
+      } else {
+        turn.evaluate(at.angle, v, step, part);
+      }
+    }
+    for (int i = 0; i < kAxial; ++i) axial[i].row = rows.axial[i];
+    for (int i = 0; i < kAxial; ++i) {
+      if (i == 0 && axial_beside_rigid()) {
+        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, axial_spring_mobility(v, at, rows), step,
+                                       part);
+      } else {
+        axial[i].evaluate(rows.axial[i].residual, v, step, part);
+      }
+    }
+    if constexpr (Rows::kPoint) {
+      if (point_beside_rigid()) {
+        point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
+      } else {
+        point.evaluate(rows.point, v, step, part);
+      }
+    }
+  }
+
+  // What a spring refers to where rigid rows of the joint hold beside it: see
+  // engine/joints/spring_mobility.h.
+  /// Whether the angle has a spring, beside a point that holds.
+  bool turn_beside_rigid() const {
+    if constexpr (Rows::kTurn && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
+    return false;
+  }
+  /// Whether the first axial coordinate has a spring, beside a block or a second one that hold.
+  bool axial_beside_rigid() const {
+    if constexpr (kAxial > 0 && (kBlock > 0 || kAxial > 1)) return axial[0].has(RowRole::Spring);
+    return false;
+  }
+  /// Whether the point has a spring, beside an angle that holds.
+  bool point_beside_rigid() const {
+    if constexpr (Rows::kTurn && Rows::kPoint)
+      return point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
+    return false;
+  }
+  Real turn_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+    return turning_mobility<Real>({v.m_a, v.i_a, v.m_b, v.i_b}, rows.point.arm_a, rows.point.arm_b);
+  }
+  Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
+                             const JointRows<Real>& rows) const {
+    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
+    const JointRow<Real>& first = rows.axial[0];
+    if constexpr (kAxial > 1) {
+      const JointRow<Real>& second = rows.axial[1];
+      return line_mobility(pair, first.angular_a, first.angular_b, second.angular_a, second.angular_b);
+    } else {
+      return sliding_mobility(pair, at.offset, first.linear_b);
+    }
+  }
+  Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
+    const Real m = v.m_a + v.m_b, turn_together = common_turning(pair);
+    const Vec2<Real> p = perpendicular(rows.point.arm_b - rows.point.arm_a);
+    return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
   /// For the rows as they are.
@@ -141,11 +206,23 @@ struct JointConstraint {
 
   void pass(const SolverBodies<Real>& bodies, const JointStep<Real>& step, JointPass which) {
     JointVelocities<Real> v = velocities(bodies);
-    if constexpr (Rows::kTurn) turn.solve(v, which);
-    for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
-    if constexpr (kBlock > 0) block.solve(v, step, which, share);
-    if constexpr (Rows::kPoint) point.solve(v, which);
+    solve_coordinates(v, step, which, share);
     store(v, bodies);
+  }
+
+  /// All rows once. Rigid ones beside a spring come before and after it: then it finds the velocity that they
+  /// leave, and answers it as they let it.
+  void solve_coordinates(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+    if (turn_beside_rigid()) solve_point(v, which);
+    if (point_beside_rigid()) solve_turn(v, which), solve_point(v, which);
+    if (axial_beside_rigid()) {
+      for (int i = 1; i < kAxial; ++i) axial[i].solve(v, which);
+      solve_block(v, step, which, part);
+    }
+    solve_turn(v, which);
+    for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
+    solve_block(v, step, which, part);
+    if (!point_beside_rigid()) solve_point(v, which);
   }
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
@@ -225,6 +302,16 @@ struct JointConstraint {
   }
 
  private:
+  void solve_turn(JointVelocities<Real>& v, JointPass which) {
+    if constexpr (Rows::kTurn) turn.solve(v, which);
+  }
+  void solve_block(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+    if constexpr (kBlock > 0) block.solve(v, step, which, part);
+  }
+  void solve_point(JointVelocities<Real>& v, JointPass which) {
+    if constexpr (Rows::kPoint) point.solve(v, which);
+  }
+
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
     if constexpr (Rows::kGrounded) return (bodies.position[body] - kind.ground_b).template as<Real>();
     return (bodies.position[body] - bodies.position[a]).template as<Real>();

@@ -65,6 +65,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
       .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
+      .stiffest = stiffest_spring<Real>(1),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   if (jointed) w.joint_set.prepare(bodies, joints);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -92,7 +93,8 @@ TYPED_TEST(JointAngles, AreBornAtTheTurnThatLimitsAllow) {
                                              {.kind = RevoluteDefinition{.limits = c.limits}});
     EXPECT_NEAR(world.read(joint).angle, c.born, kRounding<TypeParam>) << c.angle;
     world.step();
-    EXPECT_NEAR(world.read(joint).angle, c.born, 0.15) << c.angle;
+    const double passed = std::max({c.limits.lower - c.born, c.born - c.limits.upper, 0.0});
+    EXPECT_NEAR(world.read(joint).angle, c.born, passed + 0.01) << c.angle;
   }
 }
 
@@ -170,16 +172,16 @@ TYPED_TEST(JointAngles, ComeBackWithSnapshots) {
   const JointId joint = world.create_joint(ground, add_door(world, 9.5, 8),
                                            {.kind = RevoluteDefinition{.limits = Range{-50, 50}}});
   for (int i = 0; i < 120; ++i) {
+    BasicWorld<TypeParam> other;
     if (i % 40 == 0) {
-      BasicWorld<TypeParam> other;
       restore(other, save(world));
       EXPECT_EQ(other.read(joint).angle, world.read(joint).angle);
       other.step();
-      BasicWorld<TypeParam> twin(world);
-      twin.step();
-      EXPECT_EQ(other.read(joint).angle, twin.read(joint).angle);
     }
     world.step();
+    if (i % 40 == 0) {
+      EXPECT_EQ(other.read(joint).angle, world.read(joint).angle);
+    }
   }
   EXPECT_NEAR(world.read(joint).angle, 9.5 - 4 * kPi + 16, 1e-3);
 }
