@@ -73,8 +73,7 @@ struct JointRows {
 /// What the angle of a pose is to a kind.
 enum class AngleUse {
   None,
-  Wrapped,  ///< the way that is shorter, in [-pi, pi]
-  Counted,  ///< whole turns count
+  Counted,  ///< of b relative to a: whole turns count from the one at birth (`angle_at_birth`)
   Geared,   ///< whole turns count of each body
 };
 
@@ -103,6 +102,11 @@ struct RowRules {
   int count = 0;
 
   void add(const RowRule& r) { rule[count++] = r; }
+  bool has(RowRole role) const {
+    for (int i = 0; i < count; ++i)
+      if (rule[i].role == role) return true;
+    return false;
+  }
   void add_spring(const std::optional<Spring>& spring, double target) {
     if (spring) add({.role = RowRole::Spring, .origin = target, .spring = *spring});
   }
@@ -116,6 +120,15 @@ struct RowRules {
     if (limits->upper < kInfinity) add({.role = RowRole::Limit, .origin = limits->upper, .sign = -1});
   }
 };
+
+/// The range that the limits among the rules allow.
+inline Range limits_of(const RowRules& rules) {
+  Range range;
+  for (int i = 0; i < rules.count; ++i)
+    if (rules.rule[i].role == RowRole::Limit)
+      (rules.rule[i].sign > 0 ? range.lower : range.upper) = rules.rule[i].origin;
+  return range;
+}
 
 /// The rules of one joint. A block needs none: its rows are rigid.
 struct JointRules {

@@ -9,7 +9,7 @@ template <class Real>
 struct MotorRows : JointTraits<0, 0> {
   using Definition = MotorDefinition;
   static constexpr bool kPoint = true, kTurn = true;
-  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+  static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
   double reference = 0;               ///< rad, the target

@@ -9,7 +9,7 @@ namespace plumb {
 template <class Real>
 struct PrismaticRows : JointTraits<2, 1> {
   using Definition = PrismaticDefinition;
-  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+  static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
   Vec2<Real> axis{};                  ///< in a's frame, of length 1

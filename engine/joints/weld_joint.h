@@ -8,7 +8,7 @@ namespace plumb {
 template <class Real>
 struct WeldRows : JointTraits<3, 0> {
   using Definition = WeldDefinition;
-  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+  static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
   double reference = 0;               ///< rad
@@ -31,7 +31,7 @@ template <class Real>
 struct SoftWeldRows : JointTraits<0, 0> {
   using Definition = WeldDefinition;
   static constexpr bool kPoint = true, kTurn = true;
-  static constexpr AngleUse kAngle = AngleUse::Wrapped;
+  static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};
   double reference = 0;

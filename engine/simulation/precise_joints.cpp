@@ -1,8 +1,10 @@
 #include "engine/simulation/precise_joints.h"
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
+#include "engine/joints/spring_mobility.h"
 #include "engine/simulation/precise_joint_coordinates.h"
 #include "engine/solve/joint_angle.h"
 
@@ -41,14 +43,37 @@ KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const
           ends.pose.offset = moving(b.position - a.position, along.place_b.velocity - along.place_a.velocity);
         }
         if constexpr (Rows::kAngle != AngleUse::None) {
-          double angle = angle_of_body(e.b) - e.ratio * angle_of_body(e.a) + e.angle_offset;
-          if (Rows::kAngle == AngleUse::Wrapped) angle = nearest_turn(angle, 0);
+          const double angle = angle_of_body(e.b) - e.ratio * angle_of_body(e.a) + e.angle_offset;
           ends.pose.angle = {angle,
                              along.place_b.angular_velocity - e.ratio * along.place_a.angular_velocity};
         }
       },
       e.kind);
   return ends;
+}
+
+/// What the spring of a scalar coordinate refers to: see engine/joints/spring_mobility.h.
+Dual KindJoints::mobility_of_spring(const Entry& e, const Ends& ends, const JointRow<Dual>& j) {
+  const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
+  const bool point_holds = e.rules.point.role == RowRole::Rigid &&
+                           e.rules.point.max_force == std::numeric_limits<double>::infinity();
+  return std::visit(
+      [&](const auto& kind) {
+        using Rows = std::remove_cvref_t<decltype(kind)>;
+        JointRows<Dual> rows;
+        kind.evaluate(ends.pose, rows);
+        if constexpr (Rows::kPoint && Rows::kTurn) {
+          if (point_holds) return turning_mobility(pair, rows.point.arm_a, rows.point.arm_b);
+        } else if constexpr (Rows::kAxial > 1) {
+          return line_mobility(pair, rows.axial[0].angular_a, rows.axial[0].angular_b,
+                               rows.axial[1].angular_a, rows.axial[1].angular_b);
+        } else if constexpr (Rows::kBlock > 0 && Rows::kAxial > 0) {
+          return sliding_mobility(pair, ends.pose.offset, rows.axial[0].linear_b);
+        }
+        return e.mass_a * dot(j.linear_a, j.linear_a) + e.inertia_a * j.angular_a * j.angular_a +
+               e.mass_b * dot(j.linear_b, j.linear_b) + e.inertia_b * j.angular_b * j.angular_b;
+      },
+      e.kind);
 }
 
 KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
@@ -59,11 +84,10 @@ KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
 
     void row(const JointRow<Dual>& j, const RowRule& rule) const {
       if (rule.role != RowRole::Spring) return;
-      const Dual response = e.mass_a * dot(j.linear_a, j.linear_a) + e.inertia_a * j.angular_a * j.angular_a +
-                            e.mass_b * dot(j.linear_b, j.linear_b) + e.inertia_b * j.angular_b * j.angular_b;
-      if (!(response > 0)) return;
       const Dual rate = dot(j.linear_a, ends.velocity_a) + j.angular_a * ends.spin_a +
                         dot(j.linear_b, ends.velocity_b) + j.angular_b * ends.spin_b;
+      const Dual response = mobility_of_spring(e, ends, j);
+      if (!(response > 0)) return;
       const double w = kWholeTurn * rule.spring.hertz;
       Dual force = -(w * w * j.residual + 2 * rule.spring.damping_ratio * w * rate) / response;
       if (force > rule.max_force) force = rule.max_force;
@@ -74,16 +98,21 @@ KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
     void point(const AnchorPoint<Dual>& at, const RowRule& rule) const {
       if (rule.role != RowRole::Spring) return;
       const JointRow<Dual> x = at.plain_row({1, 0}), y = at.plain_row({0, 1});
-      const double mass = e.mass_a + e.mass_b;
-      const Dual xx =
-          mass + e.inertia_a * x.angular_a * x.angular_a + e.inertia_b * x.angular_b * x.angular_b;
-      const Dual yy =
-          mass + e.inertia_a * y.angular_a * y.angular_a + e.inertia_b * y.angular_b * y.angular_b;
-      const Dual xy = e.inertia_a * x.angular_a * y.angular_a + e.inertia_b * x.angular_b * y.angular_b;
-      const Dual determinant = xx * yy - xy * xy;
-      if (!(determinant > 0)) return;
       const Vec2<Dual> rate =
           (ends.velocity_b + cross(ends.spin_b, at.arm_b)) - (ends.velocity_a + cross(ends.spin_a, at.arm_a));
+      const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
+      Dual xx = pair.m_a + pair.m_b, yy = xx, xy = 0;
+      if (e.rules.turn.has(RowRole::Rigid)) {
+        const Vec2<Dual> p = perpendicular(at.arm_b - at.arm_a);
+        const Dual turn = common_turning(pair);
+        xx += turn * p.x * p.x, yy += turn * p.y * p.y, xy = turn * p.x * p.y;
+      } else {
+        xx += e.inertia_a * x.angular_a * x.angular_a + e.inertia_b * x.angular_b * x.angular_b;
+        yy += e.inertia_a * y.angular_a * y.angular_a + e.inertia_b * y.angular_b * y.angular_b;
+        xy = e.inertia_a * x.angular_a * y.angular_a + e.inertia_b * x.angular_b * y.angular_b;
+      }
+      const Dual determinant = xx * yy - xy * xy;
+      if (!(determinant > 0)) return;
       const double w = kWholeTurn * rule.spring.hertz;
       const Vec2<Dual> wanted = Dual(w * w) * at.gap + Dual(2 * rule.spring.damping_ratio * w) * rate;
       Vec2<Dual> force =

@@ -65,8 +65,8 @@ class KindJoints {
   /// The rows of C; `out` has an element for each stop.
   void stop_rows(const BodiesNow& now, std::span<Row<double>> out) const;
 
-  /// Adds the forces of springs, N and N m: with J the row of a coordinate C and m = 1 / (J M^-1 J^T) the
-  /// bodies' own effective mass there,
+  /// Adds the forces of springs, N and N m: with J the row of a coordinate C and m the bodies' effective mass
+  /// there while the joint's rigid rows hold (engine/joints/spring_mobility.h),
   ///   lambda = -m (w^2 C + 2 zeta w J v),   w = 2 pi hertz,
   /// bounded where the joint has a bound; that of a point the same with the 2 x 2 matrix m.
   void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
@@ -107,6 +107,7 @@ class KindJoints {
   static Ends ends_of(const Entry& entry, const BodiesNow& now, const Directions& along);
   template <class Visit>
   static void each_coordinate(const Entry& entry, const Ends& ends, const Visit& visit);
+  static Dual mobility_of_spring(const Entry& entry, const Ends& ends, const JointRow<Dual>& row);
   static Pull pull_of_springs(const Entry& entry, const Ends& ends);
   static Pull pull_of_rows(const Entry& entry, const Ends& ends, std::span<const double> multipliers);
   template <class Evaluate>

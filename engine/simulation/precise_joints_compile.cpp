@@ -16,9 +16,6 @@ namespace {
 template <class Rows>
 constexpr bool kPulley = std::is_same_v<Rows, PulleyRows<Dual>>;
 
-/// Whole turns that bring an angle into [-pi, pi].
-double turns_back(double angle) { return nearest_turn(angle, 0) - angle; }
-
 const Body* body_called(const Scene& scene, const std::string& name) {
   const auto index = find_body(scene, name);
   return index ? &scene.bodies[*index] : nullptr;
@@ -110,17 +107,16 @@ KindJoints::KindJoints(const Scene& scene) {
     add(scene, joint, entries_);
     if (entries_.size() == before) continue;
     Entry& e = entries_.back();
-    // Turns are counted from the angles that are nearest at the start, as gears and springs are put together.
+    // Turns are counted from the ones at birth.
     const double angle_a = e.a == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.a)];
     const double angle_b = e.b == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.b)];
     std::visit(
         [&](const auto& kind) {
           using Rows = std::remove_cvref_t<decltype(kind)>;
-          if constexpr (Rows::kAngle == AngleUse::Geared) {
-            const double back_a = e.ratio * turns_back(angle_a), fits = e.ratio * angle_a + back_a;
-            e.angle_offset = turns_back(angle_b - fits - kind.reference) - back_a - kind.reference;
-          } else if constexpr (Rows::kAngle != AngleUse::None) {
-            e.angle_offset = turns_back(angle_b - angle_a) - kind.reference;
+          if constexpr (Rows::kAngle != AngleUse::None) {
+            const double angle = angle_b - e.ratio * angle_a;
+            const Range range = limits_of(e.rules.turn);
+            e.angle_offset = angle_at_birth(angle - kind.reference, range.lower, range.upper) - angle;
           }
           if constexpr (kPulley<Rows>) {
             JointRows<Dual> rows;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "engine/joints/pulley_joint.h"
 #include "engine/joints/ratchet_joint.h"
+#include "engine/joints/spring_mobility.h"
 #include "engine/solve/joint_angle.h"
 #include "engine/solve/joint_block.h"
 #include "engine/solve/joint_coordinate.h"
@@ -34,6 +36,7 @@ struct JointConstraint {
 
   int joint = 0, a = 0, b = 0;
   Real share = 1;                   ///< of its impulses that it applies at a time
+  bool alone = false;               ///< no other joint moves its bodies
   Real known_h = 0;                 ///< s, that the rules have been set for
   Vec2<Real> offset{}, offset_a{};  ///< m, at the step's start
   Vec2<Real> arm_b{};
@@ -47,11 +50,23 @@ struct JointConstraint {
 
   /// Takes the definition's parameters; impulses and memory stay where they still mean the same.
   void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
+    const Rows last = kind;
+    const Range last_limits = limits();
     kind = Rows(definition, centre_a, centre_b);
     const JointRules rules = rules_of(definition);
     if constexpr (Rows::kTurn) turn.load(rules.turn);
+    if constexpr (kAngle != AngleUse::None) {
+      if (kind.reference != last.reference) {
+        angle.count = TurnCount::Born;
+      } else if (angle.count == TurnCount::Counted && !(limits() == last_limits)) {
+        angle.count = TurnCount::Limited;
+      }
+    }
     for (int i = 0; i < kAxial; ++i) axial[i].load(rules.axial[i]);
     if constexpr (Rows::kPoint) point.load(rules.point);
+    if constexpr (kRatchet) {
+      if (kind.reference != last.reference || kind.tooth != last.tooth) memory = {};
+    }
     if constexpr (kPulley) {
       // A length that was given is not the one as placed.
       if (definition.length) memory = {*definition.length, 1};
@@ -89,16 +104,79 @@ struct JointConstraint {
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
-    if constexpr (Rows::kTurn) turn.evaluate(at.angle, v, step, share);
-    for (int i = 0; i < kAxial; ++i) {
-      axial[i].row = rows.axial[i];
-      axial[i].evaluate(rows.axial[i].residual, v, step, share);
-    }
+    evaluate_coordinates(at, rows, v, step, {share, alone});
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
-    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, share);
+  }
+
+  /// Turn, axial and point at a pose and its rows; `at.angle` and the residuals are the coordinates.
+  void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
+                            const JointVelocities<Real>& v, const JointStep<Real>& step,
+                            JointShare<Real> part) {
+    if constexpr (Rows::kTurn) {
+      if (turn_beside_rigid()) {
+        turn.evaluate_beside_rigid(at.angle, v, turn_spring_mobility(v, rows), step, part);
+      } else {
+        turn.evaluate(at.angle, v, step, part);
+      }
+    }
+    for (int i = 0; i < kAxial; ++i) axial[i].row = rows.axial[i];
+    for (int i = 0; i < kAxial; ++i) {
+      if (i == 0 && axial_beside_rigid()) {
+        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, axial_spring_mobility(v, at, rows), step,
+                                       part);
+      } else {
+        axial[i].evaluate(rows.axial[i].residual, v, step, part);
+      }
+    }
+    if constexpr (Rows::kPoint) {
+      if (point_beside_rigid()) {
+        point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
+      } else {
+        point.evaluate(rows.point, v, step, part);
+      }
+    }
+  }
+
+  // What a spring refers to where rigid rows of the joint hold beside it: see
+  // engine/joints/spring_mobility.h.
+  /// Whether the angle has a spring, beside a point that holds.
+  bool turn_beside_rigid() const {
+    if constexpr (Rows::kTurn && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
+    return false;
+  }
+  /// Whether the first axial coordinate has a spring, beside a block or a second one that hold.
+  bool axial_beside_rigid() const {
+    if constexpr (kAxial > 0 && (kBlock > 0 || kAxial > 1)) return axial[0].has(RowRole::Spring);
+    return false;
+  }
+  /// Whether the point has a spring, beside an angle that holds.
+  bool point_beside_rigid() const {
+    if constexpr (Rows::kTurn && Rows::kPoint)
+      return point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
+    return false;
+  }
+  Real turn_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+    return turning_mobility<Real>({v.m_a, v.i_a, v.m_b, v.i_b}, rows.point.arm_a, rows.point.arm_b);
+  }
+  Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
+                             const JointRows<Real>& rows) const {
+    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
+    const JointRow<Real>& first = rows.axial[0];
+    if constexpr (kAxial > 1) {
+      const JointRow<Real>& second = rows.axial[1];
+      return line_mobility(pair, first.angular_a, first.angular_b, second.angular_a, second.angular_b);
+    } else {
+      return sliding_mobility(pair, at.offset, first.linear_b);
+    }
+  }
+  Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
+    const Real m = v.m_a + v.m_b, turn_together = common_turning(pair);
+    const Vec2<Real> p = perpendicular(rows.point.arm_b - rows.point.arm_a);
+    return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
   /// For the rows as they are.
@@ -128,11 +206,23 @@ struct JointConstraint {
 
   void pass(const SolverBodies<Real>& bodies, const JointStep<Real>& step, JointPass which) {
     JointVelocities<Real> v = velocities(bodies);
-    if constexpr (Rows::kTurn) turn.solve(v, which);
-    for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
-    if constexpr (kBlock > 0) block.solve(v, step, which, share);
-    if constexpr (Rows::kPoint) point.solve(v, which);
+    solve_coordinates(v, step, which, share);
     store(v, bodies);
+  }
+
+  /// All rows once. Rigid ones beside a spring come before and after it: then it finds the velocity that they
+  /// leave, and answers it as they let it.
+  void solve_coordinates(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+    if (turn_beside_rigid()) solve_point(v, which);
+    if (point_beside_rigid()) solve_turn(v, which), solve_point(v, which);
+    if (axial_beside_rigid()) {
+      for (int i = 1; i < kAxial; ++i) axial[i].solve(v, which);
+      solve_block(v, step, which, part);
+    }
+    solve_turn(v, which);
+    for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
+    solve_block(v, step, which, part);
+    if (!point_beside_rigid()) solve_point(v, which);
   }
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
@@ -200,8 +290,28 @@ struct JointConstraint {
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }
+  /// Forgets impulses; the turns that were counted stay: a pose does not tell of them.
+  void put_elsewhere() {
+    scale(0);
+    if constexpr (kRatchet) memory = {};
+  }
+  /// The bodies' own angles, rad, with the turns that they have come: gears are put together there.
+  void meet(double angle_a, double angle_b) {
+    if constexpr (kAngle == AngleUse::Geared)
+      if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
+  }
 
  private:
+  void solve_turn(JointVelocities<Real>& v, JointPass which) {
+    if constexpr (Rows::kTurn) turn.solve(v, which);
+  }
+  void solve_block(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+    if constexpr (kBlock > 0) block.solve(v, step, which, part);
+  }
+  void solve_point(JointVelocities<Real>& v, JointPass which) {
+    if constexpr (Rows::kPoint) point.solve(v, which);
+  }
+
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
     if constexpr (Rows::kGrounded) return (bodies.position[body] - kind.ground_b).template as<Real>();
     return (bodies.position[body] - bodies.position[a]).template as<Real>();
@@ -228,26 +338,44 @@ struct JointConstraint {
     if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
+  /// rad, of the joint's angle. A ratchet's limit follows its angle.
+  Range limits() const {
+    Range range;
+    if constexpr (Rows::kTurn && !kRatchet) {
+      for (int i = 0; i < turn.count; ++i) {
+        const SolverRule<Real>& rule = turn.rule[i];
+        if (rule.role == RowRole::Limit) (rule.sign > 0 ? range.lower : range.upper) = rule.origin;
+      }
+    }
+    return range;
+  }
+
   /// The angle at the step's start. Turns are counted from where the last substep must have ended.
   void count_turns(const SolverBodies<Real>& bodies, Real h) requires(kAngle != AngleUse::None) {
     const Rotation<Real> q_a = bodies.rotation[a], q_b = bodies.rotation[b];
     const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
     if constexpr (kAngle == AngleUse::Geared) {
-      const double now_a = angle_of(q_a), now_b = angle_of(q_b);
-      angle.a = angle.known ? nearest_turn(now_a, angle.a + h * w_a) : now_a;
       // Gears are put together such that teeth meet: the first time, b's turn is the one that fits.
+      const bool born = angle.count == TurnCount::Born;
+      angle.a = nearest_turn(angle_of(q_a), angle.a + (born ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;
-      angle.b = nearest_turn(now_b, angle.known ? angle.b + h * w_b : fits);
+      angle.b = nearest_turn(angle_of(q_b), born ? fits : angle.b + h * w_b);
       angle.start = angle.b - fits;
       angle.start_a = angle.a;
     } else {
-      const double now = relative_angle(q_a, q_b);
-      angle.b = angle.known ? nearest_turn(now, angle.b + h * (w_b - w_a)) : now;
-      angle.start = angle.b - kind.reference;
-      if constexpr (kAngle == AngleUse::Wrapped) angle.start = nearest_turn(angle.start, 0);
+      const double now = relative_angle(q_a, q_b) - kind.reference;
+      const Range range = limits();
+      if (angle.count == TurnCount::Born) {
+        angle.start = angle_at_birth(now, range.lower, range.upper);
+      } else {
+        double last = angle.b - kind.reference + h * (w_b - w_a);
+        if (angle.count == TurnCount::Limited) last = std::min(std::max(last, range.lower), range.upper);
+        angle.start = nearest_turn(now, last);
+      }
+      angle.b = angle.start + kind.reference;
     }
     angle.start_b = angle.b;
-    angle.known = 1;
+    angle.count = TurnCount::Counted;
   }
 
   /// The ratchet has passed a tooth: it will not go back behind it.

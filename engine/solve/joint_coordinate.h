@@ -15,7 +15,7 @@ struct JointCoordinate {
     RowTerm<Real> term[2];
   };
   int count = 0;
-  Real inverse_mass = 0;  ///< J M^-1 J^T
+  Real inverse_mass = 0;  ///< J M^-1 J^T, or what rigid rows that hold at the same time leave of it
   JointRow<Real> row{};   ///< of kAngular: not used
   SolverRule<Real> rule[RowRules::kMost]{};
   Solved solved[RowRules::kMost]{};
@@ -45,16 +45,33 @@ struct JointCoordinate {
     return sum;
   }
 
-  /// `q`: the coordinate, at the pose of `row`.
-  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, Real share) {
-    if (count == 0) return;
+  bool has(RowRole role) const {
+    for (int i = 0; i < count; ++i)
+      if (rule[i].role == role) return true;
+    return false;
+  }
+
+  /// J M^-1 J^T.
+  Real mobility(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {
-      inverse_mass = v.i_a + v.i_b;
+      return v.i_a + v.i_b;
     } else {
-      inverse_mass = v.inverse_mass(row, row);
+      return v.inverse_mass(row, row);
     }
-    const Real mass = inverse_mass > 0 ? 1 / inverse_mass : 0;
-    for (int i = 0; i < count; ++i) rule[i].terms(q, mass, share, step, solved[i].term);
+  }
+
+  /// `q`: the coordinate, at the pose of `row`.
+  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, JointShare<Real> part) {
+    if (count == 0) return;
+    inverse_mass = mobility(v);
+    evaluate(q, inverse_mass, step, part);
+  }
+  /// The same of a coordinate with a spring beside rigid rows, which leave it `held` of its mobility. Where
+  /// the joint solves them before and after it, alone, that is how it answers.
+  void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held, const JointStep<Real>& step,
+                             JointShare<Real> part) {
+    inverse_mass = part.share == 1 ? held : mobility(v);
+    evaluate(q, held, step, part);
   }
   void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());
@@ -77,6 +94,10 @@ struct JointCoordinate {
   }
 
  private:
+  void evaluate(Real q, Real spring_mobility, const JointStep<Real>& step, JointShare<Real> part) {
+    for (int i = 0; i < count; ++i)
+      rule[i].terms(q, inverse_mass, spring_mobility, part, step, solved[i].term);
+  }
   Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {
       return v.w_b - v.w_a;

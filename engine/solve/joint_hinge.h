@@ -59,6 +59,8 @@ struct alignas(16) HingeConstraint {
 
   void set_substep(const RevoluteDefinition&, Real h) { known_h = h; }
   void forget() { impulse = {}; }
+  void put_elsewhere() { impulse = {}; }
+  void meet(double, double) {}
   std::pair<Vec2<Real>, Real> reaction() const { return {impulse, 0}; }
 
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,6 +71,7 @@ struct JointPoint {
   Vec2<Real> impulse{};     ///< N s, on b
   AnchorPoint<Real> point{};
   Symmetric2<Real> mass{};
+  Symmetric2<Real> compliance{};  ///< of a spring: what its impulse gives way by
   Vec2<Real> bias[2]{};
   Real mass_scale[2]{1, 1}, impulse_scale[2]{};
 
@@ -79,29 +81,78 @@ struct JointPoint {
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
 
+  bool rigid() const {
+    return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
+  }
+
   void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step,
-                Real share) {
+                JointShare<Real> part) {
+    const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    mass = point_mass(v, at.arm_a, at.arm_b, Real(1));
-    const Vec2<Real> before = bias[kSolve];
+    if (rule.role == RowRole::Spring) {
+      evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
+      return;
+    }
+    mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
-    rule.terms(1, 1, share, step, term);
+    rule.terms(1, 1, 1, part, step, term);
     for (int pass = 0; pass < 2; ++pass) {
       bias[pass] = term[pass].bias * at.gap;
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
-    if (rule.role == RowRole::Spring) bias[kRelax] = before;
+  }
+  /// The same of a spring beside a rigid angle, which leaves `held` of the point's mobility.
+  void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
+                             const Symmetric2<Real>& held, const JointStep<Real>& step,
+                             JointShare<Real> part) {
+    PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
+    point = at;
+    if (part.share == 1) k = {held.xx, held.xy, held.yy, held.xx * held.yy - held.xy * held.xy};
+    evaluate_spring(held, k, step, part);
   }
   void warm_start(JointVelocities<Real>& v) const { v.apply(impulse, point.arm_a, point.arm_b); }
 
   void solve(JointVelocities<Real>& v, JointPass pass) {
-    const Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
     const Vec2<Real> before = impulse;
+    Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
+    if (rule.role == RowRole::Spring) rate += compliance * before;
     impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
     const Real size = length_squared(impulse);
     if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
     v.apply(impulse - before, point.arm_a, point.arm_b);
+  }
+
+ private:
+  // See SolverRule::terms. The spring refers to the mobility `held`; the point answers with `k`.
+  void evaluate_spring(const Symmetric2<Real>& held, const PointResponse<Real>& k,
+                       const JointStep<Real>& step, JointShare<Real> part) {
+    const Real share = part.share;
+    const SpringTerm<Real>& spring = rule.spring;
+    const Real trace = k.xx + k.yy;
+    compliance = {spring.compliance * held.xx, spring.compliance * held.xy, spring.compliance * held.yy};
+    constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
+    const Real gives = std::max(compliance.xx + compliance.yy, trace / kFirmest);
+    if (!(trace > part.stiffest(step.stiffest) * gives)) {
+      const Real xx = k.xx + compliance.xx, xy = k.xy + compliance.xy, yy = k.yy + compliance.yy;
+      // In proportion to K, as compliances are without rigid rows beside them, nothing cancels.
+      const Real times = 1 + rule.spring.compliance;
+      const bool in_proportion = held.xx == k.xx && held.xy == k.xy && held.yy == k.yy;
+      mass =
+          mass_of({xx, xy, yy, in_proportion ? times * times * k.determinant : xx * yy - xy * xy}, Real(1));
+      bias[kRelax] = bias[kSolve];
+      bias[kSolve] = spring.rate * point.gap;
+      mass_scale[kSolve] = mass_scale[kRelax] = 1;
+      impulse_scale[kSolve] = impulse_scale[kRelax] = 0;
+      return;
+    }
+    const StiffSpring<Real> stiff(spring, trace / gives, share, step);
+    compliance = {};
+    mass = mass_of(k, share);
+    bias[kSolve] = (share * stiff.rate) * point.gap;
+    bias[kRelax] = {};
+    mass_scale[kSolve] = stiff.mass_scale, impulse_scale[kSolve] = stiff.impulse_scale;
+    mass_scale[kRelax] = 1, impulse_scale[kRelax] = 0;
   }
 };
 

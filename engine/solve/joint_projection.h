@@ -55,11 +55,8 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
   JointRows<Real> rows;
   joint.kind.evaluate(at, rows);
   joint.arm_b = rows.arm_b;
-  if constexpr (Kind<Real>::kTurn) joint.turn.evaluate(at.angle - h * (v.w_b - v.w_a), v, step, Real(1));
-  for (int i = 0; i < Constraint::kAxial; ++i) {
-    joint.axial[i].row = rows.axial[i];
-    joint.axial[i].evaluate(rows.axial[i].residual - h * v.along(rows.axial[i]), v, step, Real(1));
-  }
+  JointPose<Real> start = at;
+  start.angle -= h * (v.w_b - v.w_a);
   if constexpr (Constraint::kBlock > 0) {
     for (int i = 0; i < Constraint::kBlock; ++i) {
       joint.block.row[i] = rows.block[i];
@@ -67,16 +64,10 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
     }
     joint.block.factorise(v);
   }
-  if constexpr (Kind<Real>::kPoint) {
-    AnchorPoint<Real> point = rows.point;
-    point.gap -= h * v.at(point.arm_a, point.arm_b);
-    joint.point.evaluate(point, v, step, Real(1));
-  }
-
-  if constexpr (Kind<Real>::kTurn) joint.turn.solve(v, kSolve);
-  for (auto& coordinate : joint.axial) coordinate.solve(v, kSolve);
-  if constexpr (Constraint::kBlock > 0) joint.block.solve(v, step, kSolve, Real(1));
-  if constexpr (Kind<Real>::kPoint) joint.point.solve(v, kSolve);
+  for (int i = 0; i < Constraint::kAxial; ++i) rows.axial[i].residual -= h * v.along(rows.axial[i]);
+  if constexpr (Kind<Real>::kPoint) rows.point.gap -= h * v.at(rows.point.arm_a, rows.point.arm_b);
+  joint.evaluate_coordinates(start, rows, v, step, {});
+  joint.solve_coordinates(v, step, kSolve, Real(1));
   store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
 }
 

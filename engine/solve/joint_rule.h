@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/joints/joint_row.h"
@@ -17,13 +19,66 @@ struct RowTerm {
   Real bias = 0, mass = 0, scale = 0;
 };
 
+/// How a joint shares its bodies with others.
+template <class Real>
+struct JointShare {
+  Real share = 1;      ///< of its impulses that it applies at a time
+  bool alone = false;  ///< no other joint moves its bodies: nothing disturbs what it finds
+
+  Real stiffest(Real shared) const { return alone ? std::numeric_limits<Real>::infinity() : shared * share; }
+};
+
+/// A damped spring in a substep h, implicit Euler: J v' + rate C + compliance lambda' = 0 along its row,
+/// which is lambda' = -h (k (C + h J v') + c J v').
+template <class Real>
+struct SpringTerm {
+  Real rate = 0;        ///< 1/s: k / (c + h k)
+  Real compliance = 0;  ///< 1 / (h (c + h k)), by the mobility that it refers to
+};
+
+/// With omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility.
+template <class Real>
+SpringTerm<Real> spring_term(const Spring& spring, double h) {
+  const double omega = 2 * 3.14159265358979323846 * spring.hertz;
+  const double a = 2 * spring.damping_ratio + h * omega;
+  return {static_cast<Real>(omega / a), static_cast<Real>(1 / (h * omega * a))};
+}
+
+/// A spring that is stiffer than sweeps follow, h (c + h k) by the mobility beyond `JointStep::stiffest`. A
+/// sweep's error would come back through the gap with as much force as it left, and grow from substep to
+/// substep. So it is held as rigid rows are: pulled back no faster than they are and relaxed like them, and
+/// resting where its load says as long as it is softer than they are.
+template <class Real>
+struct StiffSpring {
+  Real rate = 0, mass_scale = 1, impulse_scale = 0;
+
+  StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share, const JointStep<Real>& step) {
+    const Softness<Real>& rigid = step.softness;
+    // h^2 k and h c by the mobility.
+    const Real most = rigid.impulse_scale > 0
+                          ? step.h * rigid.bias_rate * rigid.mass_scale / rigid.impulse_scale
+                          : step.stiffest;
+    const Real elastic = step.h * spring.rate * firmness;
+    const Real k = std::min(elastic, most);
+    // It comes to rest within c / k as well where k is less than it was to be.
+    Real c = elastic > 0 ? std::max(firmness - elastic, Real(0)) * (k / elastic) : Real(0);
+    // The most for which a star of a hundred is stable.
+    constexpr Real kMostDamping = 10;
+    if (share < 1) c = std::min(c, 2 * kMostDamping * std::sqrt(k));
+    const Real held = std::max(k + c, k / (step.h * rigid.bias_rate));
+    rate = k / (step.h * held);
+    mass_scale = held / (1 + held);
+    impulse_scale = 1 / (1 + held);
+  }
+};
+
 /// A rule ready for its role: parameters rounded to Real, and its spring for the substep.
 template <class Real>
 struct SolverRule {
   RowRole role = RowRole::Rigid;
   Real sign = 1, origin = 0, speed = 0;
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
-  Softness<Real> spring{};
+  SpringTerm<Real> spring{};
   Real impulse = 0;
 
   /// Takes another rule's parameters; the impulse stays where it still means the same.
@@ -37,29 +92,38 @@ struct SolverRule {
   }
   void set_substep(const RowRule& rule, double h) {
     most = static_cast<Real>(rule.max_force * h);
-    if (role == RowRole::Spring) spring = softness<Real>(rule.spring.hertz, rule.spring.damping_ratio, h);
+    if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, h);
   }
 
-  /// Both terms for a coordinate at `q` whose effective mass is `whole_mass`, at the poses after a substep:
-  /// `relax` of this substep, `solve` of the next one. A spring's force belongs to where the substep began.
-  void terms(Real q, Real whole_mass, Real share, const JointStep<Real>& step,
+  /// Both terms for a coordinate at `q` with the given mobility, at the poses after a substep: `relax` of
+  /// this substep, `solve` of the next one. `spring_mobility` is what its spring refers to. A spring's force
+  /// belongs to where the substep began: one impulse a substep, in both passes.
+  void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
              RowTerm<Real> (&term)[2]) const {
+    const Real share = part.share;
     const Real c = sign * (q - origin);
-    const Real mass = share * whole_mass;
-    // A reduced share must not change what a spring comes to: all of it is reduced.
+    const Real mass = mobility > 0 ? share / mobility : 0;
     const Softness<Real>& rigid = step.softness;
-    const RowTerm<Real> pull =
-        role == RowRole::Spring
-            ? RowTerm<Real>{spring.bias_rate * c, mass * spring.mass_scale, share * spring.impulse_scale}
-            : RowTerm<Real>{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
+    const RowTerm<Real> pull{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
     const RowTerm<Real> hold{0, mass, 0};
     switch (role) {
       case RowRole::Rigid:
         term[kSolve] = pull, term[kRelax] = hold;
         return;
-      case RowRole::Spring:
-        term[kRelax] = {term[kSolve].bias, pull.mass, pull.scale}, term[kSolve] = pull;
+      case RowRole::Spring: {
+        constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
+        const Real compliance = std::max(spring.compliance * spring_mobility, mobility / kFirmest);
+        if (!(mobility > part.stiffest(step.stiffest) * compliance)) {
+          const Real inverse = mobility > 0 ? 1 / (mobility + compliance) : 0;
+          term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
+          term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
+        } else {
+          const StiffSpring<Real> stiff(spring, mobility / compliance, share, step);
+          term[kSolve] = {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale};
+          term[kRelax] = hold;
+        }
         return;
+      }
       case RowRole::Limit:
         // While it is open it may close within the substep, and no faster.
         if (c > 0) {

@@ -43,6 +43,11 @@ void reload(Parts& parts, int joint) {
   });
 }
 
+template <class Constraint>
+constexpr bool kIsHinge = false;
+template <class Real>
+constexpr bool kIsHinge<HingeConstraint<Real>> = true;
+
 template <class Real>
 constexpr bool kIsRevolute = false;
 template <class Real>
@@ -312,6 +317,16 @@ void JointSet<Real>::forget(int joint) {
   parts_->at(joint, [](auto& constraint) { constraint.forget(); });
 }
 
+template <class Real>
+void JointSet<Real>::put_elsewhere(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.put_elsewhere(); });
+}
+
+template <class Real>
+void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
+  parts_->at(joint, [=](auto& constraint) { constraint.meet(angle_a, angle_b); });
+}
+
 // ---- Steps
 
 template <class Real>
@@ -323,9 +338,11 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
         using Definition = typename std::decay_t<decltype(constraint)>::Definition;
         if (constraint.known_h != step.h)
           constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
-        constraint.share = 1;
-        constraint.prepare(bodies, step);
         const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
+        constraint.share = 1;
+        if constexpr (!kIsHinge<std::decay_t<decltype(constraint)>>)
+          constraint.alone = std::max(count_a, count_b) < 2;
+        constraint.prepare(bodies, step);
         if (std::max(count_a, count_b) < kManyJoints) continue;
         constraint.share = joint_share(constraint.mobility(bodies), count_a, count_b);
         if (constraint.share < 1) constraint.evaluate(bodies, step);

@@ -178,7 +178,7 @@ template <class A, class Real, template <class> class Kind>
 void fields(const A& ar, JointConstraint<Real, Kind>& c) {
   using Constraint = JointConstraint<Real, Kind>;
   ar(c.arm_b);
-  if constexpr (Constraint::kAngle != AngleUse::None) ar(c.angle.a), ar(c.angle.b), ar(c.angle.known);
+  if constexpr (Constraint::kAngle != AngleUse::None) ar(c.angle.a), ar(c.angle.b), ar(c.angle.count);
   if constexpr (Constraint::kRatchet || Constraint::kPulley) ar(c.memory.value), ar(c.memory.known);
   if constexpr (Constraint::Rows::kTurn) fields(ar, c.turn);
   for (auto& coordinate : c.axial) fields(ar, coordinate);

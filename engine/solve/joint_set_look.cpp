@@ -101,7 +101,7 @@ Real JointSet<Real>::angle(int joint, const SolverBodies<Real>& bodies) const {
       const double angle = relative_angle(bodies.rotation[s.a], bodies.rotation[s.b]);
       return static_cast<Real>(
           nearest_turn(angle - std::get<RevoluteDefinition>(s.definition).reference_angle, 0));
-    } else if constexpr (Constraint::kAngle == AngleUse::Counted || Constraint::kAngle == AngleUse::Wrapped) {
+    } else if constexpr (Constraint::kAngle == AngleUse::Counted) {
       return constraint.look(bodies).first.angle;
     } else {
       refuse(s.definition, "angle");

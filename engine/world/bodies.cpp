@@ -192,7 +192,7 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
   w.remainders.renew(body, w.bodies.size());
   forget_manifolds(w, body);
   for_each_edge(w.joints, record.first_joint,
-                [&](int, JointRecord& joint) { w.joint_set.forget(joint.slot); });
+                [&](int, JointRecord& joint) { w.joint_set.put_elsewhere(joint.slot); });
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     leave_tree(w, shape);
     enter_tree(w, shape);

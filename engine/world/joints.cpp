@@ -40,6 +40,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   if (!definition.collide) make_room_for_ends(w, body_a, body_b);
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
                                    w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
+  w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
   w.ties_changed = true;
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;

@@ -19,6 +19,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const JointStep<Real> joints{.h = static_cast<Real>(h),
                                .inverse_h = inverse_h,
                                .softness = {feedback * inverse_h, 1, 0},
+                               .stiffest = stiffest_spring<Real>(w.settings.iterations),
                                .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;

@@ -12,10 +12,11 @@
 namespace plumb {
 namespace {
 
-// A contact's spring, that yields less to loads than it gives way to motion.
+// A contact's spring, that yields less to loads than it gives way to motion; as stiff as a substep of
+// `longest` lets it be.
 template <class Real>
-Softness<Real> contact_softness(double frequency_share, double h) {
-  Softness<Real> soft = softness<Real>(frequency_share / h, tuning::kContactDampingRatio, h);
+Softness<Real> contact_softness(double frequency_share, double h, double longest) {
+  Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
   soft.impulse_scale *= Real(tuning::kContactYield);
   soft.mass_scale = 1 - soft.impulse_scale;
   return soft;
@@ -49,18 +50,22 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (!jointed && nothing_left(w)) return;
 
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
-  ContactStep<Real> contacts{.h = static_cast<Real>(h),
-                             .inverse_h = static_cast<Real>(1 / h),
-                             .softness = {{contact_softness<Real>(tuning::kContactFrequencyShare, h)},
-                                          {contact_softness<Real>(tuning::kStiffFrequencyShare, h)},
-                                          {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
-                             .warm_start = warm_start,
-                             .bounce_threshold = bounce_threshold(w, h * substeps),
-                             .push_with_load = Real(tuning::kPushWithLoad)};
+  // A step that is shorter than the last one leaves overlaps as they are.
+  const double longest = std::max(h, w.last_h);
+  ContactStep<Real> contacts{
+      .h = static_cast<Real>(h),
+      .inverse_h = static_cast<Real>(1 / h),
+      .softness = {{contact_softness<Real>(tuning::kContactFrequencyShare, h, longest)},
+                   {contact_softness<Real>(tuning::kStiffFrequencyShare, h, longest)},
+                   {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
+      .warm_start = warm_start,
+      .bounce_threshold = bounce_threshold(w, h * substeps),
+      .push_with_load = Real(tuning::kPushWithLoad)};
   JointStep<Real> joints{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
       .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
+      .stiffest = stiffest_spring<Real>(1),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   if (jointed) w.joint_set.prepare(bodies, joints);

@@ -152,6 +152,7 @@ void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
   unlocked(*this);
   const JointRecord& record = data_->joints[place(joint)];
   data_->joint_set.change(record.slot, kind);
+  data_->joint_set.meet(record.slot, data_->bodies[record.body_a].angle, data_->bodies[record.body_b].angle);
   data_->ties_changed = true;
   wake(record.body_a), wake(record.body_b);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "engine/joints/spring_mobility.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/text.h"
@@ -169,8 +170,13 @@ class Box2dJointMaker {
   b2Joint* make(const WeldJoint& j) {
     auto def = ends<b2WeldJointDef>(j);
     if (j.angular_spring) {
-      b2AngularStiffness(def.stiffness, def.damping, narrow(j.angular_spring->hertz),
-                         narrow(j.angular_spring->damping_ratio), def.bodyA, def.bodyB);
+      const auto arm = [](const b2Body* body, b2Vec2 anchor) {
+        const b2Vec2 way = body->GetWorldVector(anchor - body->GetLocalCenter());
+        return Vec2d{way.x, way.y};
+      };
+      soften(def, *j.angular_spring,
+             turning_mobility(pair_of(def.bodyA, def.bodyB), arm(def.bodyA, def.localAnchorA),
+                              arm(def.bodyB, def.localAnchorB)));
     }
     return world_.CreateJoint(&def);
   }
@@ -229,6 +235,19 @@ class Box2dJointMaker {
     if (!limits) return;
     def.enableLimit = true;
     def.lowerTranslation = narrow(limits->lower), def.upperTranslation = narrow(limits->upper);
+  }
+
+  // The bodies' inverse masses; 0 of what is static.
+  static PairMobility<double> pair_of(const b2Body* a, const b2Body* b) {
+    const auto inverse = [](float mass) { return mass > 0 ? 1.0 / mass : 0.0; };
+    return {inverse(a->GetMass()), inverse(a->GetInertia()), inverse(b->GetMass()), inverse(b->GetInertia())};
+  }
+
+  // `mobility`: what the spring's frequency refers to.
+  static void soften(auto& def, const Spring& spring, double mobility) {
+    const double omega = 2 * std::numbers::pi * spring.hertz, mass = mobility > 0 ? 1 / mobility : 0;
+    def.stiffness = narrow(mass * omega * omega);
+    def.damping = narrow(2 * spring.damping_ratio * mass * omega);
   }
 
   static void soften(auto& def, const Spring& spring) {
