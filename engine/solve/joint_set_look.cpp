@@ -74,7 +74,8 @@ Vec2<Real> gap_of(const HingeConstraint<Real>& hinge, const SolverBodies<Real>& 
 template <class Real>
 Real JointSet<Real>::force(int joint, Real inverse_h) const {
   const Vec2<Real> linear = parts_->at(joint, [](const auto& c) { return c.reaction(); }).first;
-  return std::sqrt(length_squared(linear)) * inverse_h;
+  // In double: the square of a large impulse is beyond a float.
+  return static_cast<Real>(std::sqrt(length_squared(linear.template as<double>())) * double(inverse_h));
 }
 
 template <class Real>

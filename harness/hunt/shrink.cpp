@@ -169,7 +169,9 @@ class Shrinker {
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
     set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
-    set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
+    // Not back and forth between the two.
+    if (!(best_.scene.gravity == Vec2d{0, 0}))
+      set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
       const auto body = [i](Case& one) -> Body& { return one.scene.bodies[i]; };
       if (best_.expectations.empty()) {
