@@ -125,6 +125,8 @@ inline constexpr double kCoreDepth = 0.5;
 /// The same for what is deeper in something than that already, as loads, joints or the user have put it
 /// there: it gets no deeper than to here.
 inline constexpr double kInnerDepth = 0.9;
+/// Overlaps below this share of the smaller extent are not looked at for that.
+inline constexpr double kDeepFrom = 0.002;
 /// Two fast discs are stopped where they would overlap by more than this share of the smaller radius.
 inline constexpr double kGraze = 0.01;
 /// How near a fast body is brought to what it meets, as a share of the smaller extent.

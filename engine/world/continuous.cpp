@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -56,10 +57,10 @@ const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int 
 
 // Takes the sooner one.
 template <class Real>
-void note_meeting(const WorldData<Real>& w, const Way& way, int shape, int other,
-                  const ContactConstraint<Real>* contact, Meeting& first) {
-  const double fraction = fraction_of_impact(w, way, shape, other, contact);
-  if (fraction < first.fraction) first.fraction = fraction, first.shape = shape, first.other = other;
+void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
+  const double fraction = fraction_of_impact(w, way, pair);
+  if (fraction < first.fraction)
+    first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
 // The first of all that the body meets, when all of that has a contact with it.
@@ -71,7 +72,7 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
     if (!pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    if (!w.forms[shape].chain) note_meeting(w, way, shape, other, constraint_in(w, contact), first);
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
   });
 }
 
@@ -92,12 +93,12 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const Aabb<Real> swept = way_of(w, way.flight);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
-    if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
+    if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
       if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       if (as_solved && !pass_fast(w, body, other_body)) return true;
-      note_meeting(w, way, shape, other, as_solved ? constraint_between(w, shape, other) : nullptr, first);
+      note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
       return true;
     };
     w.still_tree.query(swept, mask, visit);
@@ -254,49 +255,57 @@ void look_back(WorldData<Real>& w, int place, double from, int& long_searches) {
     if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
     const Way way(pushes ? w.scratch.flights[place] : comer, from, long_searches);
     const int moving = pushes ? shape : other, met = pushes ? other : shape;
-    if (w.forms[moving].chain) continue;
     Meeting found{.flight = pushes ? place : other_place, .version = way.flight.version};
-    note_meeting(w, way, moving, met, static_cast<const ContactConstraint<Real>*>(nullptr), found);
+    note_meeting(w, way, {moving, met, nullptr, !pushes}, found);
     expect(w, as_it_is(w, found));
   }
 }
 
-template <class Real>
-void stop(WorldData<Real>& w, int place, double fraction, double dt, int& long_searches) {
-  Flight& flight = w.scratch.flights[place];
-  if (flight.stands) return;
-  flight.stop(fraction, std::max(flight.time, fraction * dt));
-  look_back(w, place, fraction, long_searches);
-}
-
-// Stops a body, and with it all that joints tie to it: they stay together.
-template <class Real>
-void stop_island(WorldData<Real>& w, int place, double fraction, double dt, int& long_searches) {
-  const int body = w.scratch.flights[place].body;
-  stop(w, place, fraction, dt, long_searches);
+// Calls visit(place) for the flight of a body and of all that joints tie to it.
+template <class Real, class Visit>
+void for_each_tied(WorldData<Real>& w, int place, const Visit& visit) {
   std::vector<int>& queue = w.scratch.queue;
+  std::vector<char>& seen = w.scratch.restless;
+  const int body = w.scratch.flights[place].body;
+  if (w.bodies[body].first_joint == kNone) return visit(place);
   queue.assign(1, body);
+  seen.assign(w.bodies.size(), 0);
+  seen[body] = 1;
   for (std::size_t next = 0; next < queue.size(); ++next) {
+    visit(flight_place(w, queue[next]));
     for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
       const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
-      if (!joint.active || !w.gives_way(other)) return;
-      const int other_place = flight_place(w, other);
-      if (w.scratch.flights[other_place].stands) return;
-      stop(w, other_place, fraction, dt, long_searches);
+      if (!joint.active || !w.gives_way(other) || seen[other]) return;
+      seen[other] = 1;
       queue.push_back(other);
     });
   }
   queue.clear();
 }
 
-// Pushes a body along with what does not give way to it.
+// Stops a body, and with it all that joints tie to it: they stay together.
+template <class Real>
+void stop_island(WorldData<Real>& w, int place, double fraction, double dt, int& long_searches) {
+  for_each_tied(w, place, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.stands) return;
+    flight.squeezed = flight.carrier != kNone;
+    flight.stop(fraction, std::max(flight.time, fraction * dt));
+    look_back(w, tied, fraction, long_searches);
+  });
+}
+
+// Pushes a body along with what does not give way to it, and with it all that joints tie to it.
 template <class Real>
 void push_along(WorldData<Real>& w, int place, int pusher, double fraction, double dt, int& long_searches) {
-  Flight& flight = w.scratch.flights[place];
-  flight.go_along(w.scratch.flights[pusher], fraction, std::max(flight.time, fraction * dt));
-  show_way(w, flight);
-  look_ahead(w, place, fraction, long_searches);
-  look_back(w, place, fraction, long_searches);
+  for_each_tied(w, place, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.carrier != kNone) return;
+    flight.go_along(w.scratch.flights[pusher], fraction, std::max(flight.time, fraction * dt));
+    show_way(w, flight);
+    look_ahead(w, tied, fraction, long_searches);
+    look_back(w, tied, fraction, long_searches);
+  });
 }
 
 // What was to meet next does so, unless either of both is on another way since.
@@ -334,7 +343,6 @@ void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches
     look_ahead(w, next.flight, next.fraction, long_searches);
     return;
   }
-  if (carrier != kNone) flight.squeezed = true;
   stop_island(w, next.flight, next.fraction, dt, long_searches);
 }
 
@@ -358,11 +366,11 @@ void meet_pushers(WorldData<Real>& w, int place, int& long_searches) {
   const Flight pusher = w.scratch.flights[place];
   const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
     const int body = w.shapes[shape].body;
-    if (w.forms[shape].chain || !pass_fast(w, body, pusher.body)) return;
+    if (!pass_fast(w, body, pusher.body)) return;
     const int met = flight_place(w, body);
     const Way way(w.scratch.flights[met], 0, long_searches);
     Meeting found{.flight = met, .version = way.flight.version};
-    note_meeting(w, way, shape, other, contact, found);
+    note_meeting(w, way, {shape, other, contact}, found);
     if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
   };
   if (pusher.covered) {
@@ -388,11 +396,45 @@ void meet_pushers(WorldData<Real>& w, int place, int& long_searches) {
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
 }
 
+// The contacts that have given way so far that a core is near: they are looked at however slowly they do.
+template <class Real>
+void find_deep_contacts(WorldData<Real>& w) {
+  w.scratch.deep_contacts.clear();
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const Real depth = -std::min(c.now[0], c.now[1]);
+    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
+    const auto limit = [&](int body) {
+      return w.gives_way(body) ? w.bodies[body].half_width : std::numeric_limits<Real>::max();
+    };
+    if (depth > Real(0.5 * tuning::kCoreDepth) * std::min(limit(c.body_a), limit(c.body_b)))
+      w.scratch.deep_contacts.push_back(c.contact);
+  });
+}
+
+template <class Real>
+void meet_deep_contacts(WorldData<Real>& w, int& long_searches) {
+  for (const int id : w.scratch.deep_contacts) {
+    const ContactRecord& contact = w.contacts[id];
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool is_a =
+        w.gives_way(contact.body_a) &&
+        (!w.gives_way(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
+    const int met = flight_place(w, is_a ? contact.body_a : contact.body_b);
+    const Way way(w.scratch.flights[met], 0, long_searches);
+    Meeting found{.flight = met, .version = way.flight.version};
+    const int shape = is_a ? contact.shape_a : contact.shape_b,
+              other = is_a ? contact.shape_b : contact.shape_a;
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, found);
+    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+  }
+}
+
 }  // namespace
 
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
-  if (w.scratch.fast_bodies.empty()) return;
+  find_deep_contacts(w);
+  if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
   std::vector<Flight>& flights = w.scratch.flights;
   flights.clear(), w.scratch.meetings.clear();
   w.scratch.flight_places.assign(w.bodies.size(), kNone);
@@ -415,6 +457,7 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
     const Meeting first = first_meeting(w, place, 0, long_searches);
     if (first.fraction < 1) w.scratch.meetings.push_back(first);
   }
+  meet_deep_contacts(w, long_searches);
   fly_on(w, static_cast<double>(dt), long_searches);
   for (const Flight& flight : flights) {
     if (flight.changed) {

@@ -72,7 +72,7 @@ struct Flight {
     position = position_at(t), velocity = new_velocity, angular_velocity = new_spin, time = t;
     way = position_at(dt) - place, turn = (dt - t) * new_spin;
     start = place, rotation = facing, from = fraction, arm = {};
-    changed = true;
+    changed = true, stands = false;
     ++version, ++impacts;
   }
   /// Stays where it is at a fraction of the step; `t` as above.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/collide/hull_distance.h"
 #include "engine/collide/time_of_impact.h"
 #include "engine/geometry/convex_core.h"
 #include "engine/world/constants.h"
@@ -51,73 +52,133 @@ class Seen {
   Convex<Real> convex_;
 };
 
-// How deep below a body's surface its cores lie.
+// Half the width of a shape's body, in which its cores are measured.
 template <class Real>
-Real core_depth(const WorldData<Real>& w, int shape) {
-  return Real(tuning::kCoreDepth) * w.bodies[w.shapes[shape].body].half_width;
+Real half_width_of(const WorldData<Real>& w, int shape) {
+  return w.bodies[w.shapes[shape].body].half_width;
 }
 
-// What a chain's segment meets from behind it lets through.
+// One pair of shapes on their ways.
 template <class Real>
-bool from_behind(const Convex<Real>& segment, const Sweep<double>& way, const ImpactResult<Real>& at) {
-  const Rotation<double> q = pose_at(way, at.exact_fraction).rotation;
-  return dot(q * segment.corners[0].normal.template as<double>(), at.normal.template as<double>()) < 0;
+class Encountering {
+ public:
+  using Result = ImpactResult<Real>;
+
+  Encountering(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair)
+      : w_(w),
+        way_(way),
+        pair_(pair),
+        of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin)),
+        whole_(w.convex(pair.shape), way.flight.arm),
+        obstacle_(w.convex(pair.other), of_other_.arm),
+        tolerance_(Real(tuning::kImpactTolerance) *
+                   std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent)) {}
+
+  const Convex<Real>& whole() const { return whole_.convex(); }
+  const Convex<Real>& obstacle() const { return obstacle_.convex(); }
+
+  Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    return meet(moving, standing, tolerance_, tolerance_);
+  }
+  // What starts nearer than it would be stopped does not get any nearer.
+  Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    const double apart = distance(moving, standing);
+    if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
+    const Real start = static_cast<Real>(apart);
+    if (start > 2 * tolerance_) return meet(moving, standing);
+    return meet(moving, standing, Real(kHeld) * start, Real((1 - kHeld) / 2) * start);
+  }
+  double fraction(const Result& result) const { return way_.from + result.exact_fraction * (1 - way_.from); }
+  // What a chain's segment meets from behind it lets through.
+  bool passes_behind(const Result& at) const {
+    const bool moves = w_.forms[pair_.shape].chain;
+    if (!moves && !w_.forms[pair_.other].chain) return false;
+    const Sweep<double>& sweep = moves ? way_.sweep : of_other_.sweep;
+    const Rotation<double> q = pose_at(sweep, at.exact_fraction).rotation;
+    const Vec2d front = q * (moves ? whole() : obstacle()).corners[0].normal.template as<double>(),
+                normal = at.normal.template as<double>();
+    return dot(front, moves ? -normal : normal) < 0;
+  }
+
+ private:
+  static constexpr double kHeld = 0.999;
+
+  Result meet(const Convex<Real>& moving, const Convex<Real>& standing, Real target, Real tolerance) const {
+    const Result found = time_of_impact(standing, of_other_.sweep, moving, way_.sweep, target, tolerance,
+                                        tuning::kImpactIterations + way_.long_searches);
+    way_.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
+    return found;
+  }
+  double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    const Rotation<double> back = of_other_.sweep.start_rotation.inverse(), q = way_.sweep.start_rotation;
+    const Pose<double> pose{back * (way_.sweep.start - of_other_.sweep.start),
+                            {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
+    return hull_distance(standing, moving, pose, nullptr).separation -
+           static_cast<double>(moving.radius + standing.radius);
+  }
+
+  const WorldData<Real>& w_;
+  const Way& way_;
+  const SweptPair<Real>& pair_;
+  Motion of_other_;
+  Seen<Real> whole_, obstacle_;
+  Real tolerance_;
+};
+
+// The first time at which a core gets to the other shape. Of what is that deep in it already, where it would
+// get deeper still: first the cores of both, then what is left of them deeper inside.
+template <class Real>
+ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real>& at,
+                               const SweptPair<Real>& pair) {
+  using State = typename ImpactResult<Real>::State;
+  const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
+  const Real own = half_width_of(w, pair.shape), others = half_width_of(w, pair.other);
+  // Two discs may not even graze each other unseen.
+  const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
+  const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
+                           : Real(tuning::kCoreDepth) * own;
+  const bool others_core = form.chain || (pair.stands && others > own);
+  if (others_core) {
+    const Core<Real> core(at.obstacle(), Real(tuning::kCoreDepth) * others);
+    const ImpactResult<Real> found = at.hold(at.whole(), core.convex());
+    if (found.state != State::Overlapped) return found;
+  } else {
+    const Core<Real> core(at.whole(), depth);
+    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+    if (found.state != State::Overlapped) return found;
+  }
+  for (const double share :
+       {tuning::kCoreDepth, 0.5 * (tuning::kCoreDepth + tuning::kInnerDepth), tuning::kInnerDepth}) {
+    const Core<Real> core(at.whole(), Real(share) * own), other_core(at.obstacle(), Real(share) * others);
+    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+    if (found.state != State::Overlapped) return found;
+  }
+  return {};
 }
 
 }  // namespace
 
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, int other,
-                          const ContactConstraint<Real>* contact) {
+double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   using Result = ImpactResult<Real>;
-  const Motion of_other = motion_of(w, w.shapes[other].body, way.from, way.origin);
-  const Seen<Real> whole(w.convex(shape), way.flight.arm), obstacle(w.convex(other), of_other.arm);
-  const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
-  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
-  const auto meet = [&](const Convex<Real>& moving, const Convex<Real>& standing) {
-    const Result found = time_of_impact(standing, of_other.sweep, moving, way.sweep, tolerance, tolerance,
-                                        tuning::kImpactIterations + way.long_searches);
-    way.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
-    return found;
-  };
-  const auto fraction = [&](const Result& result) {
-    return way.from + result.exact_fraction * (1 - way.from);
-  };
-  const auto passes_behind = [&](const Result& result) {
-    return w.forms[other].chain && from_behind(obstacle.convex(), of_other.sweep, result);
-  };
+  const Encountering<Real> at(w, way, pair);
   const bool flies_on = way.flight.impacts > 0;
-  if ((contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, shape, other)) {
-    const Result first = meet(whole.convex(), obstacle.convex());
+  if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
+    if (w.forms[pair.shape].chain && !pair.stands) return 1;  // what it meets is thrown back by it
+    const Result first = at.meet(at.whole(), at.obstacle());
     if (first.state == Result::State::Separated) return 1;
     if (first.state != Result::State::Overlapped && (first.exact_fraction > 0 || flies_on))
-      return passes_behind(first) ? 1 : fraction(first);
+      return at.passes_behind(first) ? 1 : at.fraction(first);
   }
-  // Two discs may not even graze each other unseen.
-  const ShapeForm<Real>&form = w.forms[shape], &other_form = w.forms[other];
-  const bool discs = contact == nullptr && form.count == 1 && other_form.count == 1;
-  const Real depth = core_depth(w, shape);
-  const Core<Real> core(whole.convex(),
-                        discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius) : depth);
-  Result through = meet(core.convex(), obstacle.convex());
-  if (through.state == Result::State::Overlapped) {
-    // What is that deep in it already is stopped where it would get deeper still.
-    const Core<Real> inner(whole.convex(), Real(tuning::kInnerDepth) * w.bodies[way.flight.body].half_width),
-        other_core(obstacle.convex(), core_depth(w, other));
-    through = meet(core.convex(), other_core.convex());
-    if (through.state == Result::State::Overlapped) through = meet(inner.convex(), other_core.convex());
-  }
-  if (through.state == Result::State::Separated || through.state == Result::State::Overlapped) return 1;
-  if (passes_behind(through)) return 1;
-  const Result first = meet(whole.convex(), obstacle.convex());
+  const Result through = core_impact(w, at, pair);
+  if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
+  const Result first = at.meet(at.whole(), at.obstacle());
   // Shapes that touched at the start are held by their contact until the core comes too near.
-  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? fraction(through)
-                                                                               : fraction(first);
+  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? at.fraction(through)
+                                                                               : at.fraction(first);
 }
 
-template double fraction_of_impact(const WorldData<float>&, const Way&, int, int,
-                                   const ContactConstraint<float>*);
-template double fraction_of_impact(const WorldData<double>&, const Way&, int, int,
-                                   const ContactConstraint<double>*);
+template double fraction_of_impact(const WorldData<float>&, const Way&, const SweptPair<float>&);
+template double fraction_of_impact(const WorldData<double>&, const Way&, const SweptPair<double>&);
 
 }  // namespace plumb

@@ -19,12 +19,18 @@ struct Way {
   int& long_searches;  // iterations left to all of the step, see kLongSearches
 };
 
-/// The fraction of the step at which `shape` of a body on its way has to be stopped before `other`, or thrown
-/// back; 1 when it passes nothing. Not a touch decides, but the core (convex_core.h): as long as nothing gets
-/// to that, contacts push shapes apart again on the sides that they came from. `contact`: what the solver had
-/// between the two in this step; may be null.
+/// Of a pair of shapes, what is known beforehand.
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, int other,
-                          const ContactConstraint<Real>* contact);
+struct SweptPair {
+  int shape = 0, other = 0;                          ///< `shape` is that of the body on its way
+  const ContactConstraint<Real>* contact = nullptr;  ///< what the solver had between the two; null: nothing
+  bool stands = false;  ///< the other one was stopped before it: it may get into that by what either bears
+};
+
+/// The fraction of the step at which a body on its way has to be stopped, or thrown back, before another
+/// shape; 1 when it passes nothing. Not a touch decides, but the core (convex_core.h): as long as nothing
+/// gets to that, contacts push shapes apart again on the sides that they came from.
+template <class Real>
+double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);
 
 }  // namespace plumb
