@@ -85,7 +85,7 @@ class Core {
 /// that depth reaches into the tip to within this share of half the width.
 template <class Real>
 Real convex_passing_width(const Convex<Real>& shape) {
-  constexpr Real kTipLoss = Real(1.5);
+  constexpr Real kTipLoss = Real(1);
   const Real half_width = convex_half_width(shape);
   if (shape.count < 3) return half_width;
   const Real depth = half_width / 2;

@@ -24,12 +24,21 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
   return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
 }
 
+// Whether a body may be in the way of another one: fast for it, or not where the solver has brought it.
+template <class Real>
+bool may_block(const WorldData<Real>& w, int body, int other) {
+  if (pass_fast(w, body, other)) return true;
+  const Flight* met = flight_in(w, other);
+  return met != nullptr && met->changed;
+}
+
 // A box around all that the body covers for the rest of its way.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
-  const Vec2<Real> start = flight.start.template as<Real>(),
-                   end = (flight.start + flight.way).template as<Real>();
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body]);
+  const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
+                   end = flight.straight_at(1).template as<Real>();
+  const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm);
 }
 
 // Of two shapes in contact, what the solver had between them in this step; null when it was nothing.
@@ -69,7 +78,7 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
-    if (!pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    if (!may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
@@ -97,7 +106,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
       if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
-      if (as_solved && !pass_fast(w, body, other_body)) return true;
+      if (as_solved && !may_block(w, body, other_body)) return true;
       note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
       return true;
     };
@@ -168,8 +177,9 @@ void set_arm(const WorldData<Real>& w, Flight& flight) {
 
 // Stores the whole way of a fast body, so that others find it.
 template <class Real>
-void show_way(WorldData<Real>& w, const Flight& flight) {
+void show_way(WorldData<Real>& w, Flight& flight) {
   const int body = flight.body;
+  flight.shown = true;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.shapes[shape].proxy == kNone) continue;
     DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
@@ -403,12 +413,19 @@ void find_deep_contacts(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     const Real depth = -std::min(c.now[0], c.now[1]);
     if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
-    const auto limit = [&](int body) {
-      return w.gives_way(body) ? w.bodies[body].half_width : std::numeric_limits<Real>::max();
-    };
-    if (depth > Real(0.5 * tuning::kCoreDepth) * std::min(limit(c.body_a), limit(c.body_b)))
-      w.scratch.deep_contacts.push_back(c.contact);
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool a_yields = w.gives_way(c.body_a), b_yields = w.gives_way(c.body_b);
+    const Real limit =
+        (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
+    if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
   });
+}
+
+// Of bodies that were stored anew where the solver has brought them, the way to there is not in the tree.
+template <class Real>
+void show_ways(WorldData<Real>& w) {
+  for (Flight& flight : w.scratch.flights)
+    if (!flight.shown && w.enlarged[flight.body]) show_way(w, flight);
 }
 
 template <class Real>
@@ -438,11 +455,14 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
   std::vector<Flight>& flights = w.scratch.flights;
   flights.clear(), w.scratch.meetings.clear();
   w.scratch.flight_places.assign(w.bodies.size(), kNone);
+  bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    Flight& flight = flights[flight_place(w, fast.body)];
-    flight.covered = fast.covered;
-    if (!fast.covered) show_way(w, flight);
+    flights[flight_place(w, fast.body)].covered = fast.covered;
+    all_covered = all_covered && fast.covered;
   }
+  for (Flight& flight : flights)
+    if (!flight.covered) show_way(w, flight);
+  if (!all_covered) show_ways(w);
   // All are found before any is moved, so that two fast bodies see each other's whole way.
   int long_searches = tuning::kLongSearches;
   ContactsAhead ahead;
@@ -458,14 +478,17 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
     if (first.fraction < 1) w.scratch.meetings.push_back(first);
   }
   meet_deep_contacts(w, long_searches);
-  fly_on(w, static_cast<double>(dt), long_searches);
+  if (!w.scratch.meetings.empty()) {
+    show_ways(w);
+    fly_on(w, static_cast<double>(dt), long_searches);
+  }
   for (const Flight& flight : flights) {
     if (flight.changed) {
       land(w, flight, static_cast<double>(dt));
       for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
         refresh_box(w, shape, dt, Real(0));
     }
-    if (!flight.covered || flight.impacts > 0) hide_way(w, flight.body, dt);
+    if (flight.shown) hide_way(w, flight.body, dt);
   }
   w.scratch.flight_places.clear();
 }

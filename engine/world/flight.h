@@ -14,6 +14,7 @@ struct Flight {
   bool changed = false;   ///< it is not any more as the solver had it
   bool yields = true;     ///< may be thrown back where it first touches something
   bool known = false;     ///< what its true motion is
+  bool shown = false;     ///< all of its way is stored in the tree
   bool stands = false;    ///< it has been stopped for the rest of the step
   bool squeezed = false;  ///< between what pushes it along and something else
   int impacts = 0;        ///< in this step
@@ -72,7 +73,7 @@ struct Flight {
     position = position_at(t), velocity = new_velocity, angular_velocity = new_spin, time = t;
     way = position_at(dt) - place, turn = (dt - t) * new_spin;
     start = place, rotation = facing, from = fraction, arm = {};
-    changed = true, stands = false;
+    changed = true, stands = false, carrier = -1;
     ++version, ++impacts;
   }
   /// Stays where it is at a fraction of the step; `t` as above.

@@ -9,6 +9,7 @@
 #include "engine/geometry/convex_core.h"
 #include "engine/world/constants.h"
 #include "engine/world/rebound.h"
+#include "engine/world/swept_bound.h"
 
 namespace plumb {
 namespace {
@@ -82,6 +83,8 @@ class Encountering {
   }
   // What starts nearer than it would be stopped does not get any nearer.
   Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    // Without a contact they are apart, and cores farther.
+    if (pair_.contact == nullptr && !way_.flight.changed && !pair_.stands) return meet(moving, standing);
     const double apart = distance(moving, standing);
     if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
     const Real start = static_cast<Real>(apart);
@@ -125,6 +128,14 @@ class Encountering {
   Real tolerance_;
 };
 
+// Whether both give way, and have a contact or are about to: they part again as long as what is left of them
+// deep inside has not passed. In a crowd that is struck, who is stopped earlier is run over.
+template <class Real>
+bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
+  return (pair.contact != nullptr || pair.stands) && w.gives_way(w.shapes[pair.shape].body) &&
+         w.gives_way(w.shapes[pair.other].body);
+}
+
 // The first time at which a core gets to the other shape. Of what is that deep in it already, where it would
 // get deeper still: first the cores of both, then what is left of them deeper inside.
 template <class Real>
@@ -137,6 +148,12 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
   const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
                            : Real(tuning::kCoreDepth) * own;
+  if (both_yield(w, pair)) {
+    const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * own),
+        other_core(at.obstacle(), Real(tuning::kInnerDepth) * others);
+    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+    return found.state == State::Overlapped ? ImpactResult<Real>{} : found;
+  }
   const bool others_core = form.chain || (pair.stands && others > own);
   if (others_core) {
     const Core<Real> core(at.obstacle(), Real(tuning::kCoreDepth) * others);
@@ -156,11 +173,39 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   return {};
 }
 
+// Whether a quick look shows that a pair passes nothing on the ways that the solver found for both.
+template <class Real>
+bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+  const auto is_straight = [](const Flight& flight) { return !flight.changed && flight.arm == Vec2d{}; };
+  if (pair.stands || !is_straight(way.flight)) return false;
+  const int other_body = w.shapes[pair.other].body;
+  if (const Flight* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
+    return false;
+  const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
+  const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent);
+  const bool discs = form.count == 1 && other_form.count == 1;
+  const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
+  const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);
+  const Real deepest =
+      both_yield(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
+  const Real enough = pair.contact == nullptr && discs ? apart : apart - deepest;
+  SweptBound<Real> bound(w, pair.shape, pair.other, enough);
+  const auto try_all = [&] {
+    if (pair.contact == nullptr) return bound.try_edges();
+    return bound.try_along(pair.contact->body_b == way.flight.body ? pair.contact->normal
+                                                                   : -pair.contact->normal) ||
+           bound.try_edges();
+  };
+  if (!try_all()) return false;
+  return pair.contact != nullptr || bound.least() >= apart || !may_rebound(w, pair.shape, pair.other);
+}
+
 }  // namespace
 
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   using Result = ImpactResult<Real>;
+  if (is_clear(w, way, pair)) return 1;
   const Encountering<Real> at(w, way, pair);
   const bool flies_on = way.flight.impacts > 0;
   if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
