@@ -126,8 +126,15 @@ inline constexpr double kRestingSteps = 4;
 /// cannot get through anything between two steps.
 inline constexpr double kFastShare = 0.5;
 
-/// A shape's core, as a share of its size: a fast body is stopped when its core would get through something.
-inline constexpr double kCoreShare = 0.5;
+/// How deep below a shape's surface its core lies, as a share of its half width: a body is stopped on its way
+/// where its core would get into something. Deeper, contacts push it out on the wrong side; nearer to the
+/// surface, what slides under load is stopped.
+inline constexpr double kCoreDepth = 0.5;
+/// The same for what is deeper in something than that already, as loads, joints or the user have put it
+/// there: it gets no deeper than to here.
+inline constexpr double kInnerDepth = 0.9;
+/// Overlaps below this share of the smaller extent are not looked at for that.
+inline constexpr double kDeepFrom = 0.002;
 /// Two fast discs are stopped where they would overlap by more than this share of the smaller radius.
 inline constexpr double kGraze = 0.01;
 /// How near a fast body is brought to what it meets, as a share of the smaller extent.

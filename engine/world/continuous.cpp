@@ -1,55 +1,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <limits>
+#include <utility>
+#include <variant>
 
-#include "engine/collide/time_of_impact.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
 #include "engine/world/rebound.h"
 #include "engine/world/step.h"
+#include "engine/world/swept_pair.h"
 
 namespace plumb {
 namespace {
-
-// A shape shrunk towards its middle. While the core of a body has passed nothing, contacts push it out again
-// on the side that it came from; so a body is only stopped on its way when its core would get through.
-template <class Real>
-struct Core {
-  Core(const Convex<Real>& shape, Real share) {
-    Vec2<Real> middle{};
-    for (int i = 0; i < shape.count; ++i) middle += shape.corners[i].point;
-    middle *= Real(1) / static_cast<Real>(shape.count);
-    for (int i = 0; i < shape.count; ++i) {
-      const Corner<Real>& from = shape.corners[i];
-      std::construct_at(corners + i, Corner<Real>{middle + share * (from.point - middle), from.normal});
-    }
-    convex = {corners, shape.count, share * shape.radius};
-  }
-  Core(const Core&) = delete;
-  Core& operator=(const Core&) = delete;
-  union {
-    Corner<Real> corners[kMaxCorners];  // the first `convex.count` alone are made
-  };
-  Convex<Real> convex;
-};
-
-// What is left of a body's motion at a fraction of this step, seen from `origin`. The rotation is that of the
-// step's end, turned back.
-template <class Real>
-Sweep<double> sweep_of(const WorldData<Real>& w, int body, double from, Vec2d origin) {
-  if (const Flight* flight = flight_in(w, body)) return flight->sweep(from, origin);
-  return flight_of(w, body).sweep(from, origin);
-}
-
-template <class Real>
-bool in_front(const WorldData<Real>& w, int chain_segment, Vec2d point, const Sweep<double>& chain) {
-  const Convex<Real> segment = w.convex(chain_segment);
-  const Vec2d local = chain.start_rotation.inverse() * (point - chain.start);
-  const Corner<Real>& first = segment.corners[0];
-  return dot(first.normal.template as<double>(), local - first.point.template as<double>()) >= 0;
-}
 
 // Whether two bodies move fast relative to each other: no slower than one could pass through the other.
 template <class Real>
@@ -60,88 +24,52 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
   return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
 }
 
-// The rest of a fast body's way, seen from where it starts.
-struct Way {
-  Way(const Flight& flight_, double from_, int& long_searches_)
-      : flight(flight_),
-        from(from_),
-        origin(flight_.start_at(from_)),
-        sweep(flight_.sweep(from_, origin)),
-        long_searches(long_searches_) {}
-  const Flight& flight;
-  double from;
-  Vec2d origin;
-  Sweep<double> sweep;
-  int& long_searches;  // iterations left to all of the step, see kLongSearches
-};
-
-// How much of a shape is its core against another one. Two discs may not even graze each other unseen.
+// Whether a body may be in the way of another one: fast for it, or not where the solver has brought it.
 template <class Real>
-Real core_share(const WorldData<Real>& w, int shape, int other) {
-  const ShapeForm<Real>&a = w.forms[shape], &b = w.forms[other];
-  if (a.count != 1 || b.count != 1) return Real(tuning::kCoreShare);
-  return 1 - Real(tuning::kGraze) * std::min(b.radius / a.radius, Real(1));
-}
-
-// The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
-template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, int other) {
-  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.from, way.origin);
-  if (w.forms[other].chain && !in_front(w, other, way.sweep.start, other_sweep)) return 1;
-  const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
-  using Result = ImpactResult<Real>;
-  const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
-  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
-  const auto meet = [&](const Convex<Real>& moving) {
-    const Result found = time_of_impact(obstacle, other_sweep, moving, way.sweep, tolerance, tolerance,
-                                        tuning::kImpactIterations + way.long_searches);
-    way.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
-    return found;
-  };
-  const auto fraction = [&](const Result& result) {
-    return way.from + result.exact_fraction * (1 - way.from);
-  };
-  const bool flies_on = way.flight.impacts > 0;
-  if (way.flight.yields && may_rebound(w, shape, other)) {
-    const Result first = meet(whole);
-    if (first.state == Result::State::Separated) return 1;
-    if (first.state != Result::State::Overlapped && (first.exact_fraction > 0 || flies_on))
-      return fraction(first);
-  }
-  const Core<Real> core(whole, core_share(w, shape, other));
-  const Result through = meet(core.convex);
-  if (through.state == Result::State::Separated || through.state == Result::State::Overlapped) return 1;
-  const Result first = meet(whole);
-  // Shapes that touched at the start are held by their contact until the core comes too near.
-  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? fraction(through)
-                                                                               : fraction(first);
-}
-
-// Whether a contact between the shapes had points in this step: the solver has seen to it.
-template <class Real>
-bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
-  const int other_body = w.shapes[other].body;
-  const auto is_solved = [&](const ContactRecord& contact) {
-    return contact.home == ContactHome::Graph && ((contact.shape_a == shape && contact.shape_b == other) ||
-                                                  (contact.shape_a == other && contact.shape_b == shape));
-  };
-  return any_between(w.contacts, w.bodies[body].first_contact, w.bodies[other_body].first_contact, body,
-                     other_body, is_solved);
+bool may_block(const WorldData<Real>& w, int body, int other) {
+  if (pass_fast(w, body, other)) return true;
+  const Flight* met = flight_in(w, other);
+  return met != nullptr && met->changed;
 }
 
 // A box around all that the body covers for the rest of its way.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
-  const Vec2<Real> start = flight.start.template as<Real>(),
-                   end = (flight.start + flight.way).template as<Real>();
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body]);
+  const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
+                   end = flight.straight_at(1).template as<Real>();
+  const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm);
+}
+
+// Of two shapes in contact, what the solver had between them in this step; null when it was nothing.
+template <class Real>
+const ContactConstraint<Real>* constraint_in(const WorldData<Real>& w, const ContactRecord& contact) {
+  if (contact.home != ContactHome::Graph) return nullptr;
+  return &w.graph.at({contact.colour, contact.index});
+}
+
+template <class Real>
+const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int shape, int other) {
+  const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
+  const ContactConstraint<Real>* found = nullptr;
+  const auto is_theirs = [&](const ContactRecord& contact) {
+    if ((contact.shape_a != shape || contact.shape_b != other) &&
+        (contact.shape_a != other || contact.shape_b != shape))
+      return false;
+    found = constraint_in(w, contact);
+    return true;
+  };
+  any_between(w.contacts, w.bodies[body].first_contact, w.bodies[other_body].first_contact, body, other_body,
+              is_theirs);
+  return found;
 }
 
 // Takes the sooner one.
 template <class Real>
-void note_meeting(const WorldData<Real>& w, const Way& way, int shape, int other, Meeting& first) {
-  const double fraction = fraction_of_impact(w, way, shape, other);
-  if (fraction < first.fraction) first.fraction = fraction, first.shape = shape, first.other = other;
+void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
+  const double fraction = fraction_of_impact(w, way, pair);
+  if (fraction < first.fraction)
+    first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
 // The first of all that the body meets, when all of that has a contact with it.
@@ -149,29 +77,37 @@ template <class Real>
 void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
-    if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
     const bool is_a = (edge & 1) == 0;
-    if (!pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    if (!may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    if (!w.forms[shape].chain) note_meeting(w, way, shape, other, first);
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
   });
 }
 
-// The first of all that the body meets. What it flies on to after an impact, no solver has seen to.
+// Whether both are pushed along by the same.
+template <class Real>
+bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
+  if (flight.carrier == kNone) return false;
+  if (flight.carrier == other) return true;
+  const Flight* met = flight_in(w, other);
+  return met != nullptr && met->carrier == flight.carrier;
+}
+
+// The first of all that the body meets. What it goes on to after an impact, no solver has seen to.
 template <class Real>
 void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
-  const bool flies_on = way.flight.impacts > 0;
+  const bool as_solved = !way.flight.changed;
   const Aabb<Real> swept = way_of(w, way.flight);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
-    if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
+    if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
-      if (!may_collide(w, shape, other)) return true;
-      if (!flies_on && (!pass_fast(w, body, w.shapes[other].body) || was_solved(w, body, shape, other)))
-        return true;
-      note_meeting(w, way, shape, other, first);
+      const int other_body = w.shapes[other].body;
+      if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
+      if (as_solved && !may_block(w, body, other_body)) return true;
+      note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
       return true;
     };
     w.still_tree.query(swept, mask, visit);
@@ -202,6 +138,14 @@ class ContactsAhead {
   std::array<int, 8> edges_;
 };
 
+// Notes what is met as it is now.
+template <class Real>
+Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
+  if (found.other == kNone) return found;
+  if (const Flight* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
+  return found;
+}
+
 // What a flight meets first from a fraction of the step on.
 template <class Real>
 Meeting first_meeting(const WorldData<Real>& w, int place, double from, int& long_searches) {
@@ -209,20 +153,33 @@ Meeting first_meeting(const WorldData<Real>& w, int place, double from, int& lon
   Meeting first{.flight = place, .version = flight.version};
   if (!w.gives_way(flight.body)) return first;
   const Way way(flight, from, long_searches);
-  if (flight.covered && flight.impacts == 0) {
+  if (flight.covered && !flight.changed) {
     meet_pairs(w, way, first);
   } else {
     meet_all(w, way, first);
   }
-  if (first.other == kNone) return first;
-  if (const Flight* other = flight_in(w, w.shapes[first.other].body)) first.other_version = other->version;
-  return first;
+  return as_it_is(w, first);
+}
+
+// What hangs by a hinge on a body that does not give way goes round that, not along a straight line.
+template <class Real>
+void set_arm(const WorldData<Real>& w, Flight& flight) {
+  const BodyRecord<Real>& record = w.bodies[flight.body];
+  if (record.type != BodyType::Dynamic || flight.turn == 0) return;
+  for_each_edge(w.joints, record.first_joint, [&](int edge, const JointRecord& joint) {
+    const bool is_a = (edge & 1) == 0;
+    if (!joint.active || w.gives_way(is_a ? joint.body_b : joint.body_a)) return;
+    const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
+    if (hinge != nullptr)
+      flight.arm = (is_a ? hinge->anchor_a : hinge->anchor_b) - record.centre.template as<double>();
+  });
 }
 
 // Stores the whole way of a fast body, so that others find it.
 template <class Real>
-void show_way(WorldData<Real>& w, const Flight& flight) {
+void show_way(WorldData<Real>& w, Flight& flight) {
   const int body = flight.body;
+  flight.shown = true;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.shapes[shape].proxy == kNone) continue;
     DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
@@ -249,23 +206,116 @@ bool is_later(const Meeting& a, const Meeting& b) {
 }
 
 template <class Real>
-void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) {
-  const Meeting next = first_meeting(w, place, from, long_searches);
-  if (!(next.fraction < 1)) return;
-  w.scratch.meetings.push_back(next);
+void expect(WorldData<Real>& w, const Meeting& meeting) {
+  if (!(meeting.fraction < 1)) return;
+  w.scratch.meetings.push_back(meeting);
   std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
+}
+
+template <class Real>
+void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) {
+  expect(w, first_meeting(w, place, from, long_searches));
+}
+
+// The place of a body's flight; of one that has had none, the way that the solver found for it.
+template <class Real>
+int flight_place(WorldData<Real>& w, int body) {
+  int& place = w.scratch.flight_places[body];
+  if (place == kNone) {
+    place = static_cast<int>(w.scratch.flights.size());
+    w.scratch.flights.push_back(flight_of(w, body));
+    set_arm(w, w.scratch.flights.back());
+    w.scratch.flights.back().covered = true;
+  }
+  return place;
 }
 
 // The flight of what is met; null when that does not move.
 template <class Real>
 Flight* flight_met(WorldData<Real>& w, int body) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
-  int& place = w.scratch.flight_places[body];
-  if (place == kNone) {
-    place = static_cast<int>(w.scratch.flights.size());
-    w.scratch.flights.push_back(flight_of(w, body));
+  return &w.scratch.flights[flight_place(w, body)];
+}
+
+// A body goes another way from a fraction of the step on: whoever comes along may meet it now, that would not
+// have before.
+template <class Real>
+void look_back(WorldData<Real>& w, int place, double from, int& long_searches) {
+  const Flight flight = w.scratch.flights[place];
+  const Rotation<double> q = flight.rotation_at(from);
+  const Pose<Real> pose{flight.start_at(from).template as<Real>(),
+                        {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
+  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  pairs.clear();
+  for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
+    w.moving_tree.query(convex_bounds(w.convex(shape), pose), mask, [&](int other, int) {
+      if (flight_in(w, w.shapes[other].body) != nullptr && may_collide(w, shape, other))
+        pairs.emplace_back(shape, other);
+      return true;
+    });
   }
-  return &w.scratch.flights[place];
+  for (const auto& [shape, other] : pairs) {
+    const int other_place = w.scratch.flight_places[w.shapes[other].body];
+    const Flight& comer = w.scratch.flights[other_place];
+    if (comer.stands || go_together(w, flight, comer.body) || comer.carrier == flight.body) continue;
+    // What does not give way pushes what it meets.
+    const bool pushes = !w.gives_way(comer.body);
+    if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
+    const Way way(pushes ? w.scratch.flights[place] : comer, from, long_searches);
+    const int moving = pushes ? shape : other, met = pushes ? other : shape;
+    Meeting found{.flight = pushes ? place : other_place, .version = way.flight.version};
+    note_meeting(w, way, {moving, met, nullptr, !pushes}, found);
+    expect(w, as_it_is(w, found));
+  }
+}
+
+// Calls visit(place) for the flight of a body and of all that joints tie to it.
+template <class Real, class Visit>
+void for_each_tied(WorldData<Real>& w, int place, const Visit& visit) {
+  std::vector<int>& queue = w.scratch.queue;
+  std::vector<char>& seen = w.scratch.restless;
+  const int body = w.scratch.flights[place].body;
+  if (w.bodies[body].first_joint == kNone) return visit(place);
+  queue.assign(1, body);
+  seen.assign(w.bodies.size(), 0);
+  seen[body] = 1;
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    visit(flight_place(w, queue[next]));
+    for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
+      const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
+      if (!joint.active || !w.gives_way(other) || seen[other]) return;
+      seen[other] = 1;
+      queue.push_back(other);
+    });
+  }
+  queue.clear();
+}
+
+// Stops a body, and with it all that joints tie to it: they stay together.
+template <class Real>
+void stop_island(WorldData<Real>& w, int place, double fraction, double dt, int& long_searches) {
+  for_each_tied(w, place, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.stands) return;
+    flight.squeezed = flight.carrier != kNone;
+    flight.stop(fraction, std::max(flight.time, fraction * dt));
+    look_back(w, tied, fraction, long_searches);
+  });
+}
+
+// Pushes a body along with what does not give way to it, and with it all that joints tie to it.
+template <class Real>
+void push_along(WorldData<Real>& w, int place, int pusher, double fraction, double dt, int& long_searches) {
+  for_each_tied(w, place, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.carrier != kNone) return;
+    flight.go_along(w.scratch.flights[pusher], fraction, std::max(flight.time, fraction * dt));
+    show_way(w, flight);
+    look_ahead(w, tied, fraction, long_searches);
+    look_back(w, tied, fraction, long_searches);
+  });
 }
 
 // What was to meet next does so, unless either of both is on another way since.
@@ -273,12 +323,14 @@ template <class Real>
 void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches) {
   std::vector<Flight>& flights = w.scratch.flights;
   if (flights[next.flight].version != next.version) return;
-  Flight* other = flight_met(w, w.shapes[next.other].body);
+  const int other_body = w.shapes[next.other].body;
+  Flight* other = flight_met(w, other_body);
   Flight& flight = flights[next.flight];
   if (other != nullptr && other->version != next.other_version) {
     look_ahead(w, next.flight, next.fraction, long_searches);
     return;
   }
+  const int other_place = other == nullptr ? kNone : w.scratch.flight_places[other_body];
   if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, dt);
     if (!thrown) flight.yields = false;  // too slowly for that
@@ -286,21 +338,28 @@ void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches
     const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
     if (other_too) show_way(w, *other);
     look_ahead(w, next.flight, next.fraction, long_searches);
-    if (other_too)
-      look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction, long_searches);
+    if (other_too) look_ahead(w, other_place, next.fraction, long_searches);
     return;
   }
-  flight.stop(next.fraction, std::max(flight.time, next.fraction * dt));
+  const bool pushed = other != nullptr && !w.gives_way(other_body);
+  if (pushed && flight.carrier == kNone) {
+    push_along(w, next.flight, other_place, next.fraction, dt, long_searches);
+    return;
+  }
+  const int carrier = flight.carrier;
+  if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
+    // It pushes what it meets along in its turn.
+    push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, dt, long_searches);
+    look_ahead(w, next.flight, next.fraction, long_searches);
+    return;
+  }
+  stop_island(w, next.flight, next.fraction, dt, long_searches);
 }
 
 // One impact after the other, until the step ends.
 template <class Real>
 void fly_on(WorldData<Real>& w, double dt, int& long_searches) {
-  std::vector<Flight>& flights = w.scratch.flights;
   std::vector<Meeting>& meetings = w.scratch.meetings;
-  w.scratch.flight_places.assign(w.bodies.size(), kNone);
-  for (std::size_t i = 0; i < flights.size(); ++i)
-    w.scratch.flight_places[flights[i].body] = static_cast<int>(i);
   std::make_heap(meetings.begin(), meetings.end(), is_later);
   while (!meetings.empty()) {
     std::pop_heap(meetings.begin(), meetings.end(), is_later);
@@ -308,38 +367,120 @@ void fly_on(WorldData<Real>& w, double dt, int& long_searches) {
     meetings.pop_back();
     meet(w, next, dt, long_searches);
   }
-  w.scratch.flight_places.clear();
+}
+
+// What gives way and does not move far itself, on the way of a body that is moved as it is told, is looked at
+// as well.
+template <class Real>
+void meet_pushers(WorldData<Real>& w, int place, int& long_searches) {
+  const Flight pusher = w.scratch.flights[place];
+  const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
+    const int body = w.shapes[shape].body;
+    if (!pass_fast(w, body, pusher.body)) return;
+    const int met = flight_place(w, body);
+    const Way way(w.scratch.flights[met], 0, long_searches);
+    Meeting found{.flight = met, .version = way.flight.version};
+    note_meeting(w, way, {shape, other, contact}, found);
+    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+  };
+  if (pusher.covered) {
+    for_each_edge(w.contacts, w.bodies[pusher.body].first_contact,
+                  [&](int edge, const ContactRecord& contact) {
+                    const bool is_a = (edge & 1) == 0;
+                    note(is_a ? contact.shape_b : contact.shape_a, is_a ? contact.shape_a : contact.shape_b,
+                         constraint_in(w, contact));
+                  });
+    return;
+  }
+  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  pairs.clear();
+  const Aabb<Real> swept = way_of(w, pusher);
+  for (int shape = w.bodies[pusher.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
+    w.moving_tree.query(swept, mask, [&](int other, int) {
+      if (may_collide(w, shape, other)) pairs.emplace_back(other, shape);
+      return true;
+    });
+  }
+  for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
+}
+
+// The contacts that have given way so far that a core is near: they are looked at however slowly they do.
+template <class Real>
+void find_deep_contacts(WorldData<Real>& w) {
+  w.scratch.deep_contacts.clear();
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const Real depth = -std::min(c.now[0], c.now[1]);
+    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool a_yields = w.gives_way(c.body_a), b_yields = w.gives_way(c.body_b);
+    const Real limit =
+        (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
+    if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
+  });
+}
+
+// Of bodies that were stored anew where the solver has brought them, the way to there is not in the tree.
+template <class Real>
+void show_ways(WorldData<Real>& w) {
+  for (Flight& flight : w.scratch.flights)
+    if (!flight.shown && w.enlarged[flight.body]) show_way(w, flight);
+}
+
+template <class Real>
+void meet_deep_contacts(WorldData<Real>& w, int& long_searches) {
+  for (const int id : w.scratch.deep_contacts) {
+    const ContactRecord& contact = w.contacts[id];
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool is_a =
+        w.gives_way(contact.body_a) &&
+        (!w.gives_way(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
+    const int met = flight_place(w, is_a ? contact.body_a : contact.body_b);
+    const Way way(w.scratch.flights[met], 0, long_searches);
+    Meeting found{.flight = met, .version = way.flight.version};
+    const int shape = is_a ? contact.shape_a : contact.shape_b,
+              other = is_a ? contact.shape_b : contact.shape_a;
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, found);
+    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+  }
 }
 
 }  // namespace
 
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
-  if (w.scratch.fast_bodies.empty()) return;
+  find_deep_contacts(w);
+  if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
   std::vector<Flight>& flights = w.scratch.flights;
-  std::vector<Meeting>& meetings = w.scratch.meetings;
-  flights.clear(), meetings.clear();
+  flights.clear(), w.scratch.meetings.clear();
+  w.scratch.flight_places.assign(w.bodies.size(), kNone);
+  bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    flights.push_back(flight_of(w, fast.body));
-    flights.back().covered = fast.covered;
-    if (!fast.covered) show_way(w, flights.back());
+    flights[flight_place(w, fast.body)].covered = fast.covered;
+    all_covered = all_covered && fast.covered;
   }
+  for (Flight& flight : flights)
+    if (!flight.covered) show_way(w, flight);
+  if (!all_covered) show_ways(w);
   // All are found before any is moved, so that two fast bodies see each other's whole way.
-  bool rebounds = false;
   int long_searches = tuning::kLongSearches;
   ContactsAhead ahead;
-  for (std::size_t i = 0; i < flights.size(); ++i) {
+  const std::size_t fast_count = flights.size();
+  for (std::size_t i = 0; i < fast_count; ++i) {
     ahead.advance(w, i);
-    const Meeting first = first_meeting(w, static_cast<int>(i), 0, long_searches);
-    if (!(first.fraction < 1)) continue;
-    meetings.push_back(first);
-    rebounds = rebounds || may_rebound(w, first.shape, first.other);
+    const int place = static_cast<int>(i);
+    if (!w.gives_way(flights[i].body)) {
+      meet_pushers(w, place, long_searches);
+      continue;
+    }
+    const Meeting first = first_meeting(w, place, 0, long_searches);
+    if (first.fraction < 1) w.scratch.meetings.push_back(first);
   }
-  if (rebounds) {
+  meet_deep_contacts(w, long_searches);
+  if (!w.scratch.meetings.empty()) {
+    show_ways(w);
     fly_on(w, static_cast<double>(dt), long_searches);
-  } else {
-    for (const Meeting& at : meetings)
-      flights[at.flight].stop(at.fraction, at.fraction * static_cast<double>(dt));
   }
   for (const Flight& flight : flights) {
     if (flight.changed) {
@@ -347,8 +488,9 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
       for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
         refresh_box(w, shape, dt, Real(0));
     }
-    if (!flight.covered || flight.impacts > 0) hide_way(w, flight.body, dt);
+    if (flight.shown) hide_way(w, flight.body, dt);
   }
+  w.scratch.flight_places.clear();
 }
 
 template void stop_at_impacts(WorldData<float>&, float);

@@ -228,6 +228,7 @@ struct Scratch {
   CrowdRoom<Real> crowds;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;
+  std::vector<int> deep_contacts;  ///< that have given way until a core is near
   std::vector<Flight> flights;
   std::vector<Meeting> meetings;   ///< a heap, the first on top
   std::vector<int> flight_places;  ///< by body: its flight, while they are followed
