@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "engine/geometry/convex_bounds.h"
+#include "engine/geometry/convex_core.h"
 #include "engine/geometry/convex_mass.h"
 #include "engine/scene/room.h"
 #include "engine/world/bodies.h"
@@ -49,7 +50,7 @@ void update_extents(WorldData<Real>& w, int body) {
   Real extent = 0, half_width = record.first_shape == kNone ? Real(0) : std::numeric_limits<Real>::max();
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     extent = std::max(extent, convex_extent(w.convex(shape), Vec2<Real>{}));
-    half_width = std::min(half_width, convex_half_width(w.convex(shape)));
+    half_width = std::min(half_width, convex_passing_width(w.convex(shape)));
   }
   w.extents[body] = extent;
   record.half_width = half_width;
@@ -165,7 +166,7 @@ void grow_extents(WorldData<Real>& w, int body, int shape) {
   BodyRecord<Real>& record = w.bodies[body];
   w.extents[body] = std::max(w.extents[body], convex_extent(w.convex(shape), Vec2<Real>{}));
   if (is_unsettled(w, body)) return;
-  const Real half_width = convex_half_width(w.convex(shape));
+  const Real half_width = convex_passing_width(w.convex(shape));
   const bool alone = record.first_shape == shape && w.shapes[shape].next == kNone;
   record.half_width = alone ? half_width : std::min(record.half_width, half_width);
 }
