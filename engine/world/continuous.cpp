@@ -38,9 +38,9 @@ struct Core {
 // What is left of a body's motion at a fraction of this step, seen from `origin`. The rotation is that of the
 // step's end, turned back.
 template <class Real>
-Sweep<double> sweep_of(const WorldData<Real>& w, int body, double from, Vec2d origin) {
+Sweep<double> sweep_of(const WorldData<Real>& w, int body, double from, Vec2d origin, double dt) {
   if (const Flight* flight = flight_in(w, body)) return flight->sweep(from, origin);
-  return flight_of(w, body).sweep(from, origin);
+  return flight_of(w, body, dt).sweep(from, origin);
 }
 
 template <class Real>
@@ -62,14 +62,15 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
 
 // The rest of a fast body's way, seen from where it starts.
 struct Way {
-  Way(const Flight& flight_, double from_, int& long_searches_)
+  Way(const Flight& flight_, double from_, double dt_, int& long_searches_)
       : flight(flight_),
         from(from_),
+        dt(dt_),
         origin(flight_.start_at(from_)),
         sweep(flight_.sweep(from_, origin)),
         long_searches(long_searches_) {}
   const Flight& flight;
-  double from;
+  double from, dt;  // of the step, the latter in s
   Vec2d origin;
   Sweep<double> sweep;
   int& long_searches;  // iterations left to all of the step, see kLongSearches
@@ -83,17 +84,27 @@ Real core_share(const WorldData<Real>& w, int shape, int other) {
   return 1 - Real(tuning::kGraze) * std::min(b.radius / a.radius, Real(1));
 }
 
+// How near a flight is brought to what throws it back, m: as near as roundings can tell.
+template <class Real>
+Real rebound_tolerance(const WorldData<Real>& w, const Way& way, int other, const Sweep<double>& other_sweep) {
+  const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
+  const double bodies = static_cast<double>(w.extents[way.flight.body] + w.extents[w.shapes[other].body]);
+  const double ways = size(other_sweep.start) + size(other_sweep.motion) + size(way.sweep.motion) +
+                      bodies * (std::abs(way.sweep.turn) + std::abs(other_sweep.turn));
+  return static_cast<Real>(tuning::kReboundTolerance * (bodies + ways));
+}
+
 // The fraction of the step at which `shape` of a fast body meets `other`; 1 when it does not.
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, int other) {
-  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.from, way.origin);
+  const Sweep<double> other_sweep = sweep_of(w, w.shapes[other].body, way.from, way.origin, way.dt);
   if (w.forms[other].chain && !in_front(w, other, way.sweep.start, other_sweep)) return 1;
   const Convex<Real> whole = w.convex(shape), obstacle = w.convex(other);
   using Result = ImpactResult<Real>;
   const Real smaller = std::min(w.forms[shape].extent, w.forms[other].extent);
   const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
-  const auto meet = [&](const Convex<Real>& moving) {
-    const Result found = time_of_impact(obstacle, other_sweep, moving, way.sweep, tolerance, tolerance,
+  const auto meet = [&](const Convex<Real>& moving, Real near) {
+    const Result found = time_of_impact(obstacle, other_sweep, moving, way.sweep, near, near,
                                         tuning::kImpactIterations + way.long_searches);
     way.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
     return found;
@@ -101,17 +112,15 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, i
   const auto fraction = [&](const Result& result) {
     return way.from + result.exact_fraction * (1 - way.from);
   };
-  const bool flies_on = way.flight.impacts > 0;
   if (way.flight.yields && may_rebound(w, shape, other)) {
-    const Result first = meet(whole);
+    const Result first = meet(whole, rebound_tolerance(w, way, other, other_sweep));
     if (first.state == Result::State::Separated) return 1;
-    if (first.state != Result::State::Overlapped && (first.exact_fraction > 0 || flies_on))
-      return fraction(first);
+    if (first.state != Result::State::Overlapped) return fraction(first);
   }
   const Core<Real> core(whole, core_share(w, shape, other));
-  const Result through = meet(core.convex);
+  const Result through = meet(core.convex, tolerance);
   if (through.state == Result::State::Separated || through.state == Result::State::Overlapped) return 1;
-  const Result first = meet(whole);
+  const Result first = meet(whole, tolerance);
   // Shapes that touched at the start are held by their contact until the core comes too near.
   return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? fraction(through)
                                                                                : fraction(first);
@@ -133,8 +142,9 @@ bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
   const Vec2<Real> start = flight.start.template as<Real>(),
-                   end = (flight.start + flight.way).template as<Real>();
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body]);
+                   end = flight.end().template as<Real>();
+  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + aside);
 }
 
 // Takes the sooner one.
@@ -151,7 +161,7 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     if (contact.home == ContactHome::Graph) return;  // the solver has seen to it
     const bool is_a = (edge & 1) == 0;
-    if (!pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    if (!way.flight.expected && !pass_fast(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     if (!w.forms[shape].chain) note_meeting(w, way, shape, other, first);
@@ -162,15 +172,15 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
 template <class Real>
 void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
-  const bool flies_on = way.flight.impacts > 0;
+  const bool flies_on = way.flight.impacts > 0, near = way.flight.expected || flies_on;
   const Aabb<Real> swept = way_of(w, way.flight);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || w.forms[shape].chain || mask == 0) continue;
     const auto visit = [&](int other, int) {
       if (!may_collide(w, shape, other)) return true;
-      if (!flies_on && (!pass_fast(w, body, w.shapes[other].body) || was_solved(w, body, shape, other)))
-        return true;
+      if (!near && !pass_fast(w, body, w.shapes[other].body)) return true;
+      if (!flies_on && was_solved(w, body, shape, other)) return true;
       note_meeting(w, way, shape, other, first);
       return true;
     };
@@ -204,11 +214,11 @@ class ContactsAhead {
 
 // What a flight meets first from a fraction of the step on.
 template <class Real>
-Meeting first_meeting(const WorldData<Real>& w, int place, double from, int& long_searches) {
+Meeting first_meeting(const WorldData<Real>& w, int place, double from, double dt, int& long_searches) {
   const Flight& flight = w.scratch.flights[place];
   Meeting first{.flight = place, .version = flight.version};
   if (!w.gives_way(flight.body)) return first;
-  const Way way(flight, from, long_searches);
+  const Way way(flight, from, dt, long_searches);
   if (flight.covered && flight.impacts == 0) {
     meet_pairs(w, way, first);
   } else {
@@ -249,8 +259,8 @@ bool is_later(const Meeting& a, const Meeting& b) {
 }
 
 template <class Real>
-void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) {
-  const Meeting next = first_meeting(w, place, from, long_searches);
+void look_ahead(WorldData<Real>& w, int place, double from, double dt, int& long_searches) {
+  const Meeting next = first_meeting(w, place, from, dt, long_searches);
   if (!(next.fraction < 1)) return;
   w.scratch.meetings.push_back(next);
   std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
@@ -258,12 +268,12 @@ void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) 
 
 // The flight of what is met; null when that does not move.
 template <class Real>
-Flight* flight_met(WorldData<Real>& w, int body) {
+Flight* flight_met(WorldData<Real>& w, int body, double dt) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
   int& place = w.scratch.flight_places[body];
   if (place == kNone) {
     place = static_cast<int>(w.scratch.flights.size());
-    w.scratch.flights.push_back(flight_of(w, body));
+    w.scratch.flights.push_back(flight_of(w, body, dt));
   }
   return &w.scratch.flights[place];
 }
@@ -273,24 +283,24 @@ template <class Real>
 void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches) {
   std::vector<Flight>& flights = w.scratch.flights;
   if (flights[next.flight].version != next.version) return;
-  Flight* other = flight_met(w, w.shapes[next.other].body);
+  Flight* other = flight_met(w, w.shapes[next.other].body, dt);
   Flight& flight = flights[next.flight];
   if (other != nullptr && other->version != next.other_version) {
-    look_ahead(w, next.flight, next.fraction, long_searches);
+    look_ahead(w, next.flight, next.fraction, dt, long_searches);
     return;
   }
   if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, dt);
-    if (!thrown) flight.yields = false;  // too slowly for that
+    if (!thrown) flight.yields = false;  // they do not approach
     if (thrown) show_way(w, flight);
     const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
     if (other_too) show_way(w, *other);
-    look_ahead(w, next.flight, next.fraction, long_searches);
+    look_ahead(w, next.flight, next.fraction, dt, long_searches);
     if (other_too)
-      look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction, long_searches);
+      look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction, dt, long_searches);
     return;
   }
-  flight.stop(next.fraction, std::max(flight.time, next.fraction * dt));
+  flight.stop(next.fraction);
 }
 
 // One impact after the other, until the step ends.
@@ -316,12 +326,14 @@ void fly_on(WorldData<Real>& w, double dt, int& long_searches) {
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
   if (w.scratch.fast_bodies.empty()) return;
+  const double time = static_cast<double>(dt);
   std::vector<Flight>& flights = w.scratch.flights;
   std::vector<Meeting>& meetings = w.scratch.meetings;
   flights.clear(), meetings.clear();
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    flights.push_back(flight_of(w, fast.body));
-    flights.back().covered = fast.covered;
+    if (!w.settings.continuous && !fast.expected) continue;
+    flights.push_back(flight_of(w, fast.body, time));
+    flights.back().covered = fast.covered, flights.back().expected = fast.expected;
     if (!fast.covered) show_way(w, flights.back());
   }
   // All are found before any is moved, so that two fast bodies see each other's whole way.
@@ -330,20 +342,19 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
   ContactsAhead ahead;
   for (std::size_t i = 0; i < flights.size(); ++i) {
     ahead.advance(w, i);
-    const Meeting first = first_meeting(w, static_cast<int>(i), 0, long_searches);
+    const Meeting first = first_meeting(w, static_cast<int>(i), 0, time, long_searches);
     if (!(first.fraction < 1)) continue;
     meetings.push_back(first);
     rebounds = rebounds || may_rebound(w, first.shape, first.other);
   }
   if (rebounds) {
-    fly_on(w, static_cast<double>(dt), long_searches);
+    fly_on(w, time, long_searches);
   } else {
-    for (const Meeting& at : meetings)
-      flights[at.flight].stop(at.fraction, at.fraction * static_cast<double>(dt));
+    for (const Meeting& at : meetings) flights[at.flight].stop(at.fraction);
   }
   for (const Flight& flight : flights) {
     if (flight.changed) {
-      land(w, flight, static_cast<double>(dt));
+      land(w, flight);
       for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
         refresh_box(w, shape, dt, Real(0));
     }

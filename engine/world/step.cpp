@@ -29,11 +29,11 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   const Stepping<Real> stepping(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
   find_pairs(w);
-  update_contacts(w, static_cast<Real>(dt));
+  update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h));
   solve_motion(w, h, substeps);
   report_impacts(w);
   finish_motion(w, static_cast<Real>(dt));
-  if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
+  stop_at_impacts(w, static_cast<Real>(dt));
   break_joints(w, h);
   update_sensors(w);
   sleep_islands(w);
