@@ -186,7 +186,8 @@ double Approach<Real>::safe_step(double separation, double remaining, double axi
   }
   // Many corners in turn: the plain bound, with the speed of the fastest point of either.
   const double gap = hulls_.separation - radius_ - separation;
-  const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
+  const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach +
+                         std::abs(b_.turn) * b_.reach;
   return gap > 0 && fastest > 0 ? std::min(gap / fastest, remaining) : 0;
 }
 

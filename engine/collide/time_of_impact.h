@@ -5,9 +5,10 @@
 
 namespace plumb {
 
-/// Gives a body's motion during an interval, with time as the fraction 0 .. 1 of it: at start + fraction motion
-/// + fraction^2 curve, turned from its start by fraction turn. Shapes stand in the body's frame, whose origin is
-/// what moves along the parabola: the centre of mass.
+/// Gives a body's motion during an interval, with time as the fraction 0 .. 1 of it: at start + fraction
+/// motion
+/// + fraction^2 curve, turned from its start by fraction turn. Shapes stand in the body's frame, whose origin
+/// is what moves along the parabola: the centre of mass.
 template <class Real>
 struct Sweep {
   Vec2<Real> start{}, motion{};     ///< m

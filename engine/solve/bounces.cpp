@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-
 namespace plumb {
 namespace {
 
@@ -107,7 +106,7 @@ void let_pass(std::vector<Bounce<Real>>& bounces) {
 }
 
 template <class Real>
-void bounce_velocities(BodyMotion<Real>*, std::vector<Bounce<Real>>& bounces) {
+void hold_again(std::vector<Bounce<Real>>& bounces) {
   for (Bounce<Real>& bounce : bounces) {
     if (!bounce.passes) continue;
     bounce.passes = false;
@@ -115,14 +114,14 @@ void bounce_velocities(BodyMotion<Real>*, std::vector<Bounce<Real>>& bounces) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                                        \
-  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                       \
-                                const ContactStep<Real>&);                                                 \
-  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                         \
-                              const ContactStep<Real>&);                                                   \
-  template void let_pass(std::vector<Bounce<Real>>&);                                                      \
-  template void bounce_velocities(BodyMotion<Real>*, std::vector<Bounce<Real>>&);
+#define PLUMB_FOR(Real)                                                              \
+  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                  \
+  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&, \
+                                const ContactStep<Real>&);                           \
+  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,   \
+                              const ContactStep<Real>&);                             \
+  template void let_pass(std::vector<Bounce<Real>>&);                                \
+  template void hold_again(std::vector<Bounce<Real>>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

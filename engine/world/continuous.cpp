@@ -86,7 +86,8 @@ Real core_share(const WorldData<Real>& w, int shape, int other) {
 
 // How near a flight is brought to what throws it back, m: as near as roundings can tell.
 template <class Real>
-Real rebound_tolerance(const WorldData<Real>& w, const Way& way, int other, const Sweep<double>& other_sweep) {
+Real rebound_tolerance(const WorldData<Real>& w, const Way& way, int other,
+                       const Sweep<double>& other_sweep) {
   const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
   const double bodies = static_cast<double>(w.extents[way.flight.body] + w.extents[w.shapes[other].body]);
   const double ways = size(other_sweep.start) + size(other_sweep.motion) + size(way.sweep.motion) +
@@ -141,8 +142,7 @@ bool was_solved(const WorldData<Real>& w, int body, int shape, int other) {
 // A box around all that the body covers for the rest of its way.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
-  const Vec2<Real> start = flight.start.template as<Real>(),
-                   end = flight.end().template as<Real>();
+  const Vec2<Real> start = flight.start.template as<Real>(), end = flight.end().template as<Real>();
   const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
   return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + aside);
 }
@@ -300,6 +300,9 @@ void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches
       look_ahead(w, w.scratch.flight_places[w.shapes[next.other].body], next.fraction, dt, long_searches);
     return;
   }
+  // Whoever pushes it on waits too.
+  if (flight.impacts >= tuning::kImpactsInFlight && other != nullptr && w.gives_way(other->body))
+    other->stop(next.fraction);
   flight.stop(next.fraction);
 }
 

@@ -57,24 +57,29 @@ Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double 
           dt * static_cast<double>(motion.angular_velocity), curve};
 }
 
-// Whether a point's plane may be crossed by the step's end, on ways of `closed` and so many turns. What touches as
-// good as already crosses it by more than a manifold is carried on for, or rests.
+// Whether a point's plane may be crossed by the step's end, on ways of `closed` and so many turns. What
+// touches as good as already crosses it by more than a manifold is carried on for, or rests.
 template <class Real>
 bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
              Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
   const Real touching = Real(tuning::kManifoldTravel) * smaller;
   const Rotation<Real> q = w.rotation[contact.body_a];
   const Vec2<Real> n = q * manifold.normal;
-  const Vec2<Real> between =
-      (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
   // A point that turns leaves its tangent by no more than this.
-  const Real bend = Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] +
-                                 turn_b * turn_b * w.extents[contact.body_b]);
+  const Real bend =
+      Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] + turn_b * turn_b * w.extents[contact.body_b]);
+  // Manifolds leave out what is farther than a way that is cut off: of what moves more, any point may come
+  // first.
+  const Real turned =
+      std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
+  const bool any_point =
+      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kContactReachMost) * smaller;
   for (int i = 0; i < manifold.count; ++i) {
     const Vec2<Real> arm = q * manifold.points[i].point;
     const Real open = manifold.points[i].separation;
-    const Real end =
-        open + dot(n, closed) + cross(arm - between, n) * turn_b - cross(arm, n) * turn_a;
+    const Real turning = any_point ? -turned : cross(arm - between, n) * turn_b - cross(arm, n) * turn_a;
+    const Real end = open + dot(n, closed) + turning;
     if (end < (open > touching ? bend : -touching)) return true;
   }
   return false;
@@ -95,8 +100,8 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
 }
 
 template <class Real>
-ContactManifold<Real> collide_at(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
-                                 Real reach) {
+ContactManifold<Real> collide_at(const WorldData<Real>& w, const ContactRecord& contact,
+                                 const Pose<Real>& b_in_a, Real reach) {
   const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
   if (!w.forms[contact.shape_a].chain) return collide_convex(shape_a, shape_b, b_in_a, reach);
   const Corner<Real>* chain = shape_a.corners;
@@ -105,8 +110,9 @@ ContactManifold<Real> collide_at(const WorldData<Real>& w, const ContactRecord& 
 
 // The manifold at a fraction of the step.
 template <class Real>
-Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact, const Sweep<double>& way_a,
-                             const Sweep<double>& way_b, double fraction, Real smaller, double dt) {
+Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
+                             const Sweep<double>& way_a, const Sweep<double>& way_b, double fraction,
+                             Real smaller, double dt) {
   const Pose<double> at_a = pose_at(way_a, fraction), at_b = pose_at(way_b, fraction);
   const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
   const Vec2d between = at_b.position - at_a.position;
@@ -122,7 +128,8 @@ Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& cont
   at.rotation = rounded(at_a.rotation);
   at.between = between.template as<Real>();
   at.closed = (between - (way_b.start - way_a.start)).template as<Real>();
-  at.turned_a = static_cast<Real>(fraction * way_a.turn), at.turned_b = static_cast<Real>(fraction * way_b.turn);
+  at.turned_a = static_cast<Real>(fraction * way_a.turn),
+  at.turned_b = static_cast<Real>(fraction * way_b.turn);
   const auto velocity = [&](const Sweep<double>& way) { return way.motion + (2 * fraction) * way.curve; };
   at.velocity = ((1 / dt) * (velocity(way_b) - velocity(way_a))).template as<Real>();
   return at;
@@ -137,9 +144,10 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
   for (int i = 0; i < closest.count; ++i)
-    if (!(closest.points[i].separation > 0)) return {};
+    if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
   const double time = static_cast<double>(dt);
-  const Sweep<double> way_a = sweep_of(w, a, w.position[a], time), way_b = sweep_of(w, b, w.position[a], time);
+  const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),
+                      way_b = sweep_of(w, b, w.position[a], time);
   if (closest.count > 0) {
     const double ahead = 1 + static_cast<double>(substep) / time;
     const auto way = [&](const Sweep<double>& sweep) { return ahead * (sweep.motion + ahead * sweep.curve); };

@@ -26,14 +26,14 @@ struct Encounter {
   Vec2<Real> velocity{};             ///< m/s, of b's centre of mass as a's sees it, there
 };
 
-/// Looks where two shapes, whose points now are `closest`, are going to touch. A plane through the closest points
-/// is a guess: what passes a corner closely would be deflected by it, and what turns on its way strikes
-/// elsewhere. So a plane that is going to be crossed is one where the shapes meet, or none.
+/// Looks where two shapes, whose points now are `closest`, are going to touch. A plane through the closest
+/// points is a guess: what passes a corner closely would be deflected by it, and what turns on its way
+/// strikes elsewhere. So a plane that is going to be crossed is one where the shapes meet, or none.
 ///
-/// Shapes without points are searched when they come nearer to each other in a step than a plane can be guessed
-/// from, by more than the smaller one's extent (half of it, when they bounce), and neither body is fast for its
-/// own size: small ones would be deep in the other before they had a contact. Fast ones are stopped on their way
-/// (continuous.cpp).
+/// Shapes without points are searched when they come nearer to each other in a step than a plane can be
+/// guessed from, by more than the smaller one's extent (half of it, when they bounce), and neither body is
+/// fast for its own size: small ones would be deep in the other before they had a contact. Fast ones are
+/// stopped on their way (continuous.cpp).
 ///
 /// Solvers look a substep ahead: planes count that would be crossed within one of these after the step.
 ///

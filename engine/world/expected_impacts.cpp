@@ -6,6 +6,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
 #include "engine/world/free_motion.h"
+#include "engine/world/narrow_phase.h"
 
 namespace plumb {
 namespace {
@@ -21,8 +22,9 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
 template <class Real>
 bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const Real near = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  const Real rounding = rounding_between(w, c.body_a, c.body_b);
   for (int i = 0; i < c.count; ++i) {
-    if (c.normal_impulse[i] > 0 || !(c.separation[i] > 0)) return true;
+    if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
     if (c.separation[i] <= near && !(rate_of(w, c, i) > 0)) return true;
   }
   return false;
@@ -68,8 +70,9 @@ bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const E
                  const ContactConstraint<Real>& c, Real dt) {
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;
-  const Real nearest = c.count == 2 ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
-                                    : at.manifold.points[0].separation;
+  const Real nearest = c.count == 2
+                           ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
+                           : at.manifold.points[0].separation;
   const Real smaller = c.push_speed / Real(tuning::kPushSpeed);
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   for (int i = 0; i < c.count; ++i) {
@@ -111,11 +114,11 @@ void decide_expected_impacts(WorldData<Real>& w) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                       \
-  template void clear_expected_impacts(WorldData<Real>&);                                                     \
-  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const Encounter<Real>&,             \
-                            const ContactConstraint<Real>&, Real);                                            \
-  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                               \
+#define PLUMB_FOR(Real)                                                                           \
+  template void clear_expected_impacts(WorldData<Real>&);                                         \
+  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const Encounter<Real>&, \
+                            const ContactConstraint<Real>&, Real);                                \
+  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                   \
   template void decide_expected_impacts(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -19,9 +19,9 @@ bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const E
 template <class Real>
 void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c);
 
-/// Decides about the expected impacts. Those of bodies that nothing else holds, nor those that they meet, are left
-/// to free flight: their contacts have no points in this step, and the bodies are thrown back at the time of the
-/// impact (continuous.cpp). All others are marked as left to the solver.
+/// Decides about the expected impacts. Those of bodies that nothing else holds, nor those that they meet, are
+/// left to free flight: their contacts have no points in this step, and the bodies are thrown back at the
+/// time of the impact (continuous.cpp). All others are marked as left to the solver.
 template <class Real>
 void decide_expected_impacts(WorldData<Real>& w);
 

@@ -5,8 +5,8 @@
 
 namespace plumb {
 
-/// How a body moves from some place within the step to its end: on a parabola where nothing but constant forces
-/// acts on it, else straight, and turning evenly.
+/// How a body moves from some place within the step to its end: on a parabola where nothing but constant
+/// forces acts on it, else straight, and turning evenly.
 struct Flight {
   int body = -1;
   bool covered = false;   ///< see FastBody

@@ -183,9 +183,9 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
   template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
   template void integrate_velocities(WorldData<Real>&);                   \
   template void repeat_velocities(WorldData<Real>&);                      \
-  template void integrate_positions(WorldData<Real>&, Real, FreeFlight);              \
+  template void integrate_positions(WorldData<Real>&, Real, FreeFlight);  \
   template void hold_locks(WorldData<Real>&);                             \
-  template Vec2d free_acceleration(const WorldData<Real>&, int);            \
+  template Vec2d free_acceleration(const WorldData<Real>&, int);          \
   template Real bounce_threshold(const WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -10,8 +10,8 @@
 #include "engine/world/contacts.h"
 #include "engine/world/encounter.h"
 #include "engine/world/expected_impacts.h"
-#include "engine/world/narrow_phase.h"
 #include "engine/world/islands.h"
+#include "engine/world/narrow_phase.h"
 #include "engine/world/step.h"
 
 namespace plumb {

@@ -26,7 +26,8 @@ bool is_free(const WorldData<Real>& w, int body) {
     if (contact.home != ContactHome::Graph) return;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
     for (int i = 0; i < c.count; ++i)
-      presses = presses || c.normal_impulse[i] > 0 || c.peak_impulse[i] > 0 || !(c.separation[i] > 0);
+      presses = presses || c.normal_impulse[i] > 0 || c.peak_impulse[i] > 0 ||
+                !(c.separation[i] > -rounding_between(w, c.body_a, c.body_b));
   });
   return !presses;
 }
@@ -77,8 +78,8 @@ void set_velocity(WorldData<Real>& w, const Flight& flight, double fraction) {
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-// Newton's and Coulomb's laws together at one point: the friction of an impact off the centre changes the normal
-// velocity too. Where that would gain energy, or slide back, nothing happens, and false is returned.
+// Newton's and Coulomb's laws together at one point: the friction of an impact off the centre changes the
+// normal velocity too. Where that would gain energy, or slide back, nothing happens, and false is returned.
 template <class Real>
 bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
   const ContactConstraint<Real>& c = pair.c;
@@ -111,14 +112,15 @@ bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
 enum class Throw { None, Slide, Bounce };  // nothing approaches; nothing does so fast enough to bounce
 
 // Throws two bodies back: Newton's law at the points that touch, with friction. Impulses of the normals alone
-// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0, and friction that does no more than stop what
-// slides takes some too: none is ever gained.
+// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0, and friction that does no more than stop
+// what slides takes some too: none is ever gained.
 template <class Real>
 Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
   // Gaps that rounding leaves: points that cannot be told apart in time are struck at once.
-  const Real rounding = Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
+  const Real rounding =
+      Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
   bool strikes[2] = {}, fast = false;
   Real wanted[2] = {};
@@ -199,8 +201,7 @@ bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, dou
   ContactConstraint<Real> c = constraint_between(w, contact);
   // A cascade that takes energy each time comes to its end.
   const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
-  const Throw thrown =
-      c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
   if (thrown != Throw::None) report(w, contact, c);
   const Vec2d normal = c.normal.template as<double>();
   const auto go_on = [&](Flight* flight, Kept<Real>& kept) {

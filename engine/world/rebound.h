@@ -21,9 +21,10 @@ const Flight* flight_in(const WorldData<Real>& w, int body) {
 template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other);
 
-/// Resolves an impact in flight: `a`, with its `shape`, and `b` (none: what does not move), with its `other`, go on
-/// from a fraction of the step with the velocities that Newton's and Coulomb's laws give them. What comes too
-/// slowly to bounce slides on along the surface. False, and nothing happens, when they do not approach.
+/// Resolves an impact in flight: `a`, with its `shape`, and `b` (none: what does not move), with its `other`,
+/// go on from a fraction of the step with the velocities that Newton's and Coulomb's laws give them. What
+/// comes too slowly to bounce slides on along the surface. False, and nothing happens, when they do not
+/// approach.
 template <class Real>
 bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt);
 

@@ -94,7 +94,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, joints, false);
     relax_contacts(bodies.motion, w.graph, contacts);
-    bounce_velocities(bodies.motion, w.scratch.bounces);
+    hold_again(w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }
   finish_direct_islands(w);

@@ -155,8 +155,8 @@ struct Kick {
   Real spin_before = 0;          ///< rad/s
 };
 
-/// A body whose way in a step is searched for impacts: it moved far for its size, or an impact that bounces is
-/// `expected`. `covered`: its stored boxes held it all the way, so that it can only have met what it has a
+/// A body whose way in a step is searched for impacts: it moved far for its size, or an impact that bounces
+/// is `expected`. `covered`: its stored boxes held it all the way, so that it can only have met what it has a
 /// contact with.
 struct FastBody {
   int body = 0;

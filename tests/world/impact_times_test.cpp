@@ -10,8 +10,8 @@
 
 #include "tests/world/support.h"
 
-// Impacts of bodies that nothing else holds have their time within the step, for every shape: held against flights
-// that are computed corner by corner, and against what impacts keep.
+// Impacts of bodies that nothing else holds have their time within the step, for every shape: held against
+// flights that are computed corner by corner, and against what impacts keep.
 namespace plumb {
 namespace {
 
@@ -25,16 +25,18 @@ int cases(int usual) {
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}
-  double operator()(double a, double b) { return a + (b - a) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+  double operator()(double a, double b) {
+    return a + (b - a) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
 
  private:
   std::mt19937_64 random_;
 };
 
-// A body with rounded corners above a plane at y = 0, that flies and bounces without friction. The truth: free
-// flight is a parabola and an even turn; the lowest corner strikes with J = (1 + e) m c / (1 + m x^2 / I), x its
-// distance from the centre along the plane.
+// A body with rounded corners above a plane at y = 0, that flies and bounces without friction. The truth:
+// free flight is a parabola and an even turn; the lowest corner strikes with J = (1 + e) m c / (1 + m x^2 /
+// I), x its distance from the centre along the plane.
 struct Flyer {
   std::vector<Vec2d> corners;  // about the centre of mass
   double radius = 0, mass = 1, inertia = 1, restitution = 1, gravity = kGravity;
@@ -53,9 +55,7 @@ struct Flyer {
     }
     return y + t * (vy - 0.5 * gravity * t) + least - radius;
   }
-  void go_on(double t) {
-    y += t * (vy - 0.5 * gravity * t), vy -= gravity * t, angle += spin * t;
-  }
+  void go_on(double t) { y += t * (vy - 0.5 * gravity * t), vy -= gravity * t, angle += spin * t; }
   void strike() {
     int corner = 0;
     const double least = height(0, &corner);
@@ -107,7 +107,8 @@ Form any_form(Draw& draw) {
       // An even number of corners: its middle is the centre of mass.
       std::vector<Vec2d> corners;
       for (int i = 0; i < 6; ++i)
-        corners.push_back(0.5 * w * Vec2d{std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976)});
+        corners.push_back(0.5 * w *
+                          Vec2d{std::cos(i * 1.0471975511965976), std::sin(i * 1.0471975511965976)});
       return {Polygon{corners}, corners};
     }
   }
@@ -120,23 +121,26 @@ void bounce(Draw draw, int round) {
   // Shapes keep it in float.
   const double e = draw.below(2) == 0 ? 1 : static_cast<double>(static_cast<float>(draw(0.2, 1)));
   const Form form = any_form(draw);
-  world.create_body({.type = BodyType::Static},
-                    {.geometry = Box{400, 2}, .position = {0, -1}, .material = {.friction = 0, .restitution = e}});
+  world.create_body(
+      {.type = BodyType::Static},
+      {.geometry = Box{20, 2}, .position = {0, -1}, .material = {.friction = 0, .restitution = e}});
   truth.angle = draw(-3, 3), truth.spin = draw(-10, 10), truth.vy = -draw(2, 30);
   truth.corners = form.corners, truth.radius = form.radius, truth.restitution = e;
-  truth.y = 0, truth.y = -truth.height(0) + draw(0.005, 0.5);
-  const BodyId body = world.create_body({.position = {0, truth.y},
-                                         .angle = truth.angle,
-                                         .velocity = {draw(-5, 5), truth.vy},
-                                         .angular_velocity = truth.spin},
-                                        {.geometry = form.geometry, .material = {.friction = 0, .restitution = e}});
+  // What is put into the world has no look ahead in its first step.
+  truth.y = 0, truth.y = -truth.height(0) + draw(0.005, 0.5) - 2 * kStep * truth.vy;
+  const BodyId body =
+      world.create_body({.position = {0, truth.y},
+                         .angle = truth.angle,
+                         .velocity = {draw(-5, 5), truth.vy},
+                         .angular_velocity = truth.spin},
+                        {.geometry = form.geometry, .material = {.friction = 0, .restitution = e}});
   truth.mass = world.mass(body), truth.inertia = world.inertia(body);
   const bool exact = std::is_same_v<Real, double>;
-  for (int step = 0; step < 6; ++step) {
+  for (int step = 0; step < 8; ++step) {
     const double before = truth.energy();
     truth.advance(kStep), world.step();
-    // Slow ones do not bounce, corners that strike as good as at once are one impact, and from impact to impact
-    // differences grow.
+    // Slow ones do not bounce, corners that strike as good as at once are one impact, and from impact to
+    // impact differences grow.
     if (truth.slowest < 0.7 || truth.closest < 1e-3 || truth.impacts > 3) return;
     const double allowed = exact ? 1e-10 : 1e-4;
     ASSERT_NEAR(world.position(body).y, truth.y, allowed) << round << ", step " << step;
@@ -163,11 +167,12 @@ void bounce_off_a_corner(double allowed) {
   BasicWorld<Real> world;
   world.create_body({.type = BodyType::Static, .position = {0, -1}},
                     {.geometry = Box{400, 2}, .material = {.friction = 0, .restitution = 1}});
-  const BodyId box = world.create_body({.position = {0, 0.282923258},
-                                        .angle = -0.0756134222,
-                                        .velocity = {0, -7.24376583},
-                                        .angular_velocity = -2.48019409},
-                                       {.geometry = Box{1, 0.4}, .density = 1, .material = {.friction = 0, .restitution = 1}});
+  const BodyId box = world.create_body(
+      {.position = {0, 0.282923258},
+       .angle = -0.0756134222,
+       .velocity = {0, -7.24376583},
+       .angular_velocity = -2.48019409},
+      {.geometry = Box{1, 0.4}, .density = 1, .material = {.friction = 0, .restitution = 1}});
   const auto energy = [&] {
     const double spin = world.angular_velocity(box);
     return world.mass(box) * (0.5 * length_squared(world.velocity(box)) + kGravity * world.position(box).y) +
@@ -198,23 +203,32 @@ void collide(Draw draw, int round) {
     const double spin = draw.below(3) == 0 ? 0 : draw(-50, 50);
     const Form form = any_form(draw);
     const double density = std::exp(draw(std::log(0.1), std::log(10)));
-    const BodyId body = world.create_body(
-        {.type = type, .position = at, .angle = draw(-3, 3), .velocity = velocity, .angular_velocity = type == BodyType::Dynamic ? spin : 0},
-        {.geometry = form.geometry, .density = density, .material = material});
+    const BodyId body =
+        world.create_body({.type = type,
+                           .position = at,
+                           .angle = draw(-3, 3),
+                           .velocity = velocity,
+                           .angular_velocity = type == BodyType::Dynamic ? spin : 0},
+                          {.geometry = form.geometry, .density = density, .material = material});
     if (draw.below(3) == 0)
-      world.create_shape(body, {.geometry = Circle{draw(0.1, 0.4)}, .position = {draw(-0.6, 0.6), draw(-0.6, 0.6)}, .density = density, .material = material});
+      world.create_shape(body, {.geometry = Circle{draw(0.1, 0.4)},
+                                .position = {draw(-0.6, 0.6), draw(-0.6, 0.6)},
+                                .density = density,
+                                .material = material});
     return body;
   };
   const int kind = draw.below(3);
   const BodyId a = add({-2.5, 0}, {0.5 * speed, 0}, BodyType::Dynamic);
-  const BodyId b = add({2.5, draw(-0.8, 0.8)}, {kind == 0 ? -0.5 * speed : 0, 0}, kind == 0 ? BodyType::Dynamic : BodyType::Static);
+  const BodyId b = add({2.5, draw(-0.8, 0.8)}, {kind == 0 ? -0.5 * speed : 0, 0},
+                       kind == 0 ? BodyType::Dynamic : BodyType::Static);
   const auto energy = [&] {
     double sum = 0;
     for (const BodyId body : {a, b}) {
       if (world.type(body) != BodyType::Dynamic) continue;
       const double spin = world.angular_velocity(body);
-      sum += world.mass(body) * (0.5 * length_squared(world.velocity(body)) - gravity * world.centre(body).y) +
-             0.5 * world.inertia(body) * spin * spin;
+      sum +=
+          world.mass(body) * (0.5 * length_squared(world.velocity(body)) - gravity * world.centre(body).y) +
+          0.5 * world.inertia(body) * spin * spin;
     }
     return sum;
   };
@@ -225,7 +239,10 @@ void collide(Draw draw, int round) {
   for (int step = 0; step < steps; ++step) {
     world.step();
     const double now = energy();
-    ASSERT_LE(now, last + rounding * first) << round << ", step " << step << ", " << speed << " m/s, e " << e;
+    // Overlaps of what has come to rest dissolve: a thousandth of a metre of height.
+    const double lifted = 1e-3 * world.mass(a) * -gravity;
+    ASSERT_LE(now, last + rounding * first + lifted)
+        << round << ", step " << step << ", " << speed << " m/s, e " << e;
     if (e == 1 && material.friction == 0 && gravity == 0) {
       ASSERT_NEAR(now, last, 0.01 * first) << round << ", step " << step << ", " << speed << " m/s";
     }

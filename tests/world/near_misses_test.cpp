@@ -8,7 +8,8 @@
 
 #include "tests/world/support.h"
 
-// What flies past something without touching it keeps its velocity to the last bit, however closely it passes.
+// What flies past something without touching it keeps its velocity to the last bit, however closely it
+// passes.
 namespace plumb {
 namespace {
 
@@ -90,7 +91,9 @@ double nearest(const Mover& a, const Mover& b, double time, int samples) {
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}
-  double operator()(double a, double b) { return a + (b - a) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+  double operator()(double a, double b) {
+    return a + (b - a) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
   Outline outline() {
     const double w = (*this)(0.3, 1.2), h = w * (*this)(0.3, 1);
     switch (random_() % 4) {
@@ -184,8 +187,8 @@ template <class Real>
 void pass_a_corner(const ShapeGeometry& geometry, double height, double speed, int k) {
   BasicWorld<Real> world(weightless());
   world.create_body({.type = BodyType::Static, .position = {0, -0.5}}, {.geometry = Box{1, 1}});
-  const BodyId body =
-      world.create_body({.position = {-3 - speed / 60 * k / 40, height}, .velocity = {speed, 0}}, {.geometry = geometry});
+  const BodyId body = world.create_body(
+      {.position = {-3 - speed / 60 * k / 40, height}, .velocity = {speed, 0}}, {.geometry = geometry});
   run(world, static_cast<int>(60 * 6 / speed) + 10);
   EXPECT_EQ(world.velocity(body), (Vec2d{speed, 0})) << speed << ", " << k;
   EXPECT_EQ(world.angular_velocity(body), 0) << speed << ", " << k;
