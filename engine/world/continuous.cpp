@@ -118,6 +118,13 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, int shape, i
     if (first.state == Result::State::Separated) return 1;
     if (first.state != Result::State::Overlapped) return fraction(first);
   }
+  // No contact pushes out again what flies on, or left its contact to the flight: it stops where it first
+  // touches.
+  if (way.flight.expected || way.flight.impacts > 0) {
+    const Result first = meet(whole, tolerance);
+    if (first.state == Result::State::Separated) return 1;
+    if (first.state == Result::State::Hit && first.exact_fraction > 0) return fraction(first);
+  }
   const Core<Real> core(whole, core_share(w, shape, other));
   const Result through = meet(core.convex, tolerance);
   if (through.state == Result::State::Separated || through.state == Result::State::Overlapped) return 1;

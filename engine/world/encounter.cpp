@@ -143,6 +143,8 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
+  // Bodies of a pile push each other off the ways that they have now: a plane between two of them stays.
+  if (closest.count > 0 && w.gives_way(a) && w.gives_way(b) && !(flies(w, a) && flies(w, b))) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
   const double time = static_cast<double>(dt);

@@ -18,18 +18,6 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Whether a contact with points holds its bodies: it presses, or touches without parting.
-template <class Real>
-bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  const Real near = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
-  const Real rounding = rounding_between(w, c.body_a, c.body_b);
-  for (int i = 0; i < c.count; ++i) {
-    if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
-    if (c.separation[i] <= near && !(rate_of(w, c, i) > 0)) return true;
-  }
-  return false;
-}
-
 // Whether nothing but its own weight is going to act on a body until its impact.
 template <class Real>
 bool flies_freely(const WorldData<Real>& w, int body) {
@@ -55,7 +43,39 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
   append(list, body);
 }
 
+// Leaves to the solver who meets two bodies that give way: what comes at once is resolved at once there.
+template <class Real>
+void leave_crowds(WorldData<Real>& w) {
+  std::vector<char>& met = w.scratch.expecting;
+  const auto gives_way = [&](const ContactConstraint<Real>& c) {
+    return w.gives_way(c.body_a) && w.gives_way(c.body_b);
+  };
+  for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+    if (!gives_way(impact.constraint)) continue;
+    for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
+      if (met.size() > static_cast<std::size_t>(body) && met[body]) {
+        note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
+      } else {
+        note(w, w.scratch.expecting_bodies, met, body);
+      }
+    }
+  }
+  for (const int body : w.scratch.expecting_bodies) met[body] = 0;
+  w.scratch.expecting_bodies.clear();
+}
+
 }  // namespace
+
+template <class Real>
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  const Real near = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  const Real rounding = rounding_between(w, c.body_a, c.body_b);
+  for (int i = 0; i < c.count; ++i) {
+    if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
+    if (c.separation[i] <= near && !(rate_of(w, c, i) > 0)) return true;
+  }
+  return false;
+}
 
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w) {
@@ -96,6 +116,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
   std::vector<ExpectedImpact<Real>>& impacts = w.scratch.expected_impacts;
   if (impacts.empty()) return;
   if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
+  leave_crowds(w);
   // One that the solver takes may throw its bodies out of their flight, and others with them.
   bool more = true;
   while (more) {
@@ -115,6 +136,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
 }
 
 #define PLUMB_FOR(Real)                                                                           \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                    \
   template void clear_expected_impacts(WorldData<Real>&);                                         \
   template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const Encounter<Real>&, \
                             const ContactConstraint<Real>&, Real);                                \

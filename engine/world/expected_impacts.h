@@ -5,6 +5,10 @@
 
 namespace plumb {
 
+/// Whether a contact with points holds its bodies: it presses, or touches without parting.
+template <class Real>
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c);
+
 /// Forgets the expectations of the step before.
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w);

@@ -146,7 +146,7 @@ void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight) {
     motion.moved += h * motion.velocity;
     Real turn = h * motion.angular_velocity;
     if (exact && motion.velocity == kick.velocity_before && motion.angular_velocity == kick.spin_before &&
-        kick.keep == 1 && kick.keep_spin == 1) {
+        kick.keep == 1 && kick.keep_spin == 1 && w.bodies[kick.body].first_joint == kNone) {
       motion.moved -= (Real(0.5) * h) * kick.velocity;
       turn -= (Real(0.5) * h) * kick.spin;
       if (kick.locked_x) motion.moved.x = 0;

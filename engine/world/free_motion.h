@@ -26,8 +26,8 @@ void integrate_velocities(WorldData<Real>& w);
 template <class Real>
 void repeat_velocities(WorldData<Real>& w);
 
-/// x += h v. In exact flight a body that nothing has pressed in the substep moves on its parabola: what is
-/// merely near others falls as what is alone.
+/// x += h v. In exact flight a body without joints that nothing has pressed in the substep moves on its
+/// parabola: what is merely near others falls as what is alone.
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight);
 

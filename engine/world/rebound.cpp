@@ -8,6 +8,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
+#include "engine/world/expected_impacts.h"
 #include "engine/world/free_motion.h"
 #include "engine/world/narrow_phase.h"
 
@@ -25,9 +26,7 @@ bool is_free(const WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    for (int i = 0; i < c.count; ++i)
-      presses = presses || c.normal_impulse[i] > 0 || c.peak_impulse[i] > 0 ||
-                !(c.separation[i] > -rounding_between(w, c.body_a, c.body_b));
+    presses = presses || holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
   });
   return !presses;
 }
