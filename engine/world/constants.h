@@ -135,9 +135,9 @@ inline constexpr int kImpactIterations = 64, kLongSearches = 4096;
 /// farther, impacts would come too soon by as much.
 inline constexpr double kReboundTolerance = 1e-14;
 
-/// Impacts that a body may have in flight in a step; at one more it waits for the next step, with what it meets. From the lower
-/// number on those that take energy take all of the approach: a box that lands flat has ever smaller ones,
-/// without an end.
+/// Impacts that a body may have in flight in a step; at one more it waits for the next step, with what it
+/// meets. From the lower number on those that take energy take all of the approach: a box that lands flat has
+/// ever smaller ones, without an end.
 inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
 
 /// A body that has moved slower than this, in extents a second, for this long, s, may sleep.
