@@ -73,12 +73,14 @@ class Approach {
         b_(b, sweep_b),
         start_(sweep_b.start.template as<double>() - sweep_a.start.template as<double>()),
         motion_(sweep_b.motion.template as<double>() - sweep_a.motion.template as<double>()),
+        curve_(sweep_b.curve.template as<double>() - sweep_a.curve.template as<double>()),
         speed_(std::sqrt(length_squared(motion_))),
+        bend_(std::sqrt(length_squared(curve_))),
         radius_(static_cast<double>(a.radius) + static_cast<double>(b.radius)) {}
 
   /// m: what roundings may do to a separation up to a fraction.
   double rounding(double fraction) const {
-    const double way = speed_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
+    const double way = speed_ + bend_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
     return kRounding *
            (std::abs(start_.x) + std::abs(start_.y) + fraction * way + a_.reach + b_.reach + radius_);
   }
@@ -89,7 +91,8 @@ class Approach {
     fraction_ = fraction;
     rotation_a_ = a_.rotation(fraction);
     rotation_b_ = b_.rotation(fraction);
-    between_ = start_ + fraction * motion_;
+    between_ = start_ + fraction * (motion_ + fraction * curve_);
+    velocity_ = motion_ + (2 * fraction) * curve_;
     const Rotation<double> back = rotation_a_.inverse();
     hulls_ = hull_distance(a_.shape, b_.shape, {back * between_, turned(back, rotation_b_)}, &cache_);
     hulls_.normal = rotation_a_ * hulls_.normal;
@@ -121,19 +124,20 @@ class Approach {
                double t) const;
 
   Turning<Real> a_, b_;
-  Vec2d start_, motion_;
-  double speed_, radius_;
+  Vec2d start_, motion_, curve_;
+  double speed_, bend_, radius_;
   SimplexCache cache_;
   double fraction_ = 0;
   Rotation<double> rotation_a_, rotation_b_;
-  Vec2d between_;
+  Vec2d between_, velocity_;  // the latter in m an interval
   HullDistance hulls_;
 };
 
 template <class Real>
 bool Approach<Real>::window(double separation, double& first, double& last) const {
   first = 0, last = 1;
-  const double distance = (a_.reach + b_.reach + radius_ + separation + 2 * rounding(1)) * (1 + kRounding);
+  const double distance =
+      (a_.reach + b_.reach + radius_ + separation + bend_ + 2 * rounding(1)) * (1 + kRounding);
   if (!(speed_ > 0)) return length_squared(start_) <= distance * distance;
   const double across = cross(motion_, start_) / speed_, along = -dot(start_, motion_) / speed_;
   if (std::abs(across) > distance) return false;
@@ -163,12 +167,14 @@ template <class Real>
 double Approach<Real>::safe_step(double separation, double remaining, double axis_turn) const {
   constexpr int kMaxRounds = 32;
   const Vec2d normal = hulls_.normal;
-  // n . P with P' = V: (n . P)'' = 2 n' . V - w^2 n . P.
-  const double farthest = std::max(std::sqrt(length_squared(between_)),
-                                   std::sqrt(length_squared(between_ + remaining * motion_)));
+  // n . P with P' = V and V' = A: (n . P)'' = n . A + 2 n' . V - w^2 n . P.
+  const double farthest = bend_ + std::max(std::sqrt(length_squared(between_)),
+                                           std::sqrt(length_squared(between_ + remaining * velocity_)));
+  const double fastest_centers = speed_ + 2 * bend_;
+  const double pull = axis_turn != 0 ? 2 * bend_ : std::max(0.0, -2 * dot(normal, curve_));
   const Bound centers{dot(normal, between_) - radius_ - separation,
-                      dot(normal, motion_) + axis_turn * cross(normal, between_),
-                      std::abs(axis_turn) * (2 * speed_ + std::abs(axis_turn) * farthest)};
+                      dot(normal, velocity_) + axis_turn * cross(normal, between_),
+                      pull + std::abs(axis_turn) * (2 * fastest_centers + std::abs(axis_turn) * farthest)};
   double step = remaining;
   for (int round = 0; round < kMaxRounds; ++round) {
     const Bound total = centers + lowest(b_, rotation_b_, normal, b_.turn - axis_turn, step) +
@@ -180,8 +186,8 @@ double Approach<Real>::safe_step(double separation, double remaining, double axi
   }
   // Many corners in turn: the plain bound, with the speed of the fastest point of either.
   const double gap = hulls_.separation - radius_ - separation;
-  const double fastest =
-      std::max(0.0, -dot(normal, motion_)) + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
+  const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach +
+                         std::abs(b_.turn) * b_.reach;
   return gap > 0 && fastest > 0 ? std::min(gap / fastest, remaining) : 0;
 }
 
@@ -195,7 +201,9 @@ Real rounded_down(double fraction) {
 
 template <class Real>
 Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
-  const Vec2d position = sweep.start.template as<double>() + fraction * sweep.motion.template as<double>();
+  const Vec2d position =
+      sweep.start.template as<double>() +
+      fraction * (sweep.motion.template as<double>() + fraction * sweep.curve.template as<double>());
   const Rotation<double> q =
       turned_by(fraction * static_cast<double>(sweep.turn), unit(sweep.start_rotation));
   return {position.template as<Real>(), {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
@@ -223,7 +231,8 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sw
     result.fraction = rounded_down<Real>(fraction);
     const HullDistance& hulls = approach.hulls();
     const Vec2d center_a =
-        sweep_a.start.template as<double>() + fraction * sweep_a.motion.template as<double>();
+        sweep_a.start.template as<double>() +
+        fraction * (sweep_a.motion.template as<double>() + fraction * sweep_a.curve.template as<double>());
     const Vec2d middle =
         0.5 * (hulls.point_a + hulls.point_b +
                (static_cast<double>(a.radius) - static_cast<double>(b.radius)) * hulls.normal);

@@ -5,14 +5,16 @@
 
 namespace plumb {
 
-/// How a body moves during an interval, with time as the fraction 0 .. 1 of it: at start + fraction motion,
-/// turned from its start by fraction turn. Shapes stand in the body's frame, whose origin is what moves along
-/// the line: the centre of mass.
+/// Gives a body's motion during an interval, with time as the fraction 0 .. 1 of it: at start + fraction
+/// motion
+/// + fraction^2 curve, turned from its start by fraction turn. Shapes stand in the body's frame, whose origin
+/// is what moves along the parabola: the centre of mass.
 template <class Real>
 struct Sweep {
   Vec2<Real> start{}, motion{};     ///< m
   Rotation<Real> start_rotation{};  ///< at fraction 0
   Real turn = 0;                    ///< rad over the interval, any number of turns
+  Vec2<Real> curve{};               ///< m, half of the acceleration times the interval's square
 };
 
 /// Where the body is at a fraction: computed in double precision, then rounded to Real.

@@ -67,13 +67,13 @@ void clear_room(const std::vector<Bounce<Real>>& bounces, CrowdRoom<Real>& room)
   int bodies = 0;
   for (const Bounce<Real>& bounce : bounces)
     bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
-  if (static_cast<int>(room.near.size()) < bodies) {
-    room.near.resize(bodies), room.reached.resize(bodies);
+  if (static_cast<int>(room.reached.size()) < bodies) {
+    room.reached.resize(bodies);
     room.earliest.resize(bodies), room.last.resize(bodies);
   }
   for (const Bounce<Real>& bounce : bounces) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b})
-      room.near[body] = 0, room.reached[body] = 0, room.last[body] = 0;
+      room.reached[body] = 0, room.last[body] = 0;
   }
   room.crowd.clear();
 }
@@ -90,8 +90,7 @@ bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Cro
   return more;
 }
 
-// The crowd: bounces that are struck while a body of theirs may hand the impact on, and all that it may be
-// handed on to. Empty when every impact is for itself.
+// The crowd: bounces that are struck, and all that the impacts may be handed on to.
 template <class Real>
 void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces, Real within,
                 CrowdRoom<Real>& room) {
@@ -99,16 +98,9 @@ void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounc
   const auto is_near = [&](const Bounce<Real>& bounce) {
     return is_struck(bounce) || nearest_point(*bounce.contact) <= within;
   };
-  for (const Bounce<Real>& bounce : bounces) {
-    if (is_near(bounce)) ++room.near[bounce.contact->body_a], ++room.near[bounce.contact->body_b];
-  }
-  const auto has_others = [&](int body) { return has_mass(motion[body]) && room.near[body] > 1; };
   bool more = false;
-  for (const Bounce<Real>& bounce : bounces) {
-    const ContactConstraint<Real>& c = *bounce.contact;
-    const bool hands_on = has_others(c.body_a) || has_others(c.body_b);
-    if (is_struck(bounce) && hands_on) more = reach(motion, c, room) || more;
-  }
+  for (const Bounce<Real>& bounce : bounces)
+    if (is_struck(bounce)) more = reach(motion, *bounce.contact, room) || more;
   const auto is_reached = [&](const Bounce<Real>& bounce) {
     return is_near(bounce) && (room.reached[bounce.contact->body_a] || room.reached[bounce.contact->body_b]);
   };

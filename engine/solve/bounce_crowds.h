@@ -20,7 +20,6 @@ struct StruckPoint {
 /// What `resolve_crowds` works in: kept for its room alone. By body, but for the two lists.
 template <class Real>
 struct CrowdRoom {
-  std::vector<int> near;       ///< bounces that are struck, or may be
   std::vector<char> reached;   ///< whether impacts may be handed on to it
   std::vector<Real> earliest;  ///< s, its next impact
   std::vector<Real> last;      ///< s, its last one
@@ -28,12 +27,13 @@ struct CrowdRoom {
   std::vector<StruckPoint<Real>> struck;
 };
 
-/// Impacts that are handed on within a substep: a body that is struck while it touches others, or is about
-/// to, strikes them in turn (the break of a rack, a ball into a pile). Before the constraints are solved,
-/// round after round: of all that approach each other, those go first that come first, and those that come at
-/// once are resolved at once by Newton's law, (n.v)' = -e n.v. With lambda >= 0 the impulses of a round, its
-/// energy changes by the sum of lambda (n.v + (n.v)') / 2; sweeps that have not converged are scaled back
-/// until that is not positive: no round gains energy. Friction follows, as far as it stops what slides.
+/// Resolves the impacts of a substep, of bodies that others hold: one that is struck while it touches others,
+/// or is about to, strikes them in turn (the break of a rack, a ball into a pile). Before the constraints are
+/// solved, round after round: of all that approach each other, those go first that come first, and those that
+/// come at once are resolved at once by Newton's law, (n.v)' = -e n.v. With lambda >= 0 the impulses of a
+/// round, its energy changes by the sum of lambda (n.v + (n.v)') / 2; sweeps that have not converged are
+/// scaled back until that is not positive: no round gains energy. Friction follows, as far as it stops what
+/// slides.
 ///
 /// An impulse at the time t moves a body by (h - t) of the change in velocity: bodies are moved back by what
 /// the substep's motion has too much.

@@ -4,30 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/solve/contact_pair.h"
-
 namespace plumb {
 namespace {
-
-// Impulses that make points which strike leave at `speeds`: Newton's law.
-template <class Real>
-void leave_at(BodyMotion<Real>* motion, const Bounce<Real>& bounce, const Real (&speeds)[2]) {
-  ContactConstraint<Real>& c = *bounce.contact;
-  if (!bounce.strikes[0] && !bounce.strikes[1]) return;
-  Pair<Real> pair(motion, c);
-  if (bounce.strikes[0] && bounce.strikes[1]) {
-    press(pair, c, Demand<Real>{-speeds[0], 1, 0}, Demand<Real>{-speeds[1], 1, 0});
-  } else {
-    const int i = bounce.strikes[0] ? 0 : 1;
-    const Real before = c.normal_impulse[i];
-    const Real rate = pair.along_normal() + (c.arm_b[i] * pair.wb - c.arm_a[i] * pair.wa) - speeds[i];
-    c.normal_impulse[i] = std::max(before - c.mass[i] * rate, Real(0));
-    const Real d = c.normal_impulse[i] - before;
-    pair.push(d, c.arm_a[i] * d, c.arm_b[i] * d);
-  }
-  note_peaks(c);
-  pair.store();
-}
 
 // Exchanges the contact's masses with what is kept of them.
 template <class Real>
@@ -110,7 +88,6 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
       if (bounce.radii > 0) note_approach(c, i, -strike);
       const Real left = u + strike > 0 ? std::max(h - 2 * s / (u + strike), Real(0)) : Real(0);
       const Real rebound = c.restitution * strike;
-      bounce.way[i] = std::max(left * (rebound - Real(0.5) * a * left), Real(0));
       bounce.speed[i] = std::max(rebound - a * left, Real(0));
     }
     bounce.closes = bounce.closes && !arrives;
@@ -129,45 +106,22 @@ void let_pass(std::vector<Bounce<Real>>& bounces) {
 }
 
 template <class Real>
-void bounce_positions(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
-                      const ContactStep<Real>& step) {
+void hold_again(std::vector<Bounce<Real>>& bounces) {
   for (Bounce<Real>& bounce : bounces) {
-    const ContactConstraint<Real>& c = *bounce.contact;
-    if (!bounce.strikes[0] && !bounce.strikes[1]) continue;
-    // A point that another contact has held back in the meantime does not strike; what comes just too late
-    // does so in the next substep.
-    bool closes = false;
-    for (int i = 0; i < c.count; ++i) {
-      closes = closes || -velocity_along_normal(motion, c, i) > step.bounce_threshold;
-      bounce.strikes[i] = bounce.strikes[i] && c.normal_impulse[i] > 0;
-    }
-    const bool pressed = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
-    if (closes && !pressed) let_through(bounce);
-    leave_at(motion, bounce,
-             {(bounce.way[0] - std::max(c.now[0], Real(0))) * step.inverse_h,
-              (bounce.way[1] - std::max(c.now[1], Real(0))) * step.inverse_h});
-  }
-}
-
-template <class Real>
-void bounce_velocities(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces) {
-  for (Bounce<Real>& bounce : bounces) {
-    leave_at(motion, bounce, bounce.speed);
     if (!bounce.passes) continue;
     bounce.passes = false;
     swap_masses(bounce);
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                                        \
-  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                       \
-                                const ContactStep<Real>&);                                                 \
-  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,                         \
-                              const ContactStep<Real>&);                                                   \
-  template void let_pass(std::vector<Bounce<Real>>&);                                                      \
-  template void bounce_positions(BodyMotion<Real>*, std::vector<Bounce<Real>>&, const ContactStep<Real>&); \
-  template void bounce_velocities(BodyMotion<Real>*, std::vector<Bounce<Real>>&);
+#define PLUMB_FOR(Real)                                                              \
+  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                  \
+  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&, \
+                                const ContactStep<Real>&);                           \
+  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,   \
+                              const ContactStep<Real>&);                             \
+  template void let_pass(std::vector<Bounce<Real>>&);                                \
+  template void hold_again(std::vector<Bounce<Real>>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -13,8 +13,7 @@ template <class Real>
 struct Bounce {
   ContactConstraint<Real>* contact = nullptr;
   Real before[2] = {};  ///< m/s, velocity along the normal at the substep's start
-  Real way[2] = {};     ///< m, what its points are to be open at the substep's end
-  Real speed[2] = {};   ///< m/s, and how fast they are to part then
+  Real speed[2] = {};   ///< m/s, at which its points are to part at the substep's end
   bool strikes[2] = {};
   bool closes = false;   ///< fast enough to bounce
   bool passes = false;   ///< through this substep, to strike in a later one
@@ -54,8 +53,8 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
 /// nothing bounces.
 ///
 /// A point that is s open and closes at u with the acceleration a strikes with c = sqrt(u^2 + 2 a s) after
-/// t = 2 s / (u + c). From there on it flies: at the substep's end it is e c (h - t) - a (h - t)^2 / 2 open
-/// and parts at e c - a (h - t). With e = 1 that keeps the energy c^2 / 2, whatever h is.
+/// t = 2 s / (u + c). From there on it flies: at the substep's end it parts at e c - a (h - t). With e = 1
+/// that keeps the energy c^2 / 2, whatever h is.
 template <class Real>
 bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
                    const ContactStep<Real>& step);
@@ -65,13 +64,8 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
 template <class Real>
 void let_pass(std::vector<Bounce<Real>>& bounces);
 
-/// After solve_contacts: the velocities that carry the bodies to where they are at the substep's end.
+/// After relax_contacts: what was let pass is held again.
 template <class Real>
-void bounce_positions(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
-                      const ContactStep<Real>& step);
-
-/// After relax_contacts: the velocities that they have there. What passes is held again.
-template <class Real>
-void bounce_velocities(BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces);
+void hold_again(std::vector<Bounce<Real>>& bounces);
 
 }  // namespace plumb

@@ -145,10 +145,15 @@ inline constexpr double kImpactTolerance = 1e-3;
 /// impact where it has come to: so far they are apart.
 inline constexpr int kImpactIterations = 64, kLongSearches = 4096;
 
-/// Impacts that a body may have in flight in a step; at one more it waits for the next step.
-inline constexpr int kImpactsInFlight = 8;
-/// Newton steps for the time at which two flights meet: they begin within g dt / v of it, and square that.
-inline constexpr int kMeetingSteps = 3;
+/// How near bodies are brought that throw each other back, as a share of their sizes and ways. Roundings of
+/// the search are some 1e-15 of these: much nearer it could not tell apart what touches and what overlaps;
+/// farther, impacts would come too soon by as much.
+inline constexpr double kReboundTolerance = 1e-14;
+
+/// Impacts that a body may have in flight in a step; at one more it waits for the next step, with what it
+/// meets. From the lower number on those that take energy take all of the approach: a box that lands flat has
+/// ever smaller ones, without an end.
+inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
 
 /// A body that has moved slower than this, in extents a second, for this long, s, may sleep.
 inline constexpr double kSleepSpeed = 0.05;

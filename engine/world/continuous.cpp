@@ -38,7 +38,8 @@ Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
   const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
                    end = flight.straight_at(1).template as<Real>();
   const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm);
+  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm + aside);
 }
 
 // Of two shapes in contact, what the solver had between them in this step; null when it was nothing.
@@ -78,7 +79,7 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
-    if (!may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    if (!way.flight.expected && !may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
@@ -106,7 +107,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
       if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
-      if (as_solved && !may_block(w, body, other_body)) return true;
+      if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
       note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
       return true;
     };
@@ -148,11 +149,11 @@ Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
 
 // What a flight meets first from a fraction of the step on.
 template <class Real>
-Meeting first_meeting(const WorldData<Real>& w, int place, double from, int& long_searches) {
+Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
   const Flight& flight = w.scratch.flights[place];
   Meeting first{.flight = place, .version = flight.version};
   if (!w.gives_way(flight.body)) return first;
-  const Way way(flight, from, long_searches);
+  const Way way(flight, from, search);
   if (flight.covered && !flight.changed) {
     meet_pairs(w, way, first);
   } else {
@@ -213,17 +214,17 @@ void expect(WorldData<Real>& w, const Meeting& meeting) {
 }
 
 template <class Real>
-void look_ahead(WorldData<Real>& w, int place, double from, int& long_searches) {
-  expect(w, first_meeting(w, place, from, long_searches));
+void look_ahead(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
+  expect(w, first_meeting(w, place, from, search));
 }
 
 // The place of a body's flight; of one that has had none, the way that the solver found for it.
 template <class Real>
-int flight_place(WorldData<Real>& w, int body) {
+int flight_place(WorldData<Real>& w, int body, double dt) {
   int& place = w.scratch.flight_places[body];
   if (place == kNone) {
     place = static_cast<int>(w.scratch.flights.size());
-    w.scratch.flights.push_back(flight_of(w, body));
+    w.scratch.flights.push_back(flight_of(w, body, dt));
     set_arm(w, w.scratch.flights.back());
     w.scratch.flights.back().covered = true;
   }
@@ -232,15 +233,15 @@ int flight_place(WorldData<Real>& w, int body) {
 
 // The flight of what is met; null when that does not move.
 template <class Real>
-Flight* flight_met(WorldData<Real>& w, int body) {
+Flight* flight_met(WorldData<Real>& w, int body, double dt) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
-  return &w.scratch.flights[flight_place(w, body)];
+  return &w.scratch.flights[flight_place(w, body, dt)];
 }
 
 // A body goes another way from a fraction of the step on: whoever comes along may meet it now, that would not
 // have before.
 template <class Real>
-void look_back(WorldData<Real>& w, int place, double from, int& long_searches) {
+void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
   const Flight flight = w.scratch.flights[place];
   const Rotation<double> q = flight.rotation_at(from);
   const Pose<Real> pose{flight.start_at(from).template as<Real>(),
@@ -263,7 +264,7 @@ void look_back(WorldData<Real>& w, int place, double from, int& long_searches) {
     // What does not give way pushes what it meets.
     const bool pushes = !w.gives_way(comer.body);
     if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
-    const Way way(pushes ? w.scratch.flights[place] : comer, from, long_searches);
+    const Way way(pushes ? w.scratch.flights[place] : comer, from, search);
     const int moving = pushes ? shape : other, met = pushes ? other : shape;
     Meeting found{.flight = pushes ? place : other_place, .version = way.flight.version};
     note_meeting(w, way, {moving, met, nullptr, !pushes}, found);
@@ -273,7 +274,7 @@ void look_back(WorldData<Real>& w, int place, double from, int& long_searches) {
 
 // Calls visit(place) for the flight of a body and of all that joints tie to it.
 template <class Real, class Visit>
-void for_each_tied(WorldData<Real>& w, int place, const Visit& visit) {
+void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit) {
   std::vector<int>& queue = w.scratch.queue;
   std::vector<char>& seen = w.scratch.restless;
   const int body = w.scratch.flights[place].body;
@@ -282,7 +283,7 @@ void for_each_tied(WorldData<Real>& w, int place, const Visit& visit) {
   seen.assign(w.bodies.size(), 0);
   seen[body] = 1;
   for (std::size_t next = 0; next < queue.size(); ++next) {
-    visit(flight_place(w, queue[next]));
+    visit(flight_place(w, queue[next], dt));
     for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
       const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
       if (!joint.active || !w.gives_way(other) || seen[other]) return;
@@ -295,90 +296,93 @@ void for_each_tied(WorldData<Real>& w, int place, const Visit& visit) {
 
 // Stops a body, and with it all that joints tie to it: they stay together.
 template <class Real>
-void stop_island(WorldData<Real>& w, int place, double fraction, double dt, int& long_searches) {
-  for_each_tied(w, place, [&](int tied) {
+void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
+  for_each_tied(w, place, search.dt, [&](int tied) {
     Flight& flight = w.scratch.flights[tied];
     if (flight.stands) return;
     flight.squeezed = flight.carrier != kNone;
-    flight.stop(fraction, std::max(flight.time, fraction * dt));
-    look_back(w, tied, fraction, long_searches);
+    flight.stop(fraction);
+    look_back(w, tied, fraction, search);
   });
 }
 
 // Pushes a body along with what does not give way to it, and with it all that joints tie to it.
 template <class Real>
-void push_along(WorldData<Real>& w, int place, int pusher, double fraction, double dt, int& long_searches) {
-  for_each_tied(w, place, [&](int tied) {
+void push_along(WorldData<Real>& w, int place, int pusher, double fraction, ImpactSearch& search) {
+  for_each_tied(w, place, search.dt, [&](int tied) {
     Flight& flight = w.scratch.flights[tied];
     if (flight.carrier != kNone) return;
-    flight.go_along(w.scratch.flights[pusher], fraction, std::max(flight.time, fraction * dt));
+    flight.go_along(w.scratch.flights[pusher], fraction);
     show_way(w, flight);
-    look_ahead(w, tied, fraction, long_searches);
-    look_back(w, tied, fraction, long_searches);
+    look_ahead(w, tied, fraction, search);
+    look_back(w, tied, fraction, search);
   });
 }
 
 // What was to meet next does so, unless either of both is on another way since.
 template <class Real>
-void meet(WorldData<Real>& w, const Meeting& next, double dt, int& long_searches) {
+void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
   std::vector<Flight>& flights = w.scratch.flights;
   if (flights[next.flight].version != next.version) return;
   const int other_body = w.shapes[next.other].body;
-  Flight* other = flight_met(w, other_body);
+  Flight* other = flight_met(w, other_body, search.dt);
   Flight& flight = flights[next.flight];
   if (other != nullptr && other->version != next.other_version) {
-    look_ahead(w, next.flight, next.fraction, long_searches);
+    look_ahead(w, next.flight, next.fraction, search);
     return;
   }
   const int other_place = other == nullptr ? kNone : w.scratch.flight_places[other_body];
   if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
-    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, dt);
-    if (!thrown) flight.yields = false;  // too slowly for that
+    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
+    if (!thrown) flight.yields = false;  // they do not approach
     if (thrown) show_way(w, flight);
     const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
     if (other_too) show_way(w, *other);
-    look_ahead(w, next.flight, next.fraction, long_searches);
-    if (other_too) look_ahead(w, other_place, next.fraction, long_searches);
+    look_ahead(w, next.flight, next.fraction, search);
+    if (other_too) look_ahead(w, other_place, next.fraction, search);
     return;
   }
   const bool pushed = other != nullptr && !w.gives_way(other_body);
   if (pushed && flight.carrier == kNone) {
-    push_along(w, next.flight, other_place, next.fraction, dt, long_searches);
+    push_along(w, next.flight, other_place, next.fraction, search);
     return;
   }
   const int carrier = flight.carrier;
   if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
     // It pushes what it meets along in its turn.
-    push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, dt, long_searches);
-    look_ahead(w, next.flight, next.fraction, long_searches);
+    push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, search);
+    look_ahead(w, next.flight, next.fraction, search);
     return;
   }
-  stop_island(w, next.flight, next.fraction, dt, long_searches);
+  // Whoever pushes it on waits too.
+  const bool too_many = flight.impacts >= tuning::kImpactsInFlight && other != nullptr && !pushed;
+  if (too_many) stop_island(w, other_place, next.fraction, search);
+  stop_island(w, next.flight, next.fraction, search);
 }
 
 // One impact after the other, until the step ends.
 template <class Real>
-void fly_on(WorldData<Real>& w, double dt, int& long_searches) {
+void fly_on(WorldData<Real>& w, ImpactSearch& search) {
   std::vector<Meeting>& meetings = w.scratch.meetings;
   std::make_heap(meetings.begin(), meetings.end(), is_later);
   while (!meetings.empty()) {
     std::pop_heap(meetings.begin(), meetings.end(), is_later);
     const Meeting next = meetings.back();
     meetings.pop_back();
-    meet(w, next, dt, long_searches);
+    meet(w, next, search);
   }
 }
 
 // What gives way and does not move far itself, on the way of a body that is moved as it is told, is looked at
 // as well.
 template <class Real>
-void meet_pushers(WorldData<Real>& w, int place, int& long_searches) {
+void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   const Flight pusher = w.scratch.flights[place];
   const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
     const int body = w.shapes[shape].body;
     if (!pass_fast(w, body, pusher.body)) return;
-    const int met = flight_place(w, body);
-    const Way way(w.scratch.flights[met], 0, long_searches);
+    const int met = flight_place(w, body, search.dt);
+    const Way way(w.scratch.flights[met], 0, search);
     Meeting found{.flight = met, .version = way.flight.version};
     note_meeting(w, way, {shape, other, contact}, found);
     if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
@@ -409,7 +413,6 @@ void meet_pushers(WorldData<Real>& w, int place, int& long_searches) {
 // The contacts that have given way so far that a core is near: they are looked at however slowly they do.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
-  w.scratch.deep_contacts.clear();
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     const Real depth = -std::min(c.now[0], c.now[1]);
     if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
@@ -429,15 +432,15 @@ void show_ways(WorldData<Real>& w) {
 }
 
 template <class Real>
-void meet_deep_contacts(WorldData<Real>& w, int& long_searches) {
+void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
   for (const int id : w.scratch.deep_contacts) {
     const ContactRecord& contact = w.contacts[id];
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool is_a =
         w.gives_way(contact.body_a) &&
         (!w.gives_way(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
-    const int met = flight_place(w, is_a ? contact.body_a : contact.body_b);
-    const Way way(w.scratch.flights[met], 0, long_searches);
+    const int met = flight_place(w, is_a ? contact.body_a : contact.body_b, search.dt);
+    const Way way(w.scratch.flights[met], 0, search);
     Meeting found{.flight = met, .version = way.flight.version};
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
@@ -450,41 +453,45 @@ void meet_deep_contacts(WorldData<Real>& w, int& long_searches) {
 
 template <class Real>
 void stop_at_impacts(WorldData<Real>& w, Real dt) {
-  find_deep_contacts(w);
+  w.scratch.deep_contacts.clear();
+  if (w.settings.continuous) find_deep_contacts(w);
   if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
+  const double time = static_cast<double>(dt);
   std::vector<Flight>& flights = w.scratch.flights;
   flights.clear(), w.scratch.meetings.clear();
   w.scratch.flight_places.assign(w.bodies.size(), kNone);
   bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    flights[flight_place(w, fast.body)].covered = fast.covered;
+    if (!w.settings.continuous && !fast.expected) continue;
+    Flight& flight = flights[flight_place(w, fast.body, time)];
+    flight.covered = fast.covered, flight.expected = fast.expected;
     all_covered = all_covered && fast.covered;
   }
   for (Flight& flight : flights)
     if (!flight.covered) show_way(w, flight);
   if (!all_covered) show_ways(w);
   // All are found before any is moved, so that two fast bodies see each other's whole way.
-  int long_searches = tuning::kLongSearches;
+  ImpactSearch search{.dt = time, .long_searches = tuning::kLongSearches};
   ContactsAhead ahead;
   const std::size_t fast_count = flights.size();
   for (std::size_t i = 0; i < fast_count; ++i) {
     ahead.advance(w, i);
     const int place = static_cast<int>(i);
     if (!w.gives_way(flights[i].body)) {
-      meet_pushers(w, place, long_searches);
+      meet_pushers(w, place, search);
       continue;
     }
-    const Meeting first = first_meeting(w, place, 0, long_searches);
+    const Meeting first = first_meeting(w, place, 0, search);
     if (first.fraction < 1) w.scratch.meetings.push_back(first);
   }
-  meet_deep_contacts(w, long_searches);
+  meet_deep_contacts(w, search);
   if (!w.scratch.meetings.empty()) {
     show_ways(w);
-    fly_on(w, static_cast<double>(dt), long_searches);
+    fly_on(w, search);
   }
   for (const Flight& flight : flights) {
     if (flight.changed) {
-      land(w, flight, static_cast<double>(dt));
+      land(w, flight);
       for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
         refresh_box(w, shape, dt, Real(0));
     }

@@ -5,7 +5,9 @@
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/world/constants.h"
-#include "engine/world/seams.h"
+#include "engine/world/contacts.h"
+#include "engine/world/free_motion.h"
+#include "engine/world/narrow_phase.h"
 
 namespace plumb {
 namespace {
@@ -29,38 +31,89 @@ bool is_fast(const WorldData<Real>& w, int body, Real dt) {
                                   Real(tuning::kFastShare) * w.bodies[body].half_width;
 }
 
+// Whether nothing but its own weight is going to act on it, as far as is known before the step is solved.
+template <class Real>
+bool flies(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
+  bool pressed = false;
+  if (record.constraints == 0) return true;
+  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return;
+    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
+    pressed = pressed || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+  });
+  return !pressed;
+}
+
 // In the step, seen from `origin`.
 template <class Real>
 Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
   const BodyMotion<Real>& motion = w.motion[body];
   const Rotation<Real> q = w.rotation[body];
+  const Vec2d curve = flies(w, body) ? (0.5 * dt * dt) * free_acceleration(w, body) : Vec2d{};
   return {w.position[body] - origin, dt * motion.velocity.template as<double>(),
           Rotation<double>{static_cast<double>(q.c), static_cast<double>(q.s)},
-          dt * static_cast<double>(motion.angular_velocity)};
+          dt * static_cast<double>(motion.angular_velocity), curve};
 }
 
-}  // namespace
-
+// Whether a point's plane may be crossed by the step's end, on ways of `closed` and so many turns. What
+// touches as good as already crosses it by more than a manifold is carried on for, or rests.
 template <class Real>
-Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
+bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
+             Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
+  const Real touching = Real(tuning::kManifoldTravel) * smaller;
+  const Rotation<Real> q = w.rotation[contact.body_a];
+  const Vec2<Real> n = q * manifold.normal;
+  const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  // A point that turns leaves its tangent by no more than this.
+  const Real bend =
+      Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] + turn_b * turn_b * w.extents[contact.body_b]);
+  // Manifolds leave out what is farther than a way that is cut off: of what moves more, any point may come
+  // first.
+  const Real turned =
+      std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
+  const bool any_point =
+      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kContactReachMost) * smaller;
+  for (int i = 0; i < manifold.count; ++i) {
+    const Vec2<Real> arm = q * manifold.points[i].point;
+    const Real open = manifold.points[i].separation;
+    const Real turning = any_point ? -turned : cross(arm - between, n) * turn_b - cross(arm, n) * turn_a;
+    const Real end = open + dot(n, closed) + turning;
+    if (end < (open > touching ? bend : -touching)) return true;
+  }
+  return false;
+}
+
+// Whether shapes without points are to be searched.
+template <class Real>
+bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
   const int a = contact.body_a, b = contact.body_b;
-  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real closing =
       dt * fastest(w.motion[b].velocity - w.motion[a].velocity, turning(w, a) + turning(w, b));
-  // Bodies of a size, none of them fast, come no nearer than that.
-  if (!(closing > Real(2 * tuning::kContactReachMost) * smaller) || w.forms[contact.shape_a].chain) return {};
-  if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return {};
-  if (is_fast(w, a, dt) || is_fast(w, b, dt)) return {};
+  const Real guessed = Real(tuning::kContactReachMost) * smaller;
+  if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
+  if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
+  if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
+  // Bodies of a size, none of them fast, come no nearer than twice that.
+  return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
+}
 
-  const Sweep<double> way_a = sweep_of(w, a, w.position[a], static_cast<double>(dt)),
-                      way_b = sweep_of(w, b, w.position[a], static_cast<double>(dt));
+template <class Real>
+ContactManifold<Real> collide_at(const WorldData<Real>& w, const ContactRecord& contact,
+                                 const Pose<Real>& b_in_a, Real reach) {
   const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
-  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
-  const ImpactResult<Real> impact = time_of_impact(shape_a, way_a, shape_b, way_b, Real(0), tolerance);
-  if (impact.state != ImpactResult<Real>::State::Hit) return {};
+  if (!w.forms[contact.shape_a].chain) return collide_convex(shape_a, shape_b, b_in_a, reach);
+  const Corner<Real>* chain = shape_a.corners;
+  return collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach);
+}
 
-  const Pose<double> at_a = pose_at(way_a, impact.exact_fraction),
-                     at_b = pose_at(way_b, impact.exact_fraction);
+// The manifold at a fraction of the step.
+template <class Real>
+Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
+                             const Sweep<double>& way_a, const Sweep<double>& way_b, double fraction,
+                             Real smaller, double dt) {
+  const Pose<double> at_a = pose_at(way_a, fraction), at_b = pose_at(way_b, fraction);
   const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
   const Vec2d between = at_b.position - at_a.position;
   const auto rounded = [](const Rotation<double>& r) {
@@ -68,13 +121,53 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
   };
   const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
-  const Real reach = Real(tuning::kContactReach) * smaller;
-  const ContactManifold<Real> manifold = collide_convex(shape_a, shape_b, b_in_a, reach);
-  return {manifold.count > 0 ? across_seams(w, contact, b_in_a, reach, manifold, closing) : manifold,
-          rounded(at_a.rotation), between.template as<Real>(), static_cast<Real>(impact.exact_fraction) * dt};
+  Encounter<Real> at;
+  at.manifold = collide_at(w, contact, b_in_a, Real(tuning::kContactReach) * smaller);
+  if (at.manifold.count == 0) return at;
+  at.outlook = Outlook::Meets;
+  at.rotation = rounded(at_a.rotation);
+  at.between = between.template as<Real>();
+  at.closed = (between - (way_b.start - way_a.start)).template as<Real>();
+  at.turned_a = static_cast<Real>(fraction * way_a.turn),
+  at.turned_b = static_cast<Real>(fraction * way_b.turn);
+  const auto velocity = [&](const Sweep<double>& way) { return way.motion + (2 * fraction) * way.curve; };
+  at.velocity = ((1 / dt) * (velocity(way_b) - velocity(way_a))).template as<Real>();
+  return at;
 }
 
-template Encounter<float> find_encounter(const WorldData<float>&, const ContactRecord&, float);
-template Encounter<double> find_encounter(const WorldData<double>&, const ContactRecord&, double);
+}  // namespace
+
+template <class Real>
+Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact,
+                               const ContactManifold<Real>& closest, Real dt, Real substep) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
+  // Bodies of a pile push each other off the ways that they have now: a plane between two of them stays.
+  if (closest.count > 0 && w.gives_way(a) && w.gives_way(b) && !(flies(w, a) && flies(w, b))) return {};
+  for (int i = 0; i < closest.count; ++i)
+    if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
+  const double time = static_cast<double>(dt);
+  const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),
+                      way_b = sweep_of(w, b, w.position[a], time);
+  if (closest.count > 0) {
+    const double ahead = 1 + static_cast<double>(substep) / time;
+    const auto way = [&](const Sweep<double>& sweep) { return ahead * (sweep.motion + ahead * sweep.curve); };
+    if (!crosses(w, contact, closest, (way(way_b) - way(way_a)).template as<Real>(),
+                 static_cast<Real>(ahead * way_a.turn), static_cast<Real>(ahead * way_b.turn), smaller))
+      return {};
+  }
+  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
+  const ImpactResult<Real> impact =
+      time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), tolerance);
+  if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
+  if (impact.state != ImpactResult<Real>::State::Hit) return {};
+  return encounter_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
+}
+
+template Encounter<float> find_encounter(const WorldData<float>&, const ContactRecord&,
+                                         const ContactManifold<float>&, float, float);
+template Encounter<double> find_encounter(const WorldData<double>&, const ContactRecord&,
+                                          const ContactManifold<double>&, double, double);
 
 }  // namespace plumb

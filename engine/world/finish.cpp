@@ -137,7 +137,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   w.scratch.fast_bodies.clear(), w.scratch.bad_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const remainders = remainders_of(w);
-  const bool sleeping = w.settings.sleeping;
+  const bool sleeping = w.settings.sleeping, expects = !w.scratch.expecting_bodies.empty();
   // What stands has no margin: who comes near it has to be stored a step before.
   const bool grounds = w.still_tree.size() > 0;
   // Whoever is awake is in the moving tree.
@@ -152,7 +152,8 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     const Real extent = w.extents[body];
     const Real turned = std::abs(motion.turned) * extent;
     const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
-    const bool fast = way > Real(tuning::kFastShare) * record.half_width;
+    const bool expected = expects && w.scratch.expecting[body];
+    const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
     if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
       w.scratch.bad_bodies.push_back(body);
       continue;
@@ -173,7 +174,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       }
       // Whoever stays within its stored boxes, and has no pair, meets nothing.
       const bool alone = covered && record.first_contact == kNone;
-      if (!alone) w.scratch.fast_bodies.push_back({body, covered});
+      if (!alone) w.scratch.fast_bodies.push_back({body, covered, expected});
     } else {
       const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {

@@ -5,15 +5,14 @@
 
 namespace plumb {
 
-/// How a body moves from some place within the step to its end. Its way is straight, and turns evenly; the
-/// velocity and the time of an impact are those of its true motion, with constant acceleration, that keeps
-/// its energy.
+/// Describes how a body moves from some place within the step to its end: on a parabola where nothing but constant
+/// forces acts on it, else straight, and turning evenly.
 struct Flight {
   int body = -1;
   bool covered = false;   ///< see FastBody
+  bool expected = false;  ///< likewise
   bool changed = false;   ///< it is not any more as the solver had it
   bool yields = true;     ///< may be thrown back where it first touches something
-  bool known = false;     ///< what its true motion is
   bool shown = false;     ///< all of its way is stored in the tree
   bool stands = false;    ///< it has been stopped for the rest of the step
   bool squeezed = false;  ///< between what pushes it along and something else
@@ -24,6 +23,7 @@ struct Flight {
   Vec2d first{};              ///< m, where the step started
   double from = 0;            ///< fraction of the step
   Vec2d start{}, way{};       ///< m, of the centre of mass at `from`, and on to the step's end
+  Vec2d curve{};              ///< m, by how much more, in proportion to the square of the time; none with an arm
   Rotation<double> rotation;  ///< at `from`
   double turn = 0;            ///< rad, until the step's end
   double turned_before = 0;   ///< rad, from the step's start to `from`
@@ -31,19 +31,17 @@ struct Flight {
   /// turns about a hinge, or is pushed along by what turns, goes round in an arc.
   Vec2d arm{};
 
-  double time = 0;                               ///< s, from the step's start
-  Vec2d position{}, velocity{}, acceleration{};  ///< m, m/s, m/s^2 at `time`
-  double angular_velocity = 0;                   ///< rad/s
+  Vec2d velocity{}, gain{};     ///< m/s, at `from`, and what it gains in a whole step
+  double angular_velocity = 0;  ///< rad/s
 
   /// The share of what is left at `from` that is over at a fraction of the step.
   double share(double fraction) const { return from < 1 ? (fraction - from) / (1 - from) : 1; }
   Vec2d start_at(double fraction) const {
-    if (arm == Vec2d{}) return start + share(fraction) * way;
-    return straight_at(fraction) - rotation_at(fraction) * arm;
+    return arm == Vec2d{} ? centre_at(fraction) : straight_at(fraction) - rotation_at(fraction) * arm;
   }
   /// Where the point at `arm` is.
   Vec2d straight_at(double fraction) const {
-    if (arm == Vec2d{}) return start + share(fraction) * way;
+    if (arm == Vec2d{}) return centre_at(fraction);
     const Vec2d there = start + rotation * arm;
     return there + share(fraction) * (start + way + rotation_at(1) * arm - there);
   }
@@ -53,38 +51,37 @@ struct Flight {
     const Rotation<double> r = rotation_of(angle);
     return {rotation.c * r.c - rotation.s * r.s, rotation.s * r.c + rotation.c * r.s};
   }
-  Vec2d position_at(double t) const {
-    return position + (t - time) * (velocity + (0.5 * (t - time)) * acceleration);
-  }
-  Vec2d velocity_at(double t) const { return velocity + (t - time) * acceleration; }
+  Vec2d velocity_at(double fraction) const { return velocity + (fraction - from) * gain; }
 
   /// The rest of the way from a fraction on, of the point at `arm`, seen from `origin`.
   Sweep<double> sweep(double fraction, Vec2d origin) const {
-    const double left = 1 - share(fraction);
-    if (arm == Vec2d{}) return {start_at(fraction) - origin, left * way, rotation_at(fraction), left * turn};
+    const double s = share(fraction), left = 1 - s;
     const Vec2d there = straight_at(fraction);
-    return {there - origin, straight_at(1) - there, rotation_at(fraction), left * turn};
+    if (arm != Vec2d{}) return {there - origin, straight_at(1) - there, rotation_at(fraction), left * turn};
+    return {there - origin, left * (way + (2 * s) * curve), rotation_at(fraction), left * turn,
+            (left * left) * curve};
   }
-  /// Goes on from a fraction of the step, that is time t, with new velocities; `dt` is the step, s.
-  void go_on(double fraction, double t, Vec2d new_velocity, double new_spin, double dt) {
-    const Vec2d place = start_at(fraction);
-    const Rotation<double> facing = rotation_at(fraction);
-    turned_before += share(fraction) * turn;
-    position = position_at(t), velocity = new_velocity, angular_velocity = new_spin, time = t;
-    way = position_at(dt) - place, turn = (dt - t) * new_spin;
-    start = place, rotation = facing, from = fraction, arm = {};
-    changed = true, stands = false, carrier = -1;
-    ++version, ++impacts;
+  /// Goes on from a fraction of the step with new velocities; `dt` is the step, s.
+  void go_on(double fraction, Vec2d new_velocity, double new_spin, double dt) {
+    begin_anew(fraction);
+    const double left = (1 - fraction) * dt;
+    velocity = new_velocity, angular_velocity = new_spin;
+    way = left * velocity, curve = (0.5 * left * (1 - fraction)) * gain, turn = left * new_spin;
+    arm = {}, stands = false, carrier = -1;
+    ++impacts;
   }
-  /// Stays where it is at a fraction of the step; `t` as above.
-  void stop(double fraction, double t) {
-    halt(fraction, t);
-    way = {}, turn = 0, arm = {};
+  /// Stays where it is at a fraction of the step.
+  void stop(double fraction) {
+    velocity = velocity_at(fraction);
+    begin_anew(fraction);
+    gain = way = curve = arm = {}, turn = 0;
     stands = true;
   }
-  /// Goes on from a fraction of the step, that is time t, as if it were a part of what pushes it along.
-  void go_along(const Flight& pusher, double fraction, double t) {
-    halt(fraction, t);
+  /// Goes on from a fraction of the step as if it were a part of what pushes it along.
+  void go_along(const Flight& pusher, double fraction) {
+    velocity = velocity_at(fraction);
+    begin_anew(fraction);
+    gain = curve = {};
     const Vec2d there = pusher.straight_at(fraction);
     turn = (1 - pusher.share(fraction)) * pusher.turn;
     arm = rotation.inverse() * (there - start);
@@ -95,11 +92,15 @@ struct Flight {
   }
 
  private:
-  void halt(double fraction, double t) {
+  // Of a flight without an arm.
+  Vec2d centre_at(double fraction) const {
+    const double s = share(fraction);
+    return start + s * (way + s * curve);
+  }
+  void begin_anew(double fraction) {
     const Vec2d place = start_at(fraction);
     const Rotation<double> facing = rotation_at(fraction);
     turned_before += share(fraction) * turn;
-    velocity = velocity_at(t), acceleration = {}, time = t, position = place;
     start = place, rotation = facing, from = fraction;
     changed = true;
     ++version;

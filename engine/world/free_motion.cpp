@@ -136,14 +136,22 @@ void repeat_velocities(WorldData<Real>& w) {
 }
 
 template <class Real>
-void integrate_positions(WorldData<Real>& w, Real h) {
+void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight) {
+  const bool exact = flight == FreeFlight::Exact;
   for (const Kick<Real>& kick : w.scratch.kicks) {
     if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
     if (kick.locked_y) motion.velocity.y = 0;
     motion.moved += h * motion.velocity;
-    const Real turn = h * motion.angular_velocity;
+    Real turn = h * motion.angular_velocity;
+    if (exact && motion.velocity == kick.velocity_before && motion.angular_velocity == kick.spin_before &&
+        kick.keep == 1 && kick.keep_spin == 1 && w.bodies[kick.body].first_joint == kNone) {
+      motion.moved -= (Real(0.5) * h) * kick.velocity;
+      turn -= (Real(0.5) * h) * kick.spin;
+      if (kick.locked_x) motion.moved.x = 0;
+      if (kick.locked_y) motion.moved.y = 0;
+    }
     if (turn == 0) continue;
     motion.turned += turn;
     w.rotation[kick.body] = turned_by(w.rotation[kick.body], turn);
@@ -160,6 +168,13 @@ void hold_locks(WorldData<Real>& w) {
 }
 
 template <class Real>
+Vec2d free_acceleration(const WorldData<Real>& w, int body) {
+  const double share = static_cast<double>(w.uncommon_of(body).gravity_scale);
+  const Vec2<Real> force = w.motion[body].inverse_mass * w.loads.get(body).force;
+  return share * w.settings.gravity + force.template as<double>();
+}
+
+template <class Real>
 Real bounce_threshold(const WorldData<Real>& w, double dt) {
   return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
 }
@@ -168,8 +183,9 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
   template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
   template void integrate_velocities(WorldData<Real>&);                   \
   template void repeat_velocities(WorldData<Real>&);                      \
-  template void integrate_positions(WorldData<Real>&, Real);              \
+  template void integrate_positions(WorldData<Real>&, Real, FreeFlight);  \
   template void hold_locks(WorldData<Real>&);                             \
+  template Vec2d free_acceleration(const WorldData<Real>&, int);          \
   template Real bounce_threshold(const WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

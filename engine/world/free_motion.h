@@ -26,13 +26,18 @@ void integrate_velocities(WorldData<Real>& w);
 template <class Real>
 void repeat_velocities(WorldData<Real>& w);
 
-/// x += h v.
+/// x += h v. In exact flight a body without joints that nothing has pressed in the substep moves on its
+/// parabola: what is merely near others falls as what is alone.
 template <class Real>
-void integrate_positions(WorldData<Real>& w, Real h);
+void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight);
 
 /// Takes back what projections moved bodies along locked axes: nothing moves there in a step.
 template <class Real>
 void hold_locks(WorldData<Real>& w);
+
+/// m/s^2, of a dynamic body that nothing holds: its weight and what the user applies to it.
+template <class Real>
+Vec2d free_acceleration(const WorldData<Real>& w, int body);
 
 /// m/s, the slowest approach that bounces in a step of `dt`: at rest bodies gain |gravity| dt before a
 /// contact answers.

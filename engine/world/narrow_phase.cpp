@@ -9,6 +9,8 @@
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
 #include "engine/world/encounter.h"
+#include "engine/world/expected_impacts.h"
+#include "engine/world/islands.h"
 #include "engine/world/narrow_phase.h"
 #include "engine/world/seams.h"
 #include "engine/world/step.h"
@@ -140,16 +142,14 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   rebuild(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(), c);
 }
 
-// Where the shapes are going to meet in the step; separations are those of now.
+// Builds a constraint where the shapes are going to meet in the step; separations are those of now.
 template <class Real>
 void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
                  ContactConstraint<Real>& c) {
   rebuild(w, contact, at.manifold, at.rotation, at.between, c);
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Real along = dot(c.normal, b.velocity - a.velocity);
-  for (int i = 0; i < c.count; ++i) {
-    c.separation[i] -= at.time * (along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
-  }
+  const Real closed = dot(c.normal, at.closed);
+  for (int i = 0; i < c.count; ++i)
+    c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
 }
 
 // What a rule of the user's says, when it can be a coefficient.
@@ -315,6 +315,24 @@ void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
   w.scratch.begun_contacts.push_back(c);
 }
 
+// The same for one whose shapes are going to meet: bounces in free flight are decided about later.
+template <class Real>
+void begin_ahead(WorldData<Real>& w, int id, const Encounter<Real>& at, Real dt) {
+  const ContactRecord& contact = w.contacts[id];
+  ContactConstraint<Real> c;
+  build_ahead(w, contact, at, c);
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
+  mix_materials(w, contact, c);
+  if (will_bounce(w, contact, at, c, dt)) {
+    append(w.scratch.expected_impacts, ExpectedImpact<Real>{.constraint = c});
+    return;
+  }
+  if (is_waived(w, contact, c)) return;
+  begin_step(w, c, dt);
+  note_pressed(w, c);
+  w.scratch.begun_contacts.push_back(c);
+}
+
 // Records of contacts, and of what they are between, lie anywhere in memory: the memory is asked for them so
 // many contacts ahead, the latter once the former are there. GCC 12 drops calls of a function that does
 // nothing else, unless they are expanded first.
@@ -332,7 +350,7 @@ template <class Real>
 
 // Of the contacts without points, those that get some begin, and those whose boxes have parted are lost.
 template <class Real>
-void look_at_near(WorldData<Real>& w, Real dt) {
+void look_at_near(WorldData<Real>& w, Real dt, Real h) {
   for (std::size_t i = 0; i < w.near.size(); ++i) {
     ask_for_near(w, i);
     const int id = w.near[i];
@@ -342,19 +360,36 @@ void look_at_near(WorldData<Real>& w, Real dt) {
       continue;
     }
     const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-    if (manifold.count > 0) {
+    const Encounter<Real> at = find_encounter(w, contact, manifold, dt, h);
+    if (at.outlook == Outlook::Meets) {
+      begin_ahead(w, id, at, dt);
+    } else if (manifold.count > 0 && at.outlook != Outlook::Misses) {
       begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { rebuild(w, contact, manifold, c); });
-      continue;
     }
-    const Encounter<Real> at = find_encounter(w, contact, dt);
-    if (at.manifold.count > 0)
-      begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { build_ahead(w, contact, at, c); });
   }
+}
+
+// Makes a manifold anew; false when there is none.
+template <class Real>
+bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, ContactConstraint<Real>& c) {
+  const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
+  const Encounter<Real> at = find_encounter(w, contact, manifold, dt, h);
+  if (at.outlook == Outlook::Meets) {
+    build_ahead(w, contact, at, c);
+    if (will_bounce(w, contact, at, c, dt)) {
+      append(w.scratch.expected_impacts, ExpectedImpact<Real>{.constraint = c, .in_graph = true});
+    } else {
+      note_pressed(w, c);
+    }
+  } else {
+    rebuild(w, contact, manifold, c);
+  }
+  return c.count > 0 && at.outlook != Outlook::Misses;
 }
 
 // A contact with points is carried on, or made anew where its bodies have moved too much for that.
 template <class Real>
-void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt, Real h) {
   // Also of what is gone again since. Noted after all were looked at, or, should a hook throw, in the next
   // step.
   if (touches(c) != c.touching) w.scratch.touch_changes.push_back(c.contact);
@@ -366,8 +401,7 @@ void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt)
   }
   if (!carry_on(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
     const ContactRecord& contact = w.contacts[c.contact];
-    rebuild(w, contact, new_manifold(w, contact, dt), c);
-    if (c.count == 0 || is_waived(w, contact, c)) {
+    if (!renew(w, contact, dt, h, c) || is_waived(w, contact, c)) {
       w.scratch.ended_contacts.push_back(c.contact);
       return;
     }
@@ -377,13 +411,36 @@ void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt)
 
 }  // namespace
 
+namespace {
+
+// The solver takes what does not bounce in free flight.
 template <class Real>
-void update_contacts(WorldData<Real>& w, Real dt) {
+void settle_expected_impacts(WorldData<Real>& w, Real dt) {
+  decide_expected_impacts(w);
+  for (ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+    ContactConstraint<Real>& c = impact.constraint;
+    if (impact.in_graph) {
+      if (!impact.left) append(w.scratch.ended_contacts, c.contact);
+    } else if (impact.left) {
+      begin_step(w, c, dt);
+      w.scratch.begun_contacts.push_back(c);
+    } else {
+      wake_body(w, c.body_a), wake_body(w, c.body_b);
+    }
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
   scratch.begun_contacts.clear(), scratch.bouncing.clear();
-  look_at_near(w, dt);
-  w.graph.for_each([&](ContactConstraint<Real>& c) { look_at_constraint(w, c, dt); });
+  clear_expected_impacts(w);
+  look_at_near(w, dt, h);
+  w.graph.for_each([&](ContactConstraint<Real>& c) { look_at_constraint(w, c, dt, h); });
+  settle_expected_impacts(w, dt);
   for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     note_touching(w, c, !c.touching);
@@ -433,7 +490,7 @@ template void mix_materials(const WorldData<float>&, const ContactRecord&, Conta
 template void mix_materials(const WorldData<double>&, const ContactRecord&, ContactConstraint<double>&);
 template void report_impacts(WorldData<float>&);
 template void report_impacts(WorldData<double>&);
-template void update_contacts(WorldData<float>&, float);
-template void update_contacts(WorldData<double>&, double);
+template void update_contacts(WorldData<float>&, float, float);
+template void update_contacts(WorldData<double>&, double, double);
 
 }  // namespace plumb

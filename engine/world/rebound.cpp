@@ -8,6 +8,7 @@
 #include "engine/world/constants.h"
 #include "engine/world/contact_reading.h"
 #include "engine/world/contacts.h"
+#include "engine/world/expected_impacts.h"
 #include "engine/world/free_motion.h"
 #include "engine/world/narrow_phase.h"
 
@@ -25,42 +26,20 @@ bool is_free(const WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    for (int i = 0; i < c.count; ++i)
-      presses = presses || c.normal_impulse[i] > 0 || c.peak_impulse[i] > 0 || !(c.separation[i] > 0);
+    presses = presses || holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
   });
   return !presses;
 }
 
-// When they are as near as at the fraction of the step at which their straight ways bring them together; n
-// from a to b. With a constant acceleration that is a little sooner or later.
-double meeting_time(const Flight& a, const Flight* b, Vec2d n, double fraction, double dt) {
-  const auto between = [&](Vec2d of_a, Vec2d of_b) { return dot(n, of_b - of_a); };
-  const Vec2d still{};
-  const double there = between(a.start_at(fraction), b ? b->start_at(fraction) : still);
-  const double earliest = std::max(a.time, b ? b->time : 0.0);
-  double t = fraction * dt;
-  for (int i = 0; i < tuning::kMeetingSteps; ++i) {
-    const double rate = between(a.velocity_at(t), b ? b->velocity_at(t) : still);
-    if (!(rate < 0)) return std::max(fraction * dt, earliest);
-    t -= (between(a.position_at(t), b ? b->position_at(t) : still) - there) / rate;
-  }
-  return std::clamp(t, earliest, std::max(dt, earliest));
-}
-
 // With constant acceleration the way is (v0 + v1) dt / 2. What rounding alone makes of it is none.
 template <class Real>
-void note_motion(const WorldData<Real>& w, Flight& flight, double dt) {
-  if (flight.known) return;
-  flight.known = true;
-  const BodyMotion<Real>& motion = w.motion[flight.body];
+void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
   const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * flight.way);
   const double rounding =
       8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
-  const bool steady = std::abs(gain.x) + std::abs(gain.y) <= rounding;
-  flight.position = flight.start;
-  flight.acceleration = steady ? Vec2d{} : (1 / dt) * gain;
-  flight.velocity = steady ? end : end - gain;
-  flight.angular_velocity = static_cast<double>(motion.angular_velocity);
+  if (std::abs(gain.x) + std::abs(gain.y) <= rounding) return;
+  flight.gain = gain, flight.velocity = end - gain;
+  flight.curve = (0.5 * dt) * gain, flight.way -= flight.curve;
 }
 
 // What is written to a body while its impact is looked at, to be put back when there is none.
@@ -93,37 +72,78 @@ void place(WorldData<Real>& w, const Flight& flight, double fraction) {
 }
 
 template <class Real>
-void set_velocity(WorldData<Real>& w, const Flight& flight, double t) {
-  w.motion[flight.body].velocity = flight.velocity_at(t).template as<Real>();
+void set_velocity(WorldData<Real>& w, const Flight& flight, double fraction) {
+  w.motion[flight.body].velocity = flight.velocity_at(fraction).template as<Real>();
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-// Newton's law at the points that touch, then friction. False when they do not approach fast enough.
+// Newton's and Coulomb's laws together at one point: the friction of an impact off the centre changes the
+// normal velocity too. Where that would gain energy, or slide back, nothing happens, and false is returned.
 template <class Real>
-bool throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
+  const ContactConstraint<Real>& c = pair.c;
+  if (!(c.mass[i] > 0) || !(c.tangent_mass > 0)) return false;
+  const Real nn = 1 / c.mass[i], tt = 1 / c.tangent_mass;
+  const Real nt = pair.a.inverse_inertia * c.arm_a[i] * c.arm_tangent_a +
+                  pair.b.inverse_inertia * c.arm_b[i] * c.arm_tangent_b;
+  const Real vn = pair.normal_rate(i), vt = pair.sliding_rate(), gain = wanted - vn;
+  const Real determinant = nn * tt - nt * nt;
+  Real normal = 0, friction = 0;
+  const bool determined = determinant > Real(1e-6) * nn * tt;
+  if (determined) {
+    normal = (tt * gain + nt * vt) / determinant;
+    friction = -(nn * vt + nt * gain) / determinant;
+  }
+  if (!determined || !(std::abs(friction) <= c.friction * normal)) {
+    const Real direction = vt > 0 || (vt == 0 && friction < 0) ? Real(-1) : Real(1);
+    const Real share = direction * c.friction, pressed = nn + share * nt;
+    if (!(pressed > Real(1e-3) * nn)) return false;
+    normal = gain / pressed, friction = share * normal;
+    if (direction * (vt + nt * normal + tt * friction) > 0) return false;
+  }
+  const Real after = vt + nt * normal + tt * friction;
+  if (!(normal > 0) || normal * (vn + wanted) + friction * (vt + after) > 0) return false;
+  i == 0 ? pair.push(normal, 0) : pair.push(0, normal);
+  pair.rub(friction);
+  return true;
+}
+
+enum class Throw { None, Slide, Bounce };  // nothing approaches; nothing does so fast enough to bounce
+
+// Throws two bodies back: Newton's law at the points that touch, with friction. Impulses of the normals alone
+// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0, and friction that does no more than stop
+// what slides takes some too: none is ever gained.
+template <class Real>
+Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
-  const Real smaller = c.push_speed / Real(tuning::kPushSpeed);
+  // Gaps that rounding leaves: points that cannot be told apart in time are struck at once.
+  const Real rounding =
+      Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
   bool strikes[2] = {}, fast = false;
   Real wanted[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.normal_impulse[i] = c.peak_impulse[i] = 0;
     c.approach[i] = pair.normal_rate(i);
-    strikes[i] =
-        c.approach[i] < 0 && c.separation[i] <= nearest + Real(2 * tuning::kImpactTolerance) * smaller;
+    strikes[i] = c.approach[i] < 0 && c.separation[i] <= nearest + rounding;
     fast = fast || (strikes[i] && c.approach[i] < -threshold);
-    wanted[i] = -c.restitution * c.approach[i];
   }
-  if (!fast) return false;
+  if (!strikes[0] && !strikes[1]) return Throw::None;
+  fast = fast && may_bounce;
+  for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -c.restitution * c.approach[i] : Real(0);
   c.tangent_impulse = c.rolling_impulse = 0;
-  // Twice: what rounding leaves of the one goes with the other, so that no energy trickles away.
-  pair.press(wanted, strikes[0], strikes[1]);
-  pair.press(wanted, strikes[0], strikes[1]);
+  const bool one = !strikes[0] || !strikes[1];
+  const int point = strikes[0] ? 0 : 1;
+  if (!(c.friction > 0) || !one || !strike_and_rub(pair, point, wanted[point])) {
+    // Twice: what rounding leaves of the one goes with the other, so that no energy trickles away.
+    pair.press(wanted, strikes[0], strikes[1]);
+    pair.press(wanted, strikes[0], strikes[1]);
+  }
   pair.rub_and_roll();
   c.watched = true;
   pair.note_peaks();
-  return true;
+  return fast ? Throw::Bounce : Throw::Slide;
 }
 
 // Tells that the shapes have met; they are apart again at the end of the step.
@@ -148,16 +168,19 @@ void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConst
 }  // namespace
 
 template <class Real>
-Flight flight_of(const WorldData<Real>& w, int body) {
+Flight flight_of(const WorldData<Real>& w, int body, double dt) {
   const BodyMotion<Real>& motion = w.motion[body];
   Flight flight;
   flight.body = body;
   flight.way = motion.moved.template as<double>();
   flight.start = flight.first = w.position[body] - flight.way;
   flight.turn = static_cast<double>(motion.turned);
+  flight.velocity = motion.velocity.template as<double>();
+  flight.angular_velocity = static_cast<double>(motion.angular_velocity);
   const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
   const Rotation<double> back = rotation_of(-flight.turn);
   flight.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
+  if (w.gives_way(body) && is_free(w, body)) note_parabola(motion, flight, dt);
   return flight;
 }
 
@@ -171,34 +194,33 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other) {
 template <class Real>
 bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt) {
   Kept<Real> kept_a(w, &a), kept_b(w, b);
-  note_motion(w, a, dt);
-  place(w, a, fraction);
-  if (b) note_motion(w, *b, dt), place(w, *b, fraction);
+  place(w, a, fraction), set_velocity(w, a, fraction);
+  if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
   const ContactRecord contact = contact_of(w, shape, other);
   ContactConstraint<Real> c = constraint_between(w, contact);
-  bool thrown = c.count > 0;
-  double t = 0;
-  if (thrown) {
-    const double sign = contact.body_a == a.body ? 1 : -1;
-    t = meeting_time(a, b, sign * c.normal.template as<double>(), fraction, dt);
-    set_velocity(w, a, t);
-    if (b) set_velocity(w, *b, t);
-    thrown = throw_back(w, c, static_cast<Real>(dt));
-  }
-  if (thrown) report(w, contact, c);
+  // A cascade that takes energy each time comes to its end.
+  const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
+  const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  if (thrown != Throw::None) report(w, contact, c);
+  const Vec2d normal = c.normal.template as<double>();
   const auto go_on = [&](Flight* flight, Kept<Real>& kept) {
-    if (flight == nullptr || !thrown || !w.gives_way(flight->body)) return kept.restore();
+    if (flight == nullptr || thrown == Throw::None || !w.gives_way(flight->body)) return kept.restore();
     const BodyMotion<Real>& motion = w.motion[flight->body];
-    flight->go_on(fraction, t, motion.velocity.template as<double>(),
+    // The surface bears what presses on it.
+    if (thrown == Throw::Slide) {
+      const double side = flight->body == contact.body_a ? 1 : -1;
+      flight->gain -= (side * std::max(side * dot(flight->gain, normal), 0.0)) * normal;
+    }
+    flight->go_on(fraction, motion.velocity.template as<double>(),
                   static_cast<double>(motion.angular_velocity), dt);
   };
   go_on(&a, kept_a);
   go_on(b, kept_b);
-  return thrown;
+  return thrown != Throw::None;
 }
 
 template <class Real>
-void land(WorldData<Real>& w, const Flight& flight, double dt) {
+void land(WorldData<Real>& w, const Flight& flight) {
   BodyMotion<Real>& motion = w.motion[flight.body];
   const double turned = flight.turned_before + flight.turn;
   w.bodies[flight.body].angle += turned - static_cast<double>(motion.turned);
@@ -206,15 +228,15 @@ void land(WorldData<Real>& w, const Flight& flight, double dt) {
   motion.moved = (w.position[flight.body] - flight.first).template as<Real>();
   motion.turned = static_cast<Real>(turned);
   if (flight.impacts == 0) return;
-  motion.velocity = flight.velocity_at(dt).template as<Real>();
+  motion.velocity = flight.velocity_at(1).template as<Real>();
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
 #define PLUMB_FOR(Real)                                                                \
-  template Flight flight_of(const WorldData<Real>&, int);                              \
+  template Flight flight_of(const WorldData<Real>&, int, double);                      \
   template bool may_rebound(const WorldData<Real>&, int, int);                         \
   template bool rebound(WorldData<Real>&, Flight&, int, Flight*, int, double, double); \
-  template void land(WorldData<Real>&, const Flight&, double);
+  template void land(WorldData<Real>&, const Flight&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

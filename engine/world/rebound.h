@@ -4,9 +4,9 @@
 
 namespace plumb {
 
-/// The way of a body in this step, as the solver had it.
+/// The way of a body in a step of `dt`, as the solver had it.
 template <class Real>
-Flight flight_of(const WorldData<Real>& w, int body);
+Flight flight_of(const WorldData<Real>& w, int body, double dt);
 
 /// The one that it has had an impact in, or is to have; null when there is none.
 template <class Real>
@@ -21,14 +21,15 @@ const Flight* flight_in(const WorldData<Real>& w, int body) {
 template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other);
 
-/// An impact in flight: `a`, with its `shape`, and `b` (none: what does not move), with its `other`, go on
-/// from a fraction of the step with the velocities that Newton's and Coulomb's laws give them. False, and
-/// nothing happens, when they come too slowly for that, or do not touch.
+/// Resolves an impact in flight: `a`, with its `shape`, and `b` (none: what does not move), with its `other`,
+/// go on from a fraction of the step with the velocities that Newton's and Coulomb's laws give them. What
+/// comes too slowly to bounce slides on along the surface. False, and nothing happens, when they do not
+/// approach.
 template <class Real>
 bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt);
 
 /// Puts a body where its flight has brought it.
 template <class Real>
-void land(WorldData<Real>& w, const Flight& flight, double dt);
+void land(WorldData<Real>& w, const Flight& flight);
 
 }  // namespace plumb

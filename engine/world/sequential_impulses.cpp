@@ -34,7 +34,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
       if (jointed) w.joint_set.solve(bodies, joints);
       sweep_contacts(bodies.motion, w.graph, contacts);
     }
-    integrate_positions(w, static_cast<Real>(h));
+    integrate_positions(w, static_cast<Real>(h), FreeFlight::Substeps);
     stop_arrivals(bodies.motion, w.graph, contacts);
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
     contacts.warm_start = 1;

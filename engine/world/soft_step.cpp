@@ -93,14 +93,13 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, joints, true);
     solve_contacts(bodies.motion, w.graph, contacts);
-    if (strikes) bounce_positions(bodies.motion, w.scratch.bounces, contacts);
-    integrate_positions(w, static_cast<Real>(h));
+    integrate_positions(w, static_cast<Real>(h), FreeFlight::Exact);
     if (jointed) turn_back(w);
     close_direct_joints(w, joints);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, joints, false);
     relax_contacts(bodies.motion, w.graph, contacts);
-    bounce_velocities(bodies.motion, w.scratch.bounces);
+    hold_again(w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }
   finish_direct_islands(w);

@@ -97,12 +97,12 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   find_pairs(w);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
-  update_contacts(w, static_cast<Real>(dt));
+  update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h));
   try {
     solve_motion(w, h, substeps);
     report_impacts(w);
     finish_motion(w, static_cast<Real>(dt));
-    if (w.settings.continuous) stop_at_impacts(w, static_cast<Real>(dt));
+    stop_at_impacts(w, static_cast<Real>(dt));
   } catch (...) {
     make_good(w);
     throw;

@@ -13,9 +13,9 @@ void step_world(WorldData<Real>& w, double dt, int substeps);
 template <class Real>
 void find_pairs(WorldData<Real>& w);
 
-/// Narrow phase: where shapes touch, or may within `dt`.
+/// Narrow phase: where shapes touch, or may within `dt`, of substeps of length `h`.
 template <class Real>
-void update_contacts(WorldData<Real>& w, Real dt);
+void update_contacts(WorldData<Real>& w, Real dt, Real h);
 
 /// Velocities and motion of the awake bodies over `substeps` substeps of length `h`, by the world's solver.
 template <class Real>

@@ -156,11 +156,21 @@ struct Kick {
   Real spin_before = 0;          ///< rad/s
 };
 
-/// A body that moved far in a step. `covered`: its stored boxes held it all the way, so that it can only have
-/// met what it has a contact with.
+/// A body whose way in a step is searched for impacts: it moved far for its size, or an impact that bounces
+/// is `expected`. `covered`: its stored boxes held it all the way, so that it can only have met what it has a
+/// contact with.
 struct FastBody {
   int body = 0;
   bool covered = false;
+  bool expected = false;
+};
+
+/// A contact whose shapes are going to meet in this step, in free flight, and bounce.
+template <class Real>
+struct ExpectedImpact {
+  ContactConstraint<Real> constraint;
+  bool in_graph = false;  ///< the contact had points before; else it gets them when the solver takes it
+  bool left = false;      ///< to the solver
 };
 
 /// A body that joints of a direct island act on.
@@ -225,6 +235,10 @@ struct Scratch {
   std::vector<char> not_a_tree, tree_grounded;  ///< by the body that stands for a set, likewise
   std::vector<int> bouncing;  ///< contacts that have restitution, or may be of discs that approach fast
   std::vector<Bounce<Real>> bounces;
+  std::vector<ExpectedImpact<Real>> expected_impacts;
+  std::vector<int> pressed_bodies;  ///< that something is going to hold in this step
+  std::vector<int> expecting_bodies;
+  std::vector<char> pressed, expecting;  ///< by body, what the lists hold; all 0 when these are empty
   CrowdRoom<Real> crowds;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;

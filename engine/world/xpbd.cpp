@@ -22,7 +22,7 @@ void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.begin_projection(bodies, joints);
     begin_position_contacts(bodies.motion, w.graph);
     integrate_velocities(w);
-    integrate_positions(w, step);
+    integrate_positions(w, step, FreeFlight::Substeps);
     if (jointed) w.joint_set.project(bodies, rotation, joints);
     project_contacts(bodies.motion, rotation, w.graph, contacts, PositionFriction::Static);
     hold_locks(w);

@@ -302,7 +302,11 @@ TEST(Contacts, TheFewThatMeetAmongManyThatFall) {
     EXPECT_NEAR(world.velocity(discs[i]).x, was_struck ? 2 : 0, 1e-5) << i;
     EXPECT_NEAR(world.velocity(discs[i]).y, -1.5 * kGravity, 1e-4) << i;
   }
-  EXPECT_GT(world.velocity(discs[380]).y, -kGravity) << "it was thrown back";
+  // Equal discs of restitution 1 swap their velocities, as if points went through each other and bounced off
+  // the kinematic body alone, 2 m apart. The lowest now is the one that began 12 m above it and has yet to
+  // land.
+  EXPECT_NEAR(world.position(discs[380]).y, -2 + 12 - kGravity * 1.5 * 1.5 / 2, 1e-3) << "it was thrown back";
+  EXPECT_NEAR(world.velocity(discs[380]).y, -1.5 * kGravity, 1e-3);
 }
 
 }  // namespace
