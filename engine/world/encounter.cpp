@@ -8,6 +8,7 @@
 #include "engine/world/contacts.h"
 #include "engine/world/free_motion.h"
 #include "engine/world/narrow_phase.h"
+#include "engine/world/seams.h"
 
 namespace plumb {
 namespace {
@@ -99,15 +100,6 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
 }
 
-template <class Real>
-ContactManifold<Real> collide_at(const WorldData<Real>& w, const ContactRecord& contact,
-                                 const Pose<Real>& b_in_a, Real reach) {
-  const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
-  if (!w.forms[contact.shape_a].chain) return collide_convex(shape_a, shape_b, b_in_a, reach);
-  const Corner<Real>* chain = shape_a.corners;
-  return collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach);
-}
-
 // The manifold at a fraction of the step.
 template <class Real>
 Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
@@ -122,7 +114,11 @@ Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& cont
   const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
   Encounter<Real> at;
-  at.manifold = collide_at(w, contact, b_in_a, Real(tuning::kContactReach) * smaller);
+  const auto moved = [](const Sweep<double>& way) {
+    return std::abs(way.motion.x) + std::abs(way.motion.y) + std::abs(way.curve.x) + std::abs(way.curve.y);
+  };
+  at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kContactReach) * smaller,
+                               static_cast<Real>(moved(way_a) + moved(way_b)));
   if (at.manifold.count == 0) return at;
   at.outlook = Outlook::Meets;
   at.rotation = rounded(at_a.rotation);

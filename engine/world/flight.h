@@ -5,8 +5,8 @@
 
 namespace plumb {
 
-/// Describes how a body moves from some place within the step to its end: on a parabola where nothing but constant
-/// forces acts on it, else straight, and turning evenly.
+/// Describes how a body moves from some place within the step to its end: on a parabola where nothing but
+/// constant forces acts on it, else straight, and turning evenly.
 struct Flight {
   int body = -1;
   bool covered = false;   ///< see FastBody
@@ -20,10 +20,10 @@ struct Flight {
   int version = 0;        ///< of what follows
   int carrier = -1;       ///< the kinematic body that it is pushed along by for the rest of the step
 
-  Vec2d first{};              ///< m, where the step started
-  double from = 0;            ///< fraction of the step
-  Vec2d start{}, way{};       ///< m, of the centre of mass at `from`, and on to the step's end
-  Vec2d curve{};              ///< m, by how much more, in proportion to the square of the time; none with an arm
+  Vec2d first{};         ///< m, where the step started
+  double from = 0;       ///< fraction of the step
+  Vec2d start{}, way{};  ///< m, of the centre of mass at `from`, and on to the step's end
+  Vec2d curve{};         ///< m, by how much more, in proportion to the square of the time; none with an arm
   Rotation<double> rotation;  ///< at `from`
   double turn = 0;            ///< rad, until the step's end
   double turned_before = 0;   ///< rad, from the step's start to `from`

@@ -57,13 +57,7 @@ ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord&
   const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
   const Rotation<Real> q = w.rotation[b];
   const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
-  const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
-  const Corner<Real>* chain = shape_a.corners;
-  const ContactManifold<Real> manifold =
-      w.forms[contact.shape_a].chain
-          ? collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach)
-          : collide_convex(shape_a, shape_b, b_in_a, reach);
-  return manifold.count > 0 ? across_seams(w, contact, b_in_a, reach, manifold) : manifold;
+  return collide_shapes(w, contact, b_in_a, reach);
 }
 
 // Arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).

@@ -21,17 +21,17 @@ struct Motion {
 };
 
 template <class Real>
-Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin) {
+Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, double dt) {
   if (const Flight* flight = flight_in(w, body)) return {flight->sweep(from, origin), flight->arm};
   const BodyMotion<Real>& motion = w.motion[body];
-  if (motion.turned == 0) {
+  if (motion.turned == 0 && !w.gives_way(body)) {
     const Vec2d way = motion.moved.template as<double>();
     const Rotation<Real> q = w.rotation[body];
     return {{w.position[body] - (1 - from) * way - origin,
              (1 - from) * way,
              {static_cast<double>(q.c), static_cast<double>(q.s)}}};
   }
-  return {flight_of(w, body).sweep(from, origin)};
+  return {flight_of(w, body, dt).sweep(from, origin)};
 }
 
 // A shape as seen from the point of its body whose way is straight.
@@ -69,7 +69,7 @@ class Encountering {
       : w_(w),
         way_(way),
         pair_(pair),
-        of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin)),
+        of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin, way.search.dt)),
         whole_(w.convex(pair.shape), way.flight.arm),
         obstacle_(w.convex(pair.other), of_other_.arm),
         tolerance_(Real(tuning::kImpactTolerance) *
@@ -80,6 +80,17 @@ class Encountering {
 
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
     return meet(moving, standing, tolerance_, tolerance_);
+  }
+  // As near as roundings can tell: at what throws a body back.
+  Result meet_closely() const {
+    const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
+    const double bodies =
+        static_cast<double>(w_.extents[way_.flight.body] + w_.extents[w_.shapes[pair_.other].body]);
+    const Sweep<double>&own = way_.sweep, &others = of_other_.sweep;
+    const double ways = size(others.start) + size(others.motion) + size(own.motion) +
+                        bodies * (std::abs(own.turn) + std::abs(others.turn));
+    const Real near = static_cast<Real>(tuning::kReboundTolerance * (bodies + ways));
+    return meet(whole(), obstacle(), near, near);
   }
   // What starts nearer than it would be stopped does not get any nearer.
   Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
@@ -108,8 +119,8 @@ class Encountering {
 
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing, Real target, Real tolerance) const {
     const Result found = time_of_impact(standing, of_other_.sweep, moving, way_.sweep, target, tolerance,
-                                        tuning::kImpactIterations + way_.long_searches);
-    way_.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
+                                        tuning::kImpactIterations + way_.search.long_searches);
+    way_.search.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
     return found;
   }
   double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
@@ -177,12 +188,19 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
 template <class Real>
 bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   const auto is_straight = [](const Flight& flight) { return !flight.changed && flight.arm == Vec2d{}; };
+  // A parabola leaves its chord by a quarter of its curve at most.
+  const auto bend = [&](int body) {
+    const BodyMotion<Real>& motion = w.motion[body];
+    const Vec2<Real> curve = static_cast<Real>(way.search.dt) * motion.velocity - motion.moved;
+    return w.gives_way(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
+  };
   if (pair.stands || !is_straight(way.flight)) return false;
   const int other_body = w.shapes[pair.other].body;
   if (const Flight* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
     return false;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
-  const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent);
+  const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent) +
+                     bend(way.flight.body) + bend(other_body);
   const bool discs = form.count == 1 && other_form.count == 1;
   const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
   const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);
@@ -210,10 +228,9 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const bool flies_on = way.flight.impacts > 0;
   if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
     if (w.forms[pair.shape].chain && !pair.stands) return 1;  // what it meets is thrown back by it
-    const Result first = at.meet(at.whole(), at.obstacle());
+    const Result first = at.meet_closely();
     if (first.state == Result::State::Separated) return 1;
-    if (first.state != Result::State::Overlapped && (first.exact_fraction > 0 || flies_on))
-      return at.passes_behind(first) ? 1 : at.fraction(first);
+    if (first.state != Result::State::Overlapped) return at.passes_behind(first) ? 1 : at.fraction(first);
   }
   const Result through = core_impact(w, at, pair);
   if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;

@@ -4,19 +4,25 @@
 
 namespace plumb {
 
+/// What all searches for impacts in a step share.
+struct ImpactSearch {
+  double dt = 0;          ///< s, the step
+  int long_searches = 0;  ///< iterations left, see kLongSearches
+};
+
 /// The rest of a body's way in this step, from a fraction of it on, seen from where it starts.
 struct Way {
-  Way(const Flight& flight_, double from_, int& long_searches_)
+  Way(const Flight& flight_, double from_, ImpactSearch& search_)
       : flight(flight_),
         from(from_),
         origin(flight_.start_at(from_)),
         sweep(flight_.sweep(from_, origin)),
-        long_searches(long_searches_) {}
+        search(search_) {}
   const Flight& flight;
   double from;
   Vec2d origin;
   Sweep<double> sweep;
-  int& long_searches;  // iterations left to all of the step, see kLongSearches
+  ImpactSearch& search;
 };
 
 /// Of a pair of shapes, what is known beforehand.
