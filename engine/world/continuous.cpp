@@ -340,6 +340,8 @@ void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
     if (other_too) show_way(w, *other);
     look_ahead(w, next.flight, next.fraction, search);
     if (other_too) look_ahead(w, other_place, next.fraction, search);
+    if (thrown) look_back(w, next.flight, next.fraction, search);
+    if (other_too) look_back(w, other_place, next.fraction, search);
     return;
   }
   const bool pushed = other != nullptr && !w.gives_way(other_body);

@@ -76,6 +76,7 @@ class Encountering {
                    std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent)) {}
 
   const Convex<Real>& whole() const { return whole_.convex(); }
+  bool flies_on() const { return way_.flight.impacts > 0; }
   const Convex<Real>& obstacle() const { return obstacle_.convex(); }
 
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
@@ -159,6 +160,13 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
   const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
                            : Real(tuning::kCoreDepth) * own;
+  // After an impact in flight nothing bears it: before what was stopped it waits where it touches.
+  const Flight* met = flight_in(w, w.shapes[pair.other].body);
+  if (at.flies_on() && met != nullptr && met->stands) {
+    const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
+    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+    if (found.state != State::Overlapped) return found;
+  }
   if (both_yield(w, pair)) {
     const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * own),
         other_core(at.obstacle(), Real(tuning::kInnerDepth) * others);

