@@ -98,7 +98,7 @@ MUTATIONS = [
     Mutation("snapshots with contacts of one colour that share a body", "engine/solve/contact_graph.h",
              "sound = sound && !bodies_[c].test(body);", "", "world", ("world/snapshot",)),
     Mutation("searches for impacts of what spins without end", "engine/world/swept_pair.cpp",
-             "way_.long_searches -= std::max(", "way_.long_searches -= 0 * std::max(", "world", ("world/impacts",)),
+             "way_.search.long_searches -= std::max(", "way_.search.long_searches -= 0 * std::max(", "world", ("world/impacts",)),
 
     # Precise.
     Mutation("precise: a hinge's push turns its body the wrong way", "engine/simulation/precise_hinges.cpp",
@@ -191,8 +191,8 @@ MUTATIONS = [
     Mutation("world: what is pressed back at once bounces on for ever", "engine/solve/bounce_crowds.cpp",
              "round < rounds && at_one_time > 0", "round < rounds", "world"),
     Mutation("world: continuous collision slows what it stops", "engine/world/continuous.cpp",
-             "flight.stop(fraction,",
-             "w.motion[flight.body].velocity *= static_cast<Real>(fraction); flight.stop(fraction,", "world"),
+             "flight.stop(fraction);",
+             "w.motion[flight.body].velocity *= static_cast<Real>(fraction); flight.stop(fraction);", "world"),
     Mutation("world: continuous collision leaves out what has a contact", "engine/world/continuous.cpp",
              "note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);",
              "if (contact.home != ContactHome::Graph) note_meeting(w, way, {shape, other}, first);", "world",
@@ -203,7 +203,7 @@ MUTATIONS = [
              "if (!joint.active || !w.gives_way(other) || seen[other]) return;", "if (other != body) return;", "world",
              ("world/continuous",)),
     Mutation("world: what moves as told passes over what stands", "engine/world/continuous.cpp",
-             "meet_pushers(w, place, long_searches);", "", "world", ("world/continuous",)),
+             "meet_pushers(w, place, search);", "", "world", ("world/continuous",)),
     Mutation("world: who may meet others is passed over where nothing stands", "engine/world/pairs.cpp",
              "!grounds && w.scratch.meets[record.proxy] == 0", "!grounds", "world"),
     Mutation("world: what lands wakes nobody", "engine/world/contacts.cpp",

@@ -223,7 +223,8 @@ TEST(Seams, HillsAreTheSameOfSegmentsOfPolygonsAndOfAChain) {
         for (int i = 0; i < 225; ++i) w.step();
         ends[kind] = w.position(body).x;
       }
-      // They lose a few per cent at the hollow bends, the same ones: where their impacts are placed: within a 250th of 30 m.
+      // They lose a few per cent at the hollow bends, the same ones: where their impacts are placed: within a
+      // 250th of 30 m.
       EXPECT_NEAR(ends[1], ends[0], 0.12) << slider.name << " " << length;
       EXPECT_NEAR(ends[2], ends[0], 0.12) << slider.name << " " << length;
     }
