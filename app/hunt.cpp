@@ -32,8 +32,7 @@ struct Options {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string out = "hunt", format = "console", minutes, replay;
-  std::uint64_t seed = 1, scenes = 0;
-  std::int64_t draw = -1;
+  std::int64_t seed = 1, scenes = 0, draw = -1;
   int jobs = 0;
   bool list = false;
 };
@@ -112,12 +111,12 @@ int start(const Options& options) {
   }
   if (!options.replay.empty()) return replay(options);
   hunting::HuntOptions what{.families = chosen_families(options.names),
-                            .seed = options.seed,
-                            .scenes = options.scenes,
+                            .seed = static_cast<std::uint64_t>(options.seed),
+                            .scenes = static_cast<std::uint64_t>(options.scenes),
                             .folder = options.out};
   if (options.draw >= 0) {
     const auto index = static_cast<std::uint64_t>(options.draw);
-    print(hunting::to_json(hunting::compose(options.seed, index, what.families)) + "\n");
+    print(hunting::to_json(hunting::compose(what.seed, index, what.families)) + "\n");
     return kOk;
   }
   std::vector<std::unique_ptr<reference::Backend>> programs;
@@ -162,9 +161,13 @@ void add_hunt(CLI::App& app, Action& chosen) {
   command->add_option("families", options->names, "structures to draw from (default: all); see --list")
       ->type_name("FAMILY");
   options->engines.add_to(*command);
-  command->add_option("--seed", options->seed, "draws other scenes (default 1)")->type_name("N");
+  command->add_option("--seed", options->seed, "draws other scenes (default 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
   command->add_option("--minutes", options->minutes, "how long to hunt (default 10)")->type_name("T");
-  command->add_option("--scenes", options->scenes, "stop after so many scenes")->type_name("N");
+  command->add_option("--scenes", options->scenes, "stop after so many scenes")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   command->add_option("--jobs", options->jobs, "processes (default: one a core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -55,7 +55,16 @@ void wait_for_end(pid_t child, const sigset_t& signals) {
   }
 }
 
-/// Kills the children that this process has now; returns how many there were.
+/// Kills `number` where it is a child of this process: what /proc lists has other numbers where it was
+/// mounted for another namespace of processes. Returns 1 where it is one and has ended or now ends, else 0.
+int kill_child(pid_t number) {
+  siginfo_t state{};
+  if (waitid(P_PID, static_cast<id_t>(number), &state, WEXITED | WNOHANG | WNOWAIT) != 0) return 0;
+  if (state.si_pid != 0) return 1;  // dead, and to be reaped
+  return kill(number, SIGKILL) == 0 ? 1 : 0;
+}
+
+/// Kills the children that this process has now; returns how many of them end.
 int kill_children() {
   const int list = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
   if (list < 0) return 0;
@@ -67,9 +76,8 @@ int kill_children() {
       if (text[i] >= '0' && text[i] <= '9') {
         number = number * 10 + (text[i] - '0');
       } else if (number > 0) {
-        kill(number, SIGKILL);
+        killed += kill_child(number);
         number = 0;
-        ++killed;
       }
     }
   }
@@ -125,6 +133,7 @@ void supervise(const Command& command, pid_t host, int problem) {
   wait_for_end(child, signals);
   // The group before its leader is reaped: until then no other group can have its number.
   kill(-child, SIGKILL);
+  kill(child, SIGKILL);  // where it left its group
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
