@@ -20,7 +20,6 @@ struct DirectRow {
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part: a one-sided row that would have to pull does not
   int block = 0;            ///< the constraint that it belongs to
-  Real turning_a = 0, turning_b = 0, sliding = 0;  ///< see RigidRow
 };
 
 /// The rows of a few constraints that hang together, solved all at once: J M^-1 J^T x = -(J v + bias), by a
