@@ -9,8 +9,10 @@ namespace {
 
 // Added to the mobility of each row, as a share of it: rows that depend on each other share their load. What
 // rows miss for it is taken back by refinement.
-constexpr double kSharing = 1e-8;
+constexpr double kSharing = 1e-10;
 constexpr int kRefinements = 2;
+// Of the largest speed: what rows may miss.
+constexpr double kExact = 1e-11;
 // Of the largest speed: by how much a row may be on the wrong side.
 constexpr double kSlack = 1e-9;
 // Block pivots that may pass without fewer rows on the wrong side; and pivots in all.
@@ -72,7 +74,7 @@ double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span
 }
 
 double BoundedRows::along(const BoundedRow& row) const {
-  const BoundedBody&a = bodies[row.a], &b = bodies[row.b];
+  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
   return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
          row.angular_b * b.spin;
 }
@@ -172,7 +174,7 @@ void BoundedRows::find_free() {
       x_[k] = residual(free_[k]);
       most = std::max(most, std::abs(x_[k]));
     }
-    if (most <= 1e-13 * speed_) break;
+    if (most <= kExact * speed_) break;
     matrix_.solve(x_.data());
     for (std::size_t k = 0; k < free_.size(); ++k) {
       rows[free_[k]].impulse += x_[k];
@@ -223,7 +225,7 @@ double BoundedRows::energy() const {
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
     const BoundedRow& row = rows[i];
     if (row.impulse == 0) continue;
-    const BoundedBody&a = start_[row.a], &b = start_[row.b];
+    const BoundedBody &a = start_[row.a], &b = start_[row.b];
     const double before = dot(row.linear_a, a.velocity) + row.angular_a * a.spin +
                           dot(row.linear_b, b.velocity) + row.angular_b * b.spin;
     sum -= 0.5 * row.impulse * (residual(i) + row.wanted - before);
@@ -281,7 +283,10 @@ void BoundedRows::solve() {
   sweep();
 }
 
-void BoundedRows::correct() {
+void BoundedRows::correct(double softening) {
+  find_mobility();
+  for (BoundedRow& row : rows) row.softening = softening;
+  factorise();
   shifts.assign(bodies.size(), {});
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;

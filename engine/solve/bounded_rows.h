@@ -27,18 +27,18 @@ struct BoundedBody {
 struct BoundedRow {
   enum State : std::int8_t { kFree, kLower, kUpper };
 
-  int a = 0, b = 0;                   ///< bodies of the system
-  Vec2d linear_a{}, linear_b{};       ///< J
+  int a = 0, b = 0;              ///< bodies of the system
+  Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  double wanted = 0;                  ///< m/s
-  double compliance = 0;              ///< 1/kg
-  double coupled_compliance = 0;      ///< 1/kg, with the impulse of the row before it
-  double lower = 0, upper = 0;        ///< N s
-  double softening = 0;               ///< share of its own mobility that is added to the compliance
-  double gap = 0;                     ///< m or rad: what `correct` takes back
-  double impulse = 0;                 ///< N s, found
+  double wanted = 0;              ///< m/s
+  double compliance = 0;          ///< 1/kg
+  double coupled_compliance = 0;  ///< 1/kg, with the impulse of the row before it
+  double lower = 0, upper = 0;    ///< N s
+  double softening = 0;           ///< share of its own mobility that is added to the compliance
+  double gap = 0;                 ///< m or rad: what `correct` takes back
+  double impulse = 0;             ///< N s, found
   int block = 0;
-  State state = kFree;                ///< to begin with, and as it was found
+  State state = kFree;  ///< to begin with, and as it was found
 };
 
 /// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
@@ -54,8 +54,8 @@ class BoundedRows {
   explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
 
   std::pmr::vector<BoundedBody> bodies;  ///< filled by the caller
-  /// Filled by the caller, rows of one block (of constraints between the same two bodies) side by side, blocks
-  /// ascending; a block may have none.
+  /// Filled by the caller, rows of one block (of constraints between the same two bodies) side by side,
+  /// blocks ascending; a block may have none.
   std::pmr::vector<BoundedRow> rows;
 
   /// Orders the blocks, given the two bodies of each. Returns what factorising `sizes` rows of each block
@@ -65,12 +65,14 @@ class BoundedRows {
   /// Finds the impulses, and gives them to the bodies' velocities.
   void solve();
 
-  /// Finds impulses that move bodies by `shift` instead of giving them a velocity, such that the gaps of the
-  /// rows that are free close. To be called after `solve`, at the same poses.
-  void correct();
+  /// Finds impulses that move bodies by `shifts` instead of giving them a velocity, such that the gaps of the
+  /// rows that are free close. Each row gives way by `softening` of its mobility (Levenberg and Marquardt):
+  /// what could close by wide motions alone stays open, as bodies move by no more than 1 / (2
+  /// sqrt(softening)) of the gaps.
+  void correct(double softening);
   struct Shift {
-    Vec2d way{};     ///< m
-    double turn = 0; ///< rad
+    Vec2d way{};      ///< m
+    double turn = 0;  ///< rad
   };
   std::pmr::vector<Shift> shifts;  ///< by body, as `correct` found them
 
@@ -90,15 +92,15 @@ class BoundedRows {
 
   BlockOrder order_;
   EnvelopeMatrix matrix_;
-  std::pmr::vector<BoundedBody> start_;     // the bodies as they were given
-  std::pmr::vector<double> mobility_;       // J M^-1 J^T + compliance, by row
-  std::pmr::vector<int> block_first_;       // by block: its first row
-  std::pmr::vector<int> free_, place_;      // place -> row; row -> place, -1: not free
-  std::pmr::vector<int> block_place_;       // by block: the place of its first free row, -1: none
+  std::pmr::vector<BoundedBody> start_;  // the bodies as they were given
+  std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
+  std::pmr::vector<int> block_first_;    // by block: its first row
+  std::pmr::vector<int> free_, place_;   // place -> row; row -> place, -1: not free
+  std::pmr::vector<int> block_place_;    // by block: the place of its first free row, -1: none
   std::pmr::vector<int> first_;
   std::pmr::vector<double> x_, best_;
-  std::pmr::vector<std::int8_t> wrong_;     // 0, or the state to go to + 1
-  double speed_ = 0;                        // m/s, the largest that matters
+  std::pmr::vector<std::int8_t> wrong_;  // 0, or the state to go to + 1
+  double speed_ = 0;                     // m/s, the largest that matters
 };
 
 }  // namespace plumb

@@ -35,8 +35,8 @@ template <class Real>
 struct JointSolverRow {
   JointRow<Real> row{};  ///< the residual is what it holds: 0, or at least 0 of a limit
   RowRole role = RowRole::Rigid;
-  bool pair = false;     ///< `most` bounds the vector of this impulse and the one of the row before it
-  Real speed = 0;        ///< m/s or rad/s, of a motor
+  bool pair = false;  ///< `most` bounds the vector of this impulse and the one of the row before it
+  Real speed = 0;     ///< m/s or rad/s, of a motor
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
   Real compliance = 0;          ///< of its mobility's unit
@@ -119,6 +119,10 @@ class JointSet {
   /// in turn holds. Velocities are, and stay, the way since the substep's start over h. Of `step.softness`
   /// the rate is 1 / h: all of an error is taken back.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
+
+  /// Whether sweeps do not hold the joint well: they cannot be relied on for its kind or where many joints
+  /// share a light body, or have left it open by more than `share` of its arms. As evaluated last.
+  bool is_loose(int joint, Real share) const;
 
   /// Appends the rows of a joint where its bodies are now.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);

@@ -1,4 +1,4 @@
-#include <limits>
+#include <type_traits>
 
 #include "engine/solve/joint_parts.h"
 
@@ -47,7 +47,8 @@ struct RowList {
       if (point.rule.role == RowRole::Spring) {
         soften(out, point.rule.spring, out.pair ? response.yy : response.xx);
         if (out.pair && point.rule.spring.mass_scale > 0)
-          out.coupled_compliance = response.xy * point.rule.spring.impulse_scale / point.rule.spring.mass_scale;
+          out.coupled_compliance =
+              response.xy * point.rule.spring.impulse_scale / point.rule.spring.mass_scale;
       }
       rows.push_back(out);
     }
@@ -58,8 +59,9 @@ template <class Real>
 void add_rows(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies,
               std::vector<JointSolverRow<Real>>& rows) {
   const BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
-  const HingeArms<Real> arms = hinge_arms(hinge.offset, a.moved, b.moved, bodies.rotation[hinge.a] * hinge.anchor_a,
-                                          bodies.rotation[hinge.b] * hinge.anchor_b);
+  const HingeArms<Real> arms =
+      hinge_arms(hinge.offset, a.moved, b.moved, bodies.rotation[hinge.a] * hinge.anchor_a,
+                 bodies.rotation[hinge.b] * hinge.anchor_b);
   const AnchorPoint<Real> at{arms.a, arms.b, arms.gap};
   const JointVelocities<Real> v(a, b);
   const RowList<Real> list{rows, v};
@@ -87,7 +89,30 @@ void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodi
     for (std::size_t i = first; i < rows.size(); ++i) rows[i].row.linear_a = {}, rows[i].row.angular_a = 0;
 }
 
+template <class Real>
+bool is_open(const AnchorPoint<Real>& at, Real share) {
+  const Real most = share * share * (length_squared(at.arm_a) + length_squared(at.arm_b));
+  return length_squared(at.gap) > most;
+}
+
 }  // namespace
+
+template <class Real>
+bool JointSet<Real>::is_loose(int joint, Real share) const {
+  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) {
+    if (constraint.share < 1) return true;
+    if constexpr (requires { constraint.arm_a; }) {
+      return is_open(AnchorPoint<Real>{constraint.arm_a, constraint.arm_b, constraint.gap}, share);
+    } else if constexpr (std::is_same_v<Constraint, JointConstraint<Real, RevoluteRows>>) {
+      return is_open(constraint.point.point, share);
+    } else {
+      return true;
+    }
+  });
+}
+
+template bool JointSet<float>::is_loose(int, float) const;
+template bool JointSet<double>::is_loose(int, double) const;
 
 template <class Real>
 void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
@@ -95,7 +120,8 @@ void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
   parts_->at(joint, [&](auto& constraint) { add_rows(constraint, bodies, rows); });
 }
 
-template void JointSet<float>::solver_rows(int, const SolverBodies<float>&, std::vector<JointSolverRow<float>>&);
+template void JointSet<float>::solver_rows(int, const SolverBodies<float>&,
+                                           std::vector<JointSolverRow<float>>&);
 template void JointSet<double>::solver_rows(int, const SolverBodies<double>&,
                                             std::vector<JointSolverRow<double>>&);
 

@@ -1,7 +1,6 @@
 #include "engine/world/direct_islands.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 #include "engine/world/constants.h"
@@ -31,28 +30,53 @@ int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
-// In the size of an island with joints, that is left to the sweeps or solved as one.
-constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = kNone;
+// In the size of an island with joints: left to the sweeps; solved as one where sweeps have left a joint
+// open; solved as one in any case.
+constexpr int kSwept = tuning::kSlenderRows + 1, kWatched = -1, kJointed = -2;
 
-// Which islands with joints are solved as one.
+// Which islands with joints may be solved as one.
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
-  const bool all = w.settings.solver == Solver::Direct;
-  w.scratch.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
-  w.scratch.heaviest.assign(w.bodies.size(), 0);
+  Scratch<Real>& s = w.scratch;
+  s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  s.heaviest.assign(w.bodies.size(), 0);
+  s.island_joints.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
     if (!w.gives_way(body)) continue;
-    const int root = w.scratch.island_of[body];
-    w.scratch.lightest[root] = std::min(w.scratch.lightest[root], mass),
-    w.scratch.heaviest[root] = std::max(w.scratch.heaviest[root], mass);
+    const int root = s.island_of[body];
+    s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
   }
+  const auto root_of = [&](const JointRecord& joint) {
+    return s.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+  };
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (is_swept(w, joint)) ++s.island_joints[root_of(joint)];
+  });
+  for (const int body : w.awake) {
+    if (!w.gives_way(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
+    // Of contacts there are two rows in the size.
+    const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
+                       s.island_size[body] <= 2 * tuning::kJointedContacts;
+    const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
+    s.island_size[body] = !small                                         ? kSwept
+                          : alike && w.settings.solver != Solver::Direct ? kWatched
+                                                                         : kJointed;
+  }
+}
+
+// Islands that sweeps do not hold well are solved as one in this step.
+template <class Real>
+void find_loose(WorldData<Real>& w) {
+  Scratch<Real>& s = w.scratch;
+  s.island_loose.assign(w.bodies.size(), 0);
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_swept(w, joint)) return;
-    const int root = w.scratch.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
-    const bool alike = w.scratch.heaviest[root] <= Real(tuning::kDirectMassRatio) * w.scratch.lightest[root];
-    static const bool force = std::getenv("PLUMB_ALL") != nullptr;
-    w.scratch.island_size[root] = alike && !all && !force ? kSwept : kJointed;
+    const int root = s.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+    if (s.island_loose[root] != 0) return;
+    const int size = s.island_size[root];
+    s.island_loose[root] =
+        size == kJointed || (size == kWatched && w.joint_set.is_loose(joint.slot, Real(tuning::kLooseShare)));
   });
 }
 
@@ -146,14 +170,15 @@ void fill_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
-    if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
-    if (rows > 2 && rows <= tuning::kDirectRows) island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
+    if (rows < 0 && s.island_loose[root] != 0) jointed_at(root).contacts.push_back(&c);
+    if (rows > 2 && rows <= tuning::kDirectRows)
+      island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
   if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_swept(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
-    if (s.island_size[root] == kJointed) jointed_at(root).joints.push_back(joint.slot);
+    if (s.island_loose[root] != 0) jointed_at(root).joints.push_back(joint.slot);
   });
 }
 
@@ -181,6 +206,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (w.graph.empty() && swept_joints(w) == 0) return;
   if (!w.scratch.islands_known) find_islands(w);
   w.scratch.islands_known = true;
+  if (swept_joints(w) > 0) find_loose(w);
   fill_islands(w);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
@@ -230,9 +256,9 @@ void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.jointed_count; ++i) w.scratch.island_place[w.scratch.jointed[i].root] = kNone;
 }
 
-#define PLUMB_FOR(Real)                                                                      \
-  template void prepare_direct_islands(WorldData<Real>&);                                    \
-  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool);      \
+#define PLUMB_FOR(Real)                                                                 \
+  template void prepare_direct_islands(WorldData<Real>&);                               \
+  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
   template void finish_direct_islands(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

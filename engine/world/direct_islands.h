@@ -3,9 +3,9 @@
 #include "engine/solve/soft_contacts.h"
 #include "engine/world/world_data.h"
 
-/// Small islands of contacts are solved directly, besides the sweeps: towers, heavy loads on light things hold
-/// as well as a single contact does. Islands with joints are chosen here as well; engine/world/jointed_islands.h
-/// solves them. What is too large for that has the sweeps alone.
+/// Small islands of contacts are solved directly, besides the sweeps: towers, heavy loads on light things
+/// hold as well as a single contact does. Islands with joints are chosen here as well;
+/// engine/world/jointed_islands.h solves them. What is too large for that has the sweeps alone.
 namespace plumb {
 
 /// Finds them and factorises their systems, at the start of a step. Joints have been prepared.

@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-enum class Stage { Hold, Relax };
+enum class Stage { Hold, Close, Relax };
 
 template <class Real>
 int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
@@ -23,8 +23,9 @@ int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   const double inverse_mass = motion.inverse_mass;
   island.links.push_back({body});
-  island.system.bodies.push_back({.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
-                                  .inverse_inertia = motion.inverse_inertia});
+  island.system.bodies.push_back(
+      {.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
+       .inverse_inertia = motion.inverse_inertia});
   return place;
 }
 
@@ -42,7 +43,8 @@ double order(WorldData<Real>& w, JointedIsland<Real>& island) {
     island.blocks.emplace_back(link_a, link_at(w, island, b));
     rows.clear();
     w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
-    const auto limits = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
+    const auto limits =
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
     island.sizes.push_back(static_cast<int>(rows.size() - limits + (limits > 0 ? 1 : 0)));
   }
   for (const ContactConstraint<Real>* c : island.contacts) {
@@ -63,11 +65,12 @@ template <class Real>
 class RowMaker {
  public:
   RowMaker(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, Stage stage)
-      : w_(w), island_(island), h_(step.h), hold_(stage == Stage::Hold) {}
+      : w_(w), island_(island), h_(step.h), hold_(stage == Stage::Hold), close_(stage == Stage::Close) {}
 
   void make() {
     island_.system.rows.clear(), island_.ties.clear();
-    for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_) add_joint(island_.joints[block_]);
+    for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
+      add_joint(island_.joints[block_]);
     island_.contact_row = static_cast<int>(island_.ties.size());
     for (ContactConstraint<Real>* c : island_.contacts) {
       add_contact(*c);
@@ -85,6 +88,15 @@ class RowMaker {
   // `applied`: what the first solution has found; the second one adds to it.
   void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
     const std::size_t place = island_.ties.size();
+    if (close_) {
+      // Springs and motors hold no place; what is open, or does not press, may stay so.
+      const bool holds = lower < 0 ? row.gap != 0 || rigid_ : row.gap < 0 || island_.impulses[place] > 0;
+      row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
+      row.compliance = row.coupled_compliance = 0;
+      island_.system.rows.push_back(row);
+      island_.ties.push_back(tie);
+      return;
+    }
     if (place >= island_.impulses.size()) island_.impulses.push_back(double(*tie.impulse));
     const double guess = island_.impulses[place], applied = hold_ ? 0 : guess;
     row.lower = lower - applied, row.upper = upper - applied;
@@ -107,13 +119,15 @@ class RowMaker {
     const auto [link_a, link_b] = island_.blocks[block_];
     for (const JointSolverRow<Real>& from : rows) {
       BoundedRow row{.a = link_a, .b = link_b};
-      row.linear_a = from.row.linear_a.template as<double>(), row.linear_b = from.row.linear_b.template as<double>();
+      row.linear_a = from.row.linear_a.template as<double>(),
+      row.linear_b = from.row.linear_b.template as<double>();
       row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
       row.block = block_;
       const double before = velocity_along(row), most = from.most, gap = from.row.residual;
       // At the substep's start, where springs pull from and limits are measured.
-      const double start = hold_ ? gap - 0.5 * h_ * before : gap;
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       double lower = -most;
+      rigid_ = from.role == RowRole::Rigid;
       switch (from.role) {
         case RowRole::Rigid:
           row.wanted = hold_ ? -before : 0;
@@ -146,7 +160,8 @@ class RowMaker {
   // How fast a row's coordinate has changed in the substep, m/s.
   double moved_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
-    return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) + row.angular_b * b.turn;
+    return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
+           row.angular_b * b.turn;
   }
 
   void add_contact(ContactConstraint<Real>& c) {
@@ -162,11 +177,13 @@ class RowMaker {
     const double closed = dot(n, (b.moved - a.moved).template as<double>());
     const int first = static_cast<int>(island_.system.rows.size());
     double pressure = 0;
+    rigid_ = false;
     for (int i = 0; i < c.count; ++i) {
       along(n, c.arm_a[i], c.arm_b[i]);
       const double before = velocity_along(row);
-      const double gap = double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
-      const double start = hold_ ? gap - 0.5 * h_ * before : gap;
+      const double gap =
+          double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, before);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
       add(row, {.impulse = &c.normal_impulse[i]}, 0, std::numeric_limits<double>::infinity());
@@ -192,8 +209,9 @@ class RowMaker {
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
   const double h_;
-  const bool hold_;
+  const bool hold_, close_;
   int block_ = 0;
+  bool rigid_ = false;
 };
 
 // Bounds that follow from impulses: Coulomb's, and of vectors. Whether any has changed such that it matters.
@@ -266,13 +284,13 @@ void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
 
 // Moves bodies such that gaps close by a share.
 template <class Real>
-void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island) {
+void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
+  RowMaker<Real>(w, island, step, Stage::Close).make();
   BoundedRows& system = island.system;
-  for (std::size_t i = 0; i < system.rows.size(); ++i) {
-    const bool contact = static_cast<int>(i) >= island.contact_row;
-    system.rows[i].gap *= contact ? tuning::kPushShare : tuning::kJointShare;
-  }
-  system.correct();
+  for (std::size_t i = 0; i < system.rows.size(); ++i)
+    system.rows[i].gap *=
+        static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : tuning::kJointShare;
+  system.correct(tuning::kCloseSoftness);
   double most = 0;
   for (const BoundedRows::Shift& s : system.shifts) most = std::max(most, std::abs(s.turn));
   const double share = most > tuning::kLinkTurn ? tuning::kLinkTurn / most : 1;
@@ -325,8 +343,9 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
       BodyMotion<Real>& motion = w.motion[link.body];
       link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
       link.rotation_c = w.rotation[link.body].c, link.rotation_s = w.rotation[link.body].s;
-      shift(w, link.body, 0.5 * h * link.before, 0.5 * h * link.spin_before);
+      link.way = link.before, link.turn = link.spin_before;
     }
+    for (const JointedLink& link : island.links) shift(w, link.body, 0.5 * h * link.way, 0.5 * h * link.turn);
     RowMaker<Real>(w, island, step, Stage::Hold).make();
     solve(island, true);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
@@ -335,36 +354,39 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
       BodyMotion<Real>& motion = w.motion[link.body];
       motion.moved = link.moved.template as<Real>(), motion.turned = static_cast<Real>(link.turned);
       w.rotation[link.body] = {static_cast<Real>(link.rotation_c), static_cast<Real>(link.rotation_s)};
-      link.velocity = body.velocity, link.spin = body.spin;
-      link.way = 0.5 * (link.before + link.velocity), link.turn = 0.5 * (link.spin_before + link.spin);
-      put_velocity(motion, link.way, link.turn);
+      link.way = 0.5 * (link.before + body.velocity), link.turn = 0.5 * (link.spin_before + body.spin);
+    }
+    for (std::size_t k = 0; k < island.links.size(); ++k) {
+      JointedLink& link = island.links[k];
+      link.velocity = island.system.bodies[k].velocity, link.spin = island.system.bodies[k].spin;
+      put_velocity(w.motion[link.body], link.way, link.turn);
     }
   }
 }
 
 template <class Real>
-void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
+void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool last) {
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
     if (!island.solved) continue;
+    if (last) close_gaps(w, island, step);
     RowMaker<Real>(w, island, step, Stage::Relax).make();
     solve(island, false);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       const BoundedBody& body = island.system.bodies[k];
       put_velocity(w.motion[island.links[k].body], body.velocity, body.spin);
     }
-    close_gaps(w, island);
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched) note_peaks(*c);
   }
 }
 
-#define PLUMB_FOR(Real)                                                                \
-  template void prepare_jointed_islands(WorldData<Real>&);                             \
-  template void begin_jointed_substep(WorldData<Real>&);                               \
-  template void note_free_velocities(WorldData<Real>&);                                \
-  template void hold_jointed_islands(WorldData<Real>&, const ContactStep<Real>&);      \
-  template void relax_jointed_islands(WorldData<Real>&, const ContactStep<Real>&);
+#define PLUMB_FOR(Real)                                                           \
+  template void prepare_jointed_islands(WorldData<Real>&);                        \
+  template void begin_jointed_substep(WorldData<Real>&);                          \
+  template void note_free_velocities(WorldData<Real>&);                           \
+  template void hold_jointed_islands(WorldData<Real>&, const ContactStep<Real>&); \
+  template void relax_jointed_islands(WorldData<Real>&, const ContactStep<Real>&, bool);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -10,10 +10,10 @@
 ///     v' = v_0 + h M^-1 f + M^-1 J_m^T x,   J_m (v_0 + v')/2 = 0
 ///     q_1 = q_0 + h (v_0 + v')/2      rows at q_1
 ///     v_1 = v' + M^-1 J_1^T y,        J_1 v_1 = 0
-/// The way is made with the mean of two velocities that both ends' constraints allow, so that the impulses x do
-/// no work, whatever the rows are: the kinetic energy changes by h f . (v_0 + v')/2, the work of the forces.
-/// The second solution is a projection, which can only take energy. It takes little, as v' is what v_0 is when
-/// it is reflected: of third order in h.
+/// The way is made with the mean of two velocities that both ends' constraints allow, so that the impulses x
+/// do no work, whatever the rows are: the kinetic energy changes by h f . (v_0 + v')/2, the work of the
+/// forces. The second solution is a projection, which can only take energy. It takes little, as v' is what
+/// v_0 is when it is reflected: of third order in h.
 namespace plumb {
 
 /// Chooses them and orders their rows, at the start of a step. Islands have been found.
@@ -32,8 +32,9 @@ void note_free_velocities(WorldData<Real>& w);
 template <class Real>
 void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);
 
-/// After the motion: velocities that fit where bodies are, and gaps taken back by moving them.
+/// After the motion: velocities that fit where bodies are. In the `last` substep of a step gaps are taken
+/// back before, by moving bodies.
 template <class Real>
-void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);
+void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool last);
 
 }  // namespace plumb

@@ -176,9 +176,9 @@ struct DirectIsland {
 /// A body of a jointed island: what it has on its way through a substep, in double.
 struct JointedLink {
   int body = kNone;
-  Vec2d before{}, velocity{}, way{};                  ///< m/s: at the start; without impulses, then with; the mean
-  double spin_before = 0, spin = 0, turn = 0;         ///< rad/s, likewise
-  Vec2d moved{};                                      ///< m, since the step's start
+  Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without impulses, then with; the mean
+  double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, likewise
+  Vec2d moved{};                               ///< m, since the step's start
   double turned = 0, rotation_c = 1, rotation_s = 0;  ///< likewise
 };
 
@@ -196,19 +196,26 @@ struct RowTie {
 template <class Real>
 struct JointedIsland {
   explicit JointedIsland(std::pmr::memory_resource* room)
-      : contacts(room), joints(room), links(room), blocks(room), sizes(room), ties(room), impulses(room), system(room) {}
+      : contacts(room),
+        joints(room),
+        links(room),
+        blocks(room),
+        sizes(room),
+        ties(room),
+        impulses(room),
+        system(room) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
   std::pmr::vector<int> joints;  ///< slots in the joint set
   std::pmr::vector<JointedLink> links;
   std::pmr::vector<std::pair<int, int>> blocks;  ///< links of each joint, then of each contact
   std::pmr::vector<int> sizes;
-  std::pmr::vector<RowTie<Real>> ties;       ///< of the system's rows
-  std::pmr::vector<double> impulses;         ///< N s, of the rows in this substep
+  std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
+  std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
   BoundedRows system;
-  int root = kNone;            ///< the body that stands for it
-  int contact_row = 0;         ///< the first row of a contact
-  bool solved = false;         ///< false: left to the sweeps
+  int root = kNone;     ///< the body that stands for it
+  int contact_row = 0;  ///< the first row of a contact
+  bool solved = false;  ///< false: left to the sweeps
 };
 
 /// Mechanisms that are moved as such: kept while no tie changes.
@@ -237,6 +244,8 @@ struct Scratch {
   std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
+  std::vector<int> island_joints;
+  std::vector<char> island_loose;  ///< by the body that stands for an island: solved as one in this step
   std::vector<JointSolverRow<Real>> joint_rows;
   /// What small islands are made of: what one of them gives up when it grows, another one takes.
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
