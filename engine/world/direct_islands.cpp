@@ -1,7 +1,9 @@
 #include "engine/world/direct_islands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <variant>
 
 #include "engine/world/constants.h"
 #include "engine/world/free_motion.h"
@@ -65,6 +67,19 @@ void choose_jointed(WorldData<Real>& w) {
   }
 }
 
+// A motor that could hold its link against gravity is a rigid row, which sweeps leave short of what it asks
+// for: legs that stand on such hips flail. Weaker ones, as the friction of a ragdoll's joints, are forces.
+template <class Real>
+bool holds_link(const WorldData<Real>& w, const JointRecord& joint) {
+  const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
+  if (hinge == nullptr || !hinge->motor) return false;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const int body : {joint.body_a, joint.body_b})
+    if (w.gives_way(body)) lightest = std::min(lightest, static_cast<double>(w.bodies[body].mass));
+  const double arm_squared = std::max(length_squared(hinge->anchor_a), length_squared(hinge->anchor_b));
+  return hinge->motor->max_force > lightest * std::sqrt(length_squared(w.settings.gravity) * arm_squared);
+}
+
 // Islands that sweeps do not hold well are solved as one in this step.
 template <class Real>
 void find_loose(WorldData<Real>& w) {
@@ -76,7 +91,9 @@ void find_loose(WorldData<Real>& w) {
     if (s.island_loose[root] != 0) return;
     const int size = s.island_size[root];
     s.island_loose[root] =
-        size == kJointed || (size == kWatched && w.joint_set.is_loose(joint.slot, Real(tuning::kLooseShare)));
+        size == kJointed ||
+        (size == kWatched &&
+         (w.joint_set.is_loose(joint.slot, Real(tuning::kLooseShare)) || holds_link(w, joint)));
   });
 }
 
