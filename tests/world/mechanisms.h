@@ -62,8 +62,8 @@ inline Plan draw_plan(Draw& draw) {
 template <class Real>
 struct Mechanism {
   BasicWorld<Real> world;
-  std::vector<BodyId> bodies;
-  std::vector<JointId> joints;
+  std::vector<BodyId> bodies{};
+  std::vector<JointId> joints{};
   double size = 1;  // m, of the shortest link
   bool driven = false;
 
@@ -92,53 +92,48 @@ void tie(Mechanism<Real>& m, Draw& draw, Ties ties, BodyId a, BodyId b, Vec2d at
   const Vec2d anchor_a = w.local_point(a, at), anchor_b = w.local_point(b, at);
   const double reference = std::remainder(w.angle(b) - w.angle(a), 2 * std::numbers::pi);
   if (ties == Ties::Mixed) ties = static_cast<Ties>(draw.below(7));
-  JointKind kind;
+  const auto join = [&](const JointKind& kind) { m.joints.push_back(w.create_joint(a, b, {.kind = kind})); };
   switch (ties) {
     case Ties::Hinges:
-      kind = RevoluteDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b};
-      break;
+      return join(RevoluteDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b});
     case Ties::Limits: {
       const double room = draw.one_in(3) ? 0 : draw.in(0, 1);
-      kind = RevoluteDefinition{.anchor_a = anchor_a,
-                                .anchor_b = anchor_b,
-                                .reference_angle = reference,
-                                .limits = Range{-room, room}};
-      break;
+      return join(RevoluteDefinition{.anchor_a = anchor_a,
+                                     .anchor_b = anchor_b,
+                                     .reference_angle = reference,
+                                     .limits = Range{-room, room}});
     }
     case Ties::Motors:
-      kind = RevoluteDefinition{.anchor_a = anchor_a,
-                                .anchor_b = anchor_b,
-                                .reference_angle = reference,
-                                .motor = Motor{.speed = 0, .max_force = std::pow(10, draw.in(-1, 3))}};
-      break;
+      return join(RevoluteDefinition{.anchor_a = anchor_a,
+                                     .anchor_b = anchor_b,
+                                     .reference_angle = reference,
+                                     .motor = Motor{.speed = 0, .max_force = std::pow(10, draw.in(-1, 3))}});
     case Ties::Welds:
-      kind = WeldDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b, .reference_angle = reference};
-      break;
+      return join(WeldDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b, .reference_angle = reference});
     case Ties::SoftWelds: {
       const Spring spring{.hertz = std::pow(10, draw.in(0, 1.3)), .damping_ratio = draw.in(0, 1)};
-      kind = WeldDefinition{
-          .anchor_a = anchor_a, .anchor_b = anchor_b, .reference_angle = reference, .angular_spring = spring};
-      break;
+      return join(WeldDefinition{.anchor_a = anchor_a,
+                                 .anchor_b = anchor_b,
+                                 .reference_angle = reference,
+                                 .angular_spring = spring});
     }
     case Ties::Sliders: {
       const double angle = draw.in(0, std::numbers::pi);
-      PrismaticDefinition p{.anchor_a = anchor_a, .anchor_b = anchor_b};
-      p.reference_angle = reference;
-      p.axis = {std::cos(angle), std::sin(angle)};
-      p.limits = Range{-draw.in(0, 0.2), draw.in(0, 0.2)};
-      kind = p;
-      break;
+      return join(PrismaticDefinition{.anchor_a = anchor_a,
+                                      .anchor_b = anchor_b,
+                                      .axis = {std::cos(angle), std::sin(angle)},
+                                      .reference_angle = reference,
+                                      .limits = Range{-draw.in(0, 0.2), draw.in(0, 0.2)}});
     }
     default: {
       // A rod between the centres.
-      DistanceDefinition d;
-      d.anchor_a = w.local_point(a, w.centre(a)), d.anchor_b = w.local_point(b, w.centre(b));
-      if (!(length_squared(w.centre(a) - w.centre(b)) > 0.01)) d.anchor_a = w.local_point(a, at);
-      d.length = std::sqrt(length_squared(w.world_point(b, d.anchor_b) - w.world_point(a, d.anchor_a)));
-      kind = d;
+      const bool apart = length_squared(w.centre(a) - w.centre(b)) > 0.01;
+      const Vec2d from = apart ? w.centre(a) : at, to = w.centre(b);
+      return join(DistanceDefinition{.anchor_a = w.local_point(a, from),
+                                     .anchor_b = w.local_point(b, to),
+                                     .length = std::sqrt(length_squared(to - from))});
     }
   }
-  m.joints.push_back(w.create_joint(a, b, {.kind = kind}));
 }
 
 template <class Real>
