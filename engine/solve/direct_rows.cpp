@@ -60,8 +60,6 @@ template <class Real>
 double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
   // Blocks are neighbours when they act on the same body that gives way.
   const int count = rows.empty() ? 0 : rows.back().block + 1;
-  neighbours_.resize(std::max<std::size_t>(neighbours_.size(), count));
-  for (int i = 0; i < count; ++i) neighbours_[i].clear();
   block_first_.assign(count + 1, 0);
   ends_.clear();
   for (int i = static_cast<int>(rows.size()) - 1; i >= 0; --i) block_first_[rows[i].block] = i;
@@ -72,40 +70,11 @@ double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
     if (gives_way(motion[row.b])) ends_.emplace_back(row.b, block);
   }
   std::sort(ends_.begin(), ends_.end());
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].first == ends_[i].first; ++j) {
-      neighbours_[ends_[i].second].push_back(ends_[j].second);
-      neighbours_[ends_[j].second].push_back(ends_[i].second);
-    }
-  }
-  // Breadth first from a block at the edge; the last one found from any start is one.
-  degree_.assign(count, 0);
-  const auto walk = [&](int start, int mark) {
-    const std::size_t begin = queue_.size();
-    queue_.push_back(start);
-    degree_[start] = mark;
-    for (std::size_t next = begin; next < queue_.size(); ++next) {
-      for (const int other : neighbours_[queue_[next]]) {
-        if (degree_[other] >= mark) continue;
-        degree_[other] = mark;
-        queue_.push_back(other);
-      }
-    }
-    return queue_.back();
-  };
-  queue_.clear();
-  for (int start = 0; start < count; ++start) {
-    if (degree_[start] != 0) continue;
-    const std::size_t begin = queue_.size();
-    const int edge = walk(start, 1);
-    queue_.resize(begin);
-    walk(edge, 2);
-  }
-  std::reverse(queue_.begin(), queue_.end());
+  order_.find(count, ends_);
 
   sequence_.clear();
   place_.resize(rows.size());
-  for (const int block : queue_) {
+  for (const int block : order_.sequence()) {
     for (int row = block_first_[block]; row < block_first_[block + 1]; ++row) {
       place_[row] = static_cast<int>(sequence_.size());
       sequence_.push_back(row);
@@ -115,7 +84,7 @@ double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
   for (int i = 0; i < static_cast<int>(sequence_.size()); ++i) {
     const int block = rows[sequence_[i]].block;
     int first = place_[block_first_[block]];
-    for (const int other : neighbours_[block]) first = std::min(first, place_[block_first_[other]]);
+    for (const int other : order_.neighbours(block)) first = std::min(first, place_[block_first_[other]]);
     first_[i] = first;
   }
   return EnvelopeMatrix::cost(first_);

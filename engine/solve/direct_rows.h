@@ -3,6 +3,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "engine/solve/block_order.h"
 #include "engine/solve/body_motion.h"
 #include "engine/solve/envelope_matrix.h"
 
@@ -20,7 +21,6 @@ struct DirectRow {
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part: a one-sided row that would have to pull does not
   int block = 0;            ///< the constraint that it belongs to
-  Real turning_a = 0, turning_b = 0, sliding = 0;  ///< see RigidRow
 };
 
 /// The rows of a few constraints that hang together, solved all at once: J M^-1 J^T x = -(J v + bias), by a
@@ -35,12 +35,9 @@ class DirectRows {
         sequence_(room),
         place_(room),
         first_(room),
-        neighbours_(room),
+        order_(room),
         ends_(room),
-        blocks_(room),
         block_first_(room),
-        queue_(room),
-        degree_(room),
         x_(room),
         matrix_(room) {}
 
@@ -75,9 +72,9 @@ class DirectRows {
   std::pmr::vector<int> sequence_;  // place -> row
   std::pmr::vector<int> place_;     // row -> place
   std::pmr::vector<int> first_;
-  std::pmr::vector<std::pmr::vector<int>> neighbours_;  // of blocks
-  std::pmr::vector<std::pair<int, int>> ends_;          // body, block
-  std::pmr::vector<int> blocks_, block_first_, queue_, degree_;
+  BlockOrder order_;
+  std::pmr::vector<std::pair<int, int>> ends_;  // body, block
+  std::pmr::vector<int> block_first_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
   double apart_ = 1;  // how much farther apart than usual the least and the most are that rows do

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "engine/joints/joint_row.h"
 #include "engine/math/vec2.h"
@@ -42,16 +43,19 @@ struct JointError {
   Real angular = 0;  ///< rad
 };
 
-/// One rigid row of a joint, as a direct solution needs it.
+/// One row of a joint, for who solves all of an island at once.
 template <class Real>
-struct RigidRow {
-  JointRow<Real> row{};
-  Real gap = 0;             ///< m or rad, what is to be 0
-  Real* impulse = nullptr;  ///< its accumulated impulse, in the joint: valid until joints come or go
-  Real turning_a = 0, turning_b = 0;  ///< m: a pull's torque back per rad that the body turns, by the impulse
-  Real sliding = 0;  ///< 1/m: a pull's force back per m that either body goes aside, by the impulse
+struct JointSolverRow {
+  JointRow<Real> row{};  ///< the residual is what it holds: 0, or at least 0 of a limit
+  RowRole role = RowRole::Rigid;
+  bool pair = false;  ///< `most` bounds the vector of this impulse and the one of the row before it
+  Real speed = 0;     ///< m/s or rad/s, of a motor
+  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
+  Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
+  Real compliance = 0;          ///< of its mobility's unit
+  Real coupled_compliance = 0;  ///< likewise, with the impulse of the row before it
+  Real* impulse = nullptr;      ///< its accumulated impulse, in the joint: valid until joints come or go
 };
-inline constexpr int kMostRigidRows = 3;
 
 /// A plain revolute joint, for who solves it in the set's place.
 template <class Real>
@@ -136,9 +140,12 @@ class JointSet {
   /// the rate is 1 / h: all of an error is taken back.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
 
-  /// The rows of a joint that are rigid and without a bound, as they were evaluated last (by `prepare` or
-  /// `relax`); returns their number.
-  int rigid_rows(int joint, RigidRow<Real> (&rows)[kMostRigidRows]);
+  /// Returns whether sequential impulses cannot be relied on to hold the joint: for its kind, or because many
+  /// joints share a light body. Joints have been prepared.
+  bool needs_direct(int joint) const;
+
+  /// Appends the rows of a joint where its bodies are now.
+  void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 
   /// Whether the joint is a revolute one without limits, motor and spring.
   bool is_hinge(int joint) const;

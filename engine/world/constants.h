@@ -48,20 +48,18 @@ inline constexpr double kDirectMassRatio = 8;
 /// the cost. Fewer links cost little; more, sweeps leave stretched.
 inline constexpr int kSweptLinksLeast = 6;
 inline constexpr int kSweptLinksMost = 16;
-/// Solver::Direct: the most rows of an island whose joints and contacts are solved together; of a larger one,
-/// the joints alone; and not those either when their factorisation costs more multiplications than this.
-inline constexpr int kArticulatedRows = 512;
-inline constexpr double kArticulatedCost = 2e6;
-/// Solver::Direct closes joints after each substep by a Newton step; by up to this many while one was open by
-/// more than this share of its arms.
-inline constexpr int kClosings = 4;
-inline constexpr double kWideGap = 0.01;
-
-/// Gaps in such islands are pulled together while no body would turn by more than this for it in a substep,
-/// rad: rows that turn farther do not give back what the pull put in. Beyond, bodies are moved by a share of
-/// the gap, and turn by no more than about kLinkTurn, rad.
-inline constexpr double kLinkPull = 0.03;
-inline constexpr double kLinkShare = 0.25;
+/// An island with joints is solved as one while it has no more joints and contacts than these, and
+/// factorising its rows costs no more multiplications than this: at 2e6 a step of four substeps takes some 20
+/// ms. Larger ones are left to the sweeps.
+inline constexpr int kJointedJoints = 4096;
+inline constexpr int kJointedContacts = 512;
+inline constexpr double kJointedCost = 2e6;
+/// Share of a joint's gap that is closed in a step, by moving its bodies, and by how much its rows give way:
+/// no body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With 1e-4, 50 times, links of
+/// a taut bridge turn so far for a gap of 0.4 mm that it sags; at 0.1 chains close half as fast.
+inline constexpr double kJointShare = 0.5;
+inline constexpr double kCloseSoftness = 1e-2;
+/// rad, the most that a body is turned for it in a step.
 inline constexpr double kLinkTurn = 0.125;
 
 /// Natural frequency of the spring that stands for a joint, as a share of the substep's rate, and its

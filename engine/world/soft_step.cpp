@@ -7,6 +7,7 @@
 #include "engine/world/direct_islands.h"
 #include "engine/world/free_motion.h"
 #include "engine/world/hinge_trees.h"
+#include "engine/world/jointed_islands.h"
 #include "engine/world/solvers.h"
 
 namespace plumb {
@@ -69,7 +70,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   if (jointed) w.joint_set.prepare(bodies, joints);
-  prepare_direct_islands(w, joints);
+  prepare_direct_islands(w);
   find_bounces(w);
   bool strikes = false;
   const auto place = [&] {
@@ -82,23 +83,26 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
     // Blows are not repeated, nor what was pressed by contacts that part.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
+    begin_jointed_substep(w);
     repeat ? repeat_velocities(w) : integrate_velocities(w);
     // What joints and contacts of a mechanism did last cancels only when they are solved: until then their
     // impulses make no approach.
     if (jointed) place();
+    note_free_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
     if (!jointed) place();
     let_pass(w.scratch.bounces);
     if (jointed) w.joint_set.solve(bodies, joints);
-    solve_direct_islands(w, contacts, joints, true);
+    solve_direct_islands(w, contacts, true);
     solve_contacts(bodies.motion, w.graph, contacts);
+    hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), FreeFlight::Exact);
     if (jointed) turn_back(w);
-    close_direct_joints(w, joints);
     if (jointed) w.joint_set.relax(bodies, joints);
-    solve_direct_islands(w, contacts, joints, false);
+    solve_direct_islands(w, contacts, false);
     relax_contacts(bodies.motion, w.graph, contacts);
+    relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
     hold_again(w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }

@@ -11,6 +11,7 @@
 #include "engine/collide/pair_set.h"
 #include "engine/solve/body_motion.h"
 #include "engine/solve/bounce_crowds.h"
+#include "engine/solve/bounded_rows.h"
 #include "engine/solve/contact_graph.h"
 #include "engine/solve/direct_rows.h"
 #include "engine/solve/hinge_tree.h"
@@ -173,30 +174,59 @@ struct ExpectedImpact {
   bool left = false;      ///< to the solver
 };
 
-/// A body that joints of a direct island act on.
-template <class Real>
-struct LinkBody {
-  int body = kNone;
-  Real inverse_mass = 0, inverse_inertia = 0;  ///< its own
-  Real turning = 0;    ///< N m s: the joints' torque back per rad that it turns, times the substep
-  Real sliding = 0;    ///< N s/m: their force back per m that it goes aside, likewise
-  Vec2<Real> shift{};  ///< m, that closes gaps
-  Real turn = 0;       ///< rad, likewise
-};
-
-/// A small island whose constraints are solved all at once.
+/// A small island of contacts, solved all at once.
 template <class Real>
 struct DirectIsland {
-  explicit DirectIsland(std::pmr::memory_resource* room)
-      : contacts(room), joints(room), system(room), links(room) {}
+  explicit DirectIsland(std::pmr::memory_resource* room) : contacts(room), system(room) {}
+
+  std::pmr::vector<ContactConstraint<Real>*> contacts;
+  DirectRows<Real> system;
+  int root = kNone;  ///< the body that stands for it
+};
+
+/// A body of a jointed island: what it has on its way through a substep, in double.
+struct JointedLink {
+  int body = kNone;
+  Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without impulses, then with; the mean
+  double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, likewise
+  Vec2d moved{};                               ///< m, since the step's start
+  double turned = 0, rotation_c = 1, rotation_s = 0;  ///< likewise
+};
+
+/// What a row of a jointed island belongs to.
+template <class Real>
+struct RowTie {
+  Real* impulse = nullptr;  ///< N s, in the joint or contact
+  Real most = 0;            ///< N s, of a pair of rows
+  bool pair = false;
+  int first = -1, count = 0;  ///< rows whose impulses bound this one
+  double friction = 0;        ///< times their sum; m for torques
+};
+
+/// An island with joints, solved all at once.
+template <class Real>
+struct JointedIsland {
+  explicit JointedIsland(std::pmr::memory_resource* room)
+      : contacts(room),
+        joints(room),
+        links(room),
+        blocks(room),
+        sizes(room),
+        ties(room),
+        impulses(room),
+        system(room) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
   std::pmr::vector<int> joints;  ///< slots in the joint set
-  DirectRows<Real> system;
-  std::pmr::vector<LinkBody<Real>> links;
-  int root = kNone;    ///< the body that stands for it
-  int joint_rows = 0;  ///< of the system; those of contacts follow
-  bool jerks = false;  ///< gaps are too wide for velocities to close them
+  std::pmr::vector<JointedLink> links;
+  std::pmr::vector<std::pair<int, int>> blocks;  ///< links of each joint, then of each contact
+  std::pmr::vector<int> sizes;
+  std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
+  std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
+  BoundedRows system;
+  int root = kNone;     ///< the body that stands for it
+  int contact_row = 0;  ///< the first row of a contact
+  bool solved = false;  ///< false: left to the sweeps
 };
 
 /// Mechanisms that are moved as such: kept while no tie changes.
@@ -225,10 +255,15 @@ struct Scratch {
   std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
+  std::vector<int> island_joints;
+  std::vector<char> island_loose;  ///< by the body that stands for an island: solved as one in this step
+  std::vector<JointSolverRow<Real>> joint_rows;
   /// What small islands are made of: what one of them gives up when it grows, another one takes.
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
+  std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
+  int jointed_count = 0;
   bool islands_known = false;  ///< `island_of` and `island_size` are those of the ties as they are
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace plumb {
+
+/// The order in which blocks of constraint rows are eliminated: Cuthill and McKee (1969), reversed, on the
+/// graph whose edges join blocks that share a body.
+class BlockOrder {
+ public:
+  explicit BlockOrder(std::pmr::memory_resource* room = std::pmr::get_default_resource())
+      : ends_(room), neighbours_(room), sequence_(room), degree_(room) {}
+
+  /// `ends`: body and block, for each body of each block that gives way.
+  void find(int blocks, std::span<const std::pair<int, int>> ends);
+
+  /// Blocks, first eliminated first.
+  std::span<const int> sequence() const { return sequence_; }
+  std::span<const int> neighbours(int block) const { return neighbours_[block]; }
+  /// Body and block, by body.
+  std::span<const std::pair<int, int>> ends() const { return ends_; }
+
+ private:
+  std::pmr::vector<std::pair<int, int>> ends_;
+  std::pmr::vector<std::pmr::vector<int>> neighbours_;
+  std::pmr::vector<int> sequence_, degree_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/math/vec2.h"
+#include "engine/solve/block_order.h"
+#include "engine/solve/envelope_matrix.h"
+
+namespace plumb {
+
+/// How a body answers impulses, and what it does meanwhile; all in double.
+struct BoundedBody {
+  Vec2d inverse_mass{};        ///< 1/kg, along x and y: 0 along a locked axis
+  double inverse_inertia = 0;  ///< 1/(kg m^2)
+  Vec2d velocity{};            ///< m/s
+  double spin = 0;             ///< rad/s
+
+  bool gives_way() const { return inverse_mass.x + inverse_mass.y + inverse_inertia > 0; }
+};
+
+/// One scalar constraint with a bounded impulse x: J v + compliance x = wanted while x is between its bounds,
+/// more while it is at the lower one, less while it is at the upper one.
+struct BoundedRow {
+  enum State : std::int8_t { kFree, kLower, kUpper };
+
+  int a = 0, b = 0;              ///< bodies of the system
+  Vec2d linear_a{}, linear_b{};  ///< J
+  double angular_a = 0, angular_b = 0;
+  double wanted = 0;              ///< m/s
+  double compliance = 0;          ///< 1/kg
+  double coupled_compliance = 0;  ///< 1/kg, with the impulse of the row before it
+  double lower = 0, upper = 0;    ///< N s
+  double softening = 0;           ///< share of its own mobility that is added to the compliance
+  double gap = 0;                 ///< m or rad: what `correct` takes back
+  double impulse = 0;             ///< N s, found
+  int block = 0;
+  State state = kFree;  ///< to begin with, and as it was found
+};
+
+/// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
+/// linear complementarity problem with bounds,
+///     w = J (v + M^-1 J^T x) + C x - wanted,   lower <= x <= upper,   w = 0 between,
+/// which states the minimum of the kinetic energy relative to what is wanted. Solved by block principal
+/// pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all rows on the wrong side change
+/// sides at once, while their number falls; one at a time after that. The rows that are free are factorised
+/// sparsely, with a little compliance, so that rows that say the same thing twice share their load. Where the
+/// pivots do not end, projected Gauss-Seidel goes on from the best point that they met.
+class BoundedRows {
+ public:
+  explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
+
+  std::pmr::vector<BoundedBody> bodies;  ///< filled by the caller
+  /// Filled by the caller, rows of one block (of constraints between the same two bodies) side by side,
+  /// blocks ascending; a block may have none.
+  std::pmr::vector<BoundedRow> rows;
+
+  /// Orders the blocks, given the two bodies of each. Returns what factorising `sizes` rows of each block
+  /// costs, in multiplications.
+  double order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes);
+
+  /// Finds the impulses, and gives them to the bodies' velocities.
+  void solve();
+
+  /// Finds impulses that move bodies by `shifts` instead of giving them a velocity, such that the gaps of the
+  /// rows that are free close. Each row gives way by `softening` of its mobility (Levenberg and Marquardt):
+  /// what could close by wide motions alone stays open, as bodies move by no more than 1 / (2
+  /// sqrt(softening)) of the gaps.
+  void correct(double softening);
+  struct Shift {
+    Vec2d way{};      ///< m
+    double turn = 0;  ///< rad
+  };
+  std::pmr::vector<Shift> shifts;  ///< by body, as `correct` found them
+
+ private:
+  double along(const BoundedRow& row) const;
+  void push(const BoundedRow& row, double impulse);
+  void find_mobility();
+  void factorise();
+  void find_free();
+  void apply_all();
+  double residual(int row) const;
+  int count_wrong();
+  void pivot_all();
+  void pivot_last();
+  void sweep();
+  double energy() const;
+
+  BlockOrder order_;
+  EnvelopeMatrix matrix_;
+  std::pmr::vector<BoundedBody> start_;  // the bodies as they were given
+  std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
+  std::pmr::vector<int> block_first_;    // by block: its first row
+  std::pmr::vector<int> free_, place_;   // place -> row; row -> place, -1: not free
+  std::pmr::vector<int> block_place_;    // by block: the place of its first free row, -1: none
+  std::pmr::vector<int> first_;
+  std::pmr::vector<double> x_, best_;
+  std::pmr::vector<std::int8_t> wrong_;  // 0, or the state to go to + 1
+  double speed_ = 0;                     // m/s, the largest that matters
+};
+
+}  // namespace plumb

@@ -1,0 +1,163 @@
+#include "tests/world/mechanisms.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace plumb {
+namespace {
+
+using test::Draw;
+using test::Layout;
+using test::Mechanism;
+using test::Plan;
+using test::Ties;
+using test::Verdict;
+
+template <class Real>
+class Mechanisms : public testing::Test {};
+using Reals = testing::Types<float, double>;
+TYPED_TEST_SUITE(Mechanisms, Reals);
+
+// Nothing drives it and nothing holds it: it spins on with the energy that it has, to a thousandth in 3 s.
+TYPED_TEST(Mechanisms, APropellerOfWeldedBladesSpinsOn) {
+  for (const int blades : {3, 4, 6, 8})
+    for (const double arm : {2.0, 4.0, 6.0})
+      for (const int substeps : {1, 4, 16}) {
+        BasicWorld<TypeParam> w({.gravity = {}});
+        const double hub = 0.3, length = arm * hub;
+        const Filter own{.group = -1};
+        Mechanism<TypeParam> m{std::move(w)};
+        const BodyId centre =
+            m.world.create_body({.angular_velocity = 1}, {.geometry = Circle{hub}, .filter = own});
+        m.bodies.push_back(centre);
+        m.size = hub;
+        for (int i = 0; i < blades; ++i) {
+          const double angle = 2 * std::numbers::pi * i / blades;
+          const Vec2d out{std::cos(angle), std::sin(angle)}, at = (hub + length / 2) * out;
+          m.bodies.push_back(m.world.create_body(
+              {.position = at, .angle = angle, .velocity = {-at.y, at.x}, .angular_velocity = 1},
+              {.geometry = Box{length, 0.1 * length}, .filter = own}));
+          m.joints.push_back(m.world.create_joint(
+              centre, m.bodies.back(),
+              {.kind = WeldDefinition{.anchor_a = hub * out,
+                                      .anchor_b = {-length / 2, 0},
+                                      .reference_angle = std::remainder(angle, 2 * std::numbers::pi)}}));
+        }
+        const double start = m.energy();
+        double gap = 0;
+        for (int i = 0; i < 180; ++i) m.world.step(1.0 / 60, substeps), gap = std::max(gap, m.gap());
+        EXPECT_NEAR(m.energy(), start, 1e-3 * start)
+            << blades << " blades of " << arm << " hubs, " << substeps;
+        EXPECT_LT(gap, 0.01 * hub) << blades << " blades of " << arm << " hubs, " << substeps;
+      }
+}
+
+// Brakes of up to 500 N m at the hips of four legs that weigh 6 N: it falls on its feet, and stands.
+TYPED_TEST(Mechanisms, ASpiderWithBrakedHipsStands) {
+  const Filter own{.group = -1};
+  Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+  m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{80, 2}});
+  const BodyId torso =
+      m.world.create_body({.position = {0, 2.2}}, {.geometry = Box{0.6, 0.3}, .filter = own});
+  m.bodies.push_back(torso);
+  for (int i = 0; i < 4; ++i) {
+    const double angle = -std::numbers::pi / 2 + (i - 1.5) * 0.6;
+    const Vec2d out{std::cos(angle), std::sin(angle)}, hip{0.25 * out.x, 0.12 * out.y};
+    m.bodies.push_back(m.world.create_body({.position = Vec2d{0, 2.2} + hip + 0.75 * out, .angle = angle},
+                                           {.geometry = Box{1.5, 0.1}, .filter = own}));
+    m.joints.push_back(
+        m.world.create_joint(torso, m.bodies.back(),
+                             {.kind = RevoluteDefinition{.anchor_a = hip,
+                                                         .anchor_b = {-0.75, 0},
+                                                         .reference_angle = angle,
+                                                         .motor = Motor{.speed = 0, .max_force = 500}}}));
+  }
+  for (int i = 0; i < 480; ++i) m.world.step();
+  EXPECT_GT(m.world.position(torso).y, 1.4);
+  for (const BodyId body : m.bodies) EXPECT_LT(length_squared(m.world.velocity(body)), 1e-6);
+}
+
+// Taut bridges sag by what rows give way; at a hundred planks' weight the crate sinks by 0.4 m at most.
+TYPED_TEST(Mechanisms, ATautBridgeCarriesACrate) {
+  for (const int planks : {3, 15, 25})
+    for (const double load : {10.0, 100.0}) {
+      Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+      const BodyId ground = m.world.create_body({.type = BodyType::Static});
+      BodyId last = ground;
+      const auto hinge = [&](BodyId to, Vec2d from, Vec2d at) {
+        m.joints.push_back(
+            m.world.create_joint(last, to, {.kind = RevoluteDefinition{.anchor_a = from, .anchor_b = at}}));
+        last = to;
+      };
+      for (int i = 0; i < planks; ++i)
+        hinge(m.world.create_body({.position = {i + 0.5, 0}}, {.geometry = Box{0.95, 0.2}, .density = 40}),
+              {i == 0 ? 0.0 : 0.5, 0}, {-0.5, 0});
+      hinge(ground, {0.5, 0}, {static_cast<double>(planks), 0});
+      const BodyId crate = m.world.create_body({.position = {planks / 2.0, 0.6}},
+                                               {.geometry = Box{1, 1}, .density = 7.6 * load});
+      double gap = 0;
+      for (int i = 0; i < 360; ++i) m.world.step(), gap = std::max(gap, m.gap());
+      EXPECT_LT(gap, 2e-3) << planks << " planks, load " << load;
+      EXPECT_GT(m.world.position(crate).y, 0.15) << planks << " planks, load " << load;
+    }
+}
+
+// Thrown at a floor, whatever the masses of their links: they lose energy, and gain none.
+TYPED_TEST(Mechanisms, ThrownChainsKeepTheirEnergy) {
+  for (const int count : {5, 10})
+    for (const double ratio : {1.0, 100.0, 1000.0})
+      for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        Draw draw(seed);
+        const double radius = draw.in(0.05, 0.3);
+        Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+        m.world.create_body({.type = BodyType::Static, .position = {0, -0.5}}, {.geometry = Box{1e4, 1}});
+        const Vec2d thrown{draw.in(-10, 10), -draw.in(0, 10)};
+        for (int i = 0; i < count; ++i) {
+          const Vec2d at{static_cast<double>(i), 1 + radius}, joint = at - Vec2d{0.5, 0};
+          m.bodies.push_back(
+              m.world.create_body({.position = at, .angle = draw.in(-3, 3), .velocity = thrown},
+                                  {.geometry = Circle{radius}, .density = std::pow(ratio, draw.in(0, 1))}));
+          if (i == 0) continue;
+          const BodyId a = m.bodies[i - 1], b = m.bodies[i];
+          m.joints.push_back(
+              m.world.create_joint(a, b,
+                                   {.kind = RevoluteDefinition{.anchor_a = m.world.local_point(a, joint),
+                                                               .anchor_b = m.world.local_point(b, joint)}}));
+        }
+        const Verdict v = test::run_mechanism(m, 240);
+        EXPECT_FALSE(v.lost);
+        EXPECT_LT(v.growth, 0.01) << count << " links, 1:" << ratio << ", seed " << seed;
+      }
+}
+
+TYPED_TEST(Mechanisms, AWeldedGridThatLandsLiesStill) {
+  for (const Solver solver : {Solver::Direct, Solver::SoftSteps}) {
+    for (const int n : {3, 5, 8}) {
+      Plan plan{.layout = Layout::Grid, .ties = Ties::Welds, .count = n * n, .floor = true, .gravity = true};
+      auto m = test::build<TypeParam>(plan, 1, {.sleeping = false, .solver = solver});
+      const Verdict v = test::run_mechanism(m, 180);
+      EXPECT_LT(v.growth, 0.01) << n;
+      EXPECT_LT(v.gap, 0.01) << n;
+      for (const BodyId body : m.bodies) EXPECT_LT(length_squared(m.world.velocity(body)), 1e-2) << n;
+    }
+  }
+}
+
+// Drawn at random: stars, trees, chains, bridges, grids and walkers of all kinds of joints. Whatever they do,
+// their energy never grows and their joints stay together.
+TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {
+  const char* more = std::getenv("PLUMB_PROPERTY_CASES");
+  const std::uint64_t cases = 60 * (more != nullptr ? std::strtoull(more, nullptr, 10) : 1);
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    Draw draw(seed);
+    const Plan plan = test::draw_plan(draw);
+    auto m = test::build<TypeParam>(plan, seed);
+    const Verdict v = test::run_mechanism(m, 120);
+    ASSERT_FALSE(v.lost) << "seed " << seed << ": " << plan.text();
+    EXPECT_LT(v.growth, 0.02) << "seed " << seed << ": " << plan.text();
+  }
+}
+
+}  // namespace
+}  // namespace plumb
