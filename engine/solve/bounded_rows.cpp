@@ -15,10 +15,10 @@ constexpr int kRefinements = 2;
 constexpr double kExact = 1e-11;
 // Of the largest speed: by how much a row may be on the wrong side.
 constexpr double kSlack = 1e-9;
-// Block pivots that may pass without fewer rows on the wrong side; and pivots in all.
-constexpr int kPatience = 4, kPivots = 60;
-// Sweeps of projected Gauss-Seidel after that.
-constexpr int kSweeps = 100;
+// Block pivots: of systems that they end for, nine in ten need no more.
+constexpr int kPivots = 6;
+// Rounds of descent after that, the sweeps in each, and those at the end when rounds run out.
+constexpr int kRounds = 12, kSweeps = 3, kLastSweeps = 20;
 
 double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {
   return body.inverse_mass.x * linear_r.x * linear_s.x + body.inverse_mass.y * linear_r.y * linear_s.y +
@@ -41,13 +41,15 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* room)
       rows(room),
       shifts(room),
       order_(room),
+      all_(room),
       matrix_(room),
       start_(room),
       mobility_(room),
       block_first_(room),
       free_(room),
-      place_(room),
       block_place_(room),
+      sequence_(room),
+      rank_(room),
       first_(room),
       x_(room),
       best_(room),
@@ -105,39 +107,47 @@ void BoundedRows::find_mobility() {
     block_first_[block + 1] = std::max(block_first_[block + 1], block_first_[block]);
 }
 
-void BoundedRows::factorise() {
-  free_.clear();
-  place_.assign(rows.size(), -1);
-  block_place_.assign(order_.sequence().size(), -1);
+void BoundedRows::assemble() {
+  sequence_.clear(), first_.clear();
   for (const int block : order_.sequence()) {
-    block_place_[block] = static_cast<int>(free_.size());
-    for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) {
-      if (rows[i].state != BoundedRow::kFree) continue;
-      place_[i] = static_cast<int>(free_.size());
-      free_.push_back(i);
-    }
+    block_place_[block] = static_cast<int>(sequence_.size());
+    for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) sequence_.push_back(i);
   }
-  first_.clear();
-  for (const int i : free_) {
-    const int block = rows[i].block;
-    int first = block_place_[block];
-    for (const int other : order_.neighbours(block)) first = std::min(first, block_place_[other]);
+  for (const int i : sequence_) {
+    int first = block_place_[rows[i].block];
+    for (const int other : order_.neighbours(rows[i].block)) first = std::min(first, block_place_[other]);
     first_.push_back(first);
   }
-  matrix_.reset(first_);
-  for (int k = 0; k < static_cast<int>(free_.size()); ++k) {
-    const int i = free_[k];
+  all_.reset(first_);
+  for (int place = 0; place < static_cast<int>(sequence_.size()); ++place) {
+    const int i = sequence_[place];
     const BoundedRow& row = rows[i];
     const auto couple = [&](int block) {
-      for (int j = block_first_[block]; j < block_first_[block + 1]; ++j)
-        if (place_[j] >= 0 && place_[j] <= k) matrix_.at(k, place_[j]) = coupling(bodies, row, rows[j]);
+      const int from = block_place_[block];
+      const int count = std::min(block_first_[block + 1] - block_first_[block], place + 1 - from);
+      for (int k = 0; k < count; ++k)
+        all_.at(place, from + k) = coupling(bodies, row, rows[block_first_[block] + k]);
     };
     couple(row.block);
     for (const int other : order_.neighbours(row.block)) couple(other);
-    if (k > 0 && free_[k - 1] == i - 1 && row.coupled_compliance != 0)
-      matrix_.at(k, k - 1) += row.coupled_compliance;
-    matrix_.at(k, k) += row.compliance + mobility_[i] * (kSharing + row.softening);
+    if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
+    all_.at(place, place) += row.compliance + mobility_[i] * (kSharing + row.softening);
   }
+}
+
+void BoundedRows::factorise() {
+  free_.clear(), first_.clear();
+  const int count = static_cast<int>(sequence_.size());
+  rank_.resize(count);
+  for (int place = 0; place < count; ++place) {
+    rank_[place] = static_cast<int>(free_.size());
+    if (rows[sequence_[place]].state == BoundedRow::kFree) free_.push_back(place);
+  }
+  for (const int place : free_) first_.push_back(rank_[all_.first(place)]);
+  matrix_.reset(first_);
+  for (int k = 0; k < static_cast<int>(free_.size()); ++k)
+    for (int j = first_[k]; j <= k; ++j) matrix_.at(k, j) = all_.at(free_[k], free_[j]);
+  for (int& place : free_) place = sequence_[place];
   matrix_.factorise();
 }
 
@@ -205,87 +215,149 @@ int BoundedRows::count_wrong() {
   return count;
 }
 
-void BoundedRows::pivot_all() {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
-}
-
-void BoundedRows::pivot_last() {
-  for (std::size_t i = rows.size(); i-- > 0;) {
-    if (wrong_[i] == 0) continue;
-    rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
-    return;
-  }
-}
-
-// Of what the impulses do, less what was there: 1/2 x (J M^-1 J^T + C) x - x (wanted - J v), which no
-// solution may have above 0.
-double BoundedRows::energy() const {
-  double sum = 0;
+// Work of the impulses on what is wanted, x . (wanted - J v), and on the way that they make, x . A x.
+BoundedRows::Work BoundedRows::work() const {
+  Work out;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
     const BoundedRow& row = rows[i];
     if (row.impulse == 0) continue;
     const BoundedBody &a = start_[row.a], &b = start_[row.b];
     const double before = dot(row.linear_a, a.velocity) + row.angular_a * a.spin +
                           dot(row.linear_b, b.velocity) + row.angular_b * b.spin;
-    sum -= 0.5 * row.impulse * (residual(i) + row.wanted - before);
+    const double wanted = row.impulse * (row.wanted - before);
+    out.wanted += wanted;
+    out.own += wanted - row.impulse * residual(i);
   }
-  return sum;
+  return out;
 }
 
-// Each sweep lowers the energy.
-void BoundedRows::sweep() {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i].impulse = std::min(std::max(best_[i], rows[i].lower), rows[i].upper);
+// 1/2 x A x - x (wanted - J v), which solutions minimise.
+double BoundedRows::energy() const {
+  const Work w = work();
+  return 0.5 * w.own - w.wanted;
+}
+
+// Makes all impulses smaller by the share that minimises the energy. Then x A x = x (wanted - J v): however
+// far they are from the solution, they gain no energy.
+void BoundedRows::shrink() {
+  const Work w = work();
+  if (!(w.own > w.wanted)) return;
+  const double share = std::max(w.wanted / w.own, 0.0);
+  for (BoundedRow& row : rows) row.impulse *= share;
   apply_all();
-  if (energy() > 0) {
-    for (BoundedRow& row : rows) row.impulse = std::min(std::max(0.0, row.lower), row.upper);
-    apply_all();
-  }
-  for (int pass = 0; pass < kSweeps; ++pass) {
+}
+
+// Projected Gauss-Seidel: each pass lowers the energy.
+void BoundedRows::sweep(int passes) {
+  for (int pass = 0; pass < passes; ++pass) {
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
       BoundedRow& row = rows[i];
       const double own = mobility_[i] * (1 + row.softening) + row.compliance;
       if (!(own > 0)) continue;
       const double now = std::min(std::max(row.impulse + residual(i) / own, row.lower), row.upper);
-      const double change = now - row.impulse;
+      push(row, now - row.impulse);
       row.impulse = now;
-      push(row, change);
     }
   }
+}
+
+// Goes a share of the way x_ of the free rows.
+void BoundedRows::advance(double share) {
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    BoundedRow& row = rows[free_[k]];
+    const double now = std::min(std::max(row.impulse + share * x_[k], row.lower), row.upper);
+    push(row, now - row.impulse);
+    row.impulse = now;
+  }
+}
+
+// The minimum over the rows that are between their bounds, or as far on the way to there as lowers the
+// energy.
+void BoundedRows::minimise_free() {
+  for (BoundedRow& row : rows)
+    row.state = row.impulse <= row.lower   ? BoundedRow::kLower
+                : row.impulse >= row.upper ? BoundedRow::kUpper
+                                           : BoundedRow::kFree;
+  factorise();
+  x_.resize(free_.size());
+  for (int refinement = 0; refinement <= kRefinements; ++refinement) {
+    for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = residual(free_[k]);
+    matrix_.solve(x_.data());
+    double share = 1;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const BoundedRow& row = rows[free_[k]];
+      if (row.impulse + x_[k] < row.lower) share = std::min(share, (row.lower - row.impulse) / x_[k]);
+      if (row.impulse + x_[k] > row.upper) share = std::min(share, (row.upper - row.impulse) / x_[k]);
+    }
+    if (share == 1) {
+      advance(1);
+      continue;
+    }
+    // All of the way, cut off at the bounds, where that is better than up to the first bound.
+    for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
+    advance(share);
+    const double near = energy();
+    for (std::size_t i = 0; i < rows.size(); ++i) std::swap(best_[i], rows[i].impulse);
+    apply_all();
+    advance(1);
+    if (energy() <= near) return;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = best_[i];
+    apply_all();
+    return;
+  }
+}
+
+// From the best impulses that are known.
+void BoundedRows::descend() {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].impulse = std::min(std::max(best_[i], rows[i].lower), rows[i].upper);
+  apply_all();
+  shrink();
+  for (int round = 0; round < kRounds; ++round) {
+    sweep(kSweeps);
+    minimise_free();
+    if (count_wrong() == 0) return;
+  }
+  sweep(kLastSweeps);
+  shrink();
+}
+
+// Whether block pivots end.
+bool BoundedRows::pivot() {
+  int least = std::numeric_limits<int>::max();
+  for (int pivots = 0; pivots < kPivots; ++pivots) {
+    factorise();
+    find_free();
+    const int wrong = count_wrong();
+    if (wrong == 0) return true;
+    if (wrong < least) {
+      least = wrong;
+      for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+  }
+  return false;
 }
 
 void BoundedRows::solve() {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
+  assemble();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
     // What moves nothing, and what may not press, has nothing to find.
     if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
     if (row.lower >= row.upper) row.state = BoundedRow::kLower;
   }
-  int least = std::numeric_limits<int>::max(), patience = kPatience;
-  bool one_by_one = false;
   best_.assign(rows.size(), 0);
-  for (int pivot = 0; pivot < kPivots; ++pivot) {
-    factorise();
-    find_free();
-    const int wrong = count_wrong();
-    if (wrong < least) {
-      least = wrong, patience = kPatience, one_by_one = false;
-      for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
-    } else if (--patience <= 0) {
-      one_by_one = true;
-    }
-    if (wrong == 0) return;
-    one_by_one ? pivot_last() : pivot_all();
-  }
-  sweep();
+  if (!pivot()) descend();
 }
 
 void BoundedRows::correct(double softening) {
   find_mobility();
   for (BoundedRow& row : rows) row.softening = softening;
+  assemble();
   factorise();
   shifts.assign(bodies.size(), {});
   x_.resize(free_.size());

@@ -44,11 +44,13 @@ struct BoundedRow {
 /// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
 /// linear complementarity problem with bounds,
 ///     w = J (v + M^-1 J^T x) + C x - wanted,   lower <= x <= upper,   w = 0 between,
-/// which states the minimum of the kinetic energy relative to what is wanted. Solved by block principal
+/// which states the minimum of the kinetic energy relative to what is wanted. First by block principal
 /// pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all rows on the wrong side change
-/// sides at once, while their number falls; one at a time after that. The rows that are free are factorised
-/// sparsely, with a little compliance, so that rows that say the same thing twice share their load. Where the
-/// pivots do not end, projected Gauss-Seidel goes on from the best point that they met.
+/// sides at once. Where a few pivots do not end, by gradient projection with subspace minimisation (More and
+/// Toraldo, SIAM Journal on Optimization 1, 1991), each step of which lowers the energy: sweeps of projected
+/// Gauss-Seidel say which rows are at their bounds, and the others are solved at once, as far as their bounds
+/// let them. The rows that are free are factorised sparsely, with a little compliance, so that rows that say
+/// the same thing twice share their load.
 class BoundedRows {
  public:
   explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
@@ -80,23 +82,33 @@ class BoundedRows {
   double along(const BoundedRow& row) const;
   void push(const BoundedRow& row, double impulse);
   void find_mobility();
+  void assemble();
   void factorise();
   void find_free();
   void apply_all();
   double residual(int row) const;
   int count_wrong();
-  void pivot_all();
-  void pivot_last();
-  void sweep();
+  bool pivot();
+  void descend();
+  void sweep(int passes);
+  void minimise_free();
+  void advance(double share);
+  struct Work {
+    double wanted = 0, own = 0;  // J
+  };
+  Work work() const;
   double energy() const;
+  void shrink();
 
   BlockOrder order_;
-  EnvelopeMatrix matrix_;
+  EnvelopeMatrix all_, matrix_;          // of all rows, in the order of elimination; of the free ones
   std::pmr::vector<BoundedBody> start_;  // the bodies as they were given
   std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
   std::pmr::vector<int> block_first_;    // by block: its first row
-  std::pmr::vector<int> free_, place_;   // place -> row; row -> place, -1: not free
-  std::pmr::vector<int> block_place_;    // by block: the place of its first free row, -1: none
+  std::pmr::vector<int> free_;           // rows, in the order of elimination
+  std::pmr::vector<int> block_place_;    // by block: the place of its first row
+  std::pmr::vector<int> sequence_;       // rows in the order of elimination
+  std::pmr::vector<int> rank_;           // by place in it: how many free rows come before
   std::pmr::vector<int> first_;
   std::pmr::vector<double> x_, best_;
   std::pmr::vector<std::int8_t> wrong_;  // 0, or the state to go to + 1

@@ -85,6 +85,13 @@ class RowMaker {
            row.angular_b * b.spin_before;
   }
 
+  // The same after the first solution.
+  double held_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
+           row.angular_b * b.spin;
+  }
+
   // `applied`: what the first solution has found; the second one adds to it.
   void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
     const std::size_t place = island_.ties.size();
@@ -106,10 +113,12 @@ class RowMaker {
     island_.ties.push_back(tie);
   }
 
-  // Rate of a row that opens by `gap` >= 0 at the most, as the way's mean or as the velocity at the end.
-  double closing(double gap, double before) const {
+  // Rate of a row that is open by `gap` and may close: as the way's mean, or as the velocity at the end.
+  // There it closes no faster than it does; impulses that are taken back until a gap closes would gain
+  // energy.
+  double closing(double gap, const BoundedRow& row) const {
     const double rate = -std::max(gap, 0.0) / h_;
-    return hold_ ? 2 * rate - before : rate;
+    return hold_ ? 2 * rate - velocity_along(row) : std::max(rate, std::min(held_along(row), 0.0));
   }
 
   void add_joint(int joint) {
@@ -123,14 +132,14 @@ class RowMaker {
       row.linear_b = from.row.linear_b.template as<double>();
       row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
       row.block = block_;
-      const double before = velocity_along(row), most = from.most, gap = from.row.residual;
+      const double most = from.most, gap = from.row.residual;
       // At the substep's start, where springs pull from and limits are measured.
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       double lower = -most;
       rigid_ = from.role == RowRole::Rigid;
       switch (from.role) {
         case RowRole::Rigid:
-          row.wanted = hold_ ? -before : 0;
+          row.wanted = hold_ ? -velocity_along(row) : 0;
           row.gap = gap;
           break;
         case RowRole::Spring:
@@ -139,7 +148,7 @@ class RowMaker {
           break;
         case RowRole::Limit:
           lower = 0;
-          row.wanted = closing(start, before);
+          row.wanted = closing(start, row);
           row.gap = std::min(gap, 0.0);
           break;
         case RowRole::Motor:
@@ -180,11 +189,10 @@ class RowMaker {
     rigid_ = false;
     for (int i = 0; i < c.count; ++i) {
       along(n, c.arm_a[i], c.arm_b[i]);
-      const double before = velocity_along(row);
       const double gap =
           double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
-      row.wanted = closing(start, before);
+      row.wanted = closing(start, row);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
       add(row, {.impulse = &c.normal_impulse[i]}, 0, std::numeric_limits<double>::infinity());
       pressure += island_.impulses[island_.ties.size() - 1];
