@@ -311,11 +311,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, con
       island.system.factorise(w.motion.data());
       close_gaps(w, island, joints.h);
     }
-    bool found = island.system.find(w.motion.data(), push_speed);
-    if (push && found && add_missing_loads(w, island, joints.h)) {
-      island.system.factorise(w.motion.data());
-      found = island.system.find(w.motion.data(), push_speed);
-    }
+    const bool found = island.system.find(w.motion.data(), push_speed);
     if (found) island.system.apply(w.motion.data());
     if (!found && island.system.contradicted()) give_up(w, island);
   }

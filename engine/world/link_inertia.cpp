@@ -11,13 +11,13 @@ Real at_least(Real inverse, Real least) {
   return inverse * least > 1 ? 1 / least : inverse;
 }
 
-// Loads by the impulses that `impulse_of` tells of the rows.
-template <class Real, class ImpulseOf>
-void count_loads(const WorldData<Real>& w, DirectIsland<Real>& island, const ImpulseOf& impulse_of) {
+// Loads by the rows' impulses as they stand.
+template <class Real>
+void count_loads(const WorldData<Real>& w, DirectIsland<Real>& island) {
   for (LinkBody<Real>& link : island.links) link.turning = link.sliding = 0;
   for (int i = 0; i < island.joint_rows; ++i) {
     const DirectRow<Real>& row = island.system.rows[i];
-    const Real impulse = impulse_of(row, i);
+    const Real impulse = *row.impulse;
     const auto add = [&](int body, Real turning) {
       if (!w.gives_way(body)) return;
       LinkBody<Real>& link = island.links[w.scratch.link_of[body]];
@@ -52,29 +52,12 @@ void find_links(WorldData<Real>& w, DirectIsland<Real>& island) {
 
 template <class Real>
 void load_links(WorldData<Real>& w, DirectIsland<Real>& island, Real h) {
-  count_loads(w, island, [](const DirectRow<Real>& row, int) { return *row.impulse; });
+  count_loads(w, island);
   for (const LinkBody<Real>& link : island.links) {
     BodyMotion<Real>& motion = w.motion[link.body];
     motion.inverse_inertia = at_least(link.inverse_inertia, h * link.turning);
     motion.inverse_mass = at_least(link.inverse_mass, h * link.sliding);
   }
-}
-
-template <class Real>
-bool add_missing_loads(WorldData<Real>& w, DirectIsland<Real>& island, Real h) {
-  count_loads(w, island, [&](const DirectRow<Real>& row, int i) {
-    return *row.impulse + static_cast<Real>(island.system.found(i));
-  });
-  bool heavier = false;
-  for (const LinkBody<Real>& link : island.links) {
-    BodyMotion<Real>& motion = w.motion[link.body];
-    const Real inertia = at_least(link.inverse_inertia, h * link.turning);
-    const Real mass = at_least(link.inverse_mass, h * link.sliding);
-    heavier = heavier || inertia < motion.inverse_inertia || mass < motion.inverse_mass;
-    motion.inverse_inertia = std::min(motion.inverse_inertia, inertia);
-    motion.inverse_mass = std::min(motion.inverse_mass, mass);
-  }
-  return heavier;
 }
 
 template <class Real>
@@ -110,7 +93,6 @@ void restore_links(WorldData<Real>& w, DirectIsland<Real>& island) {
   template void find_links(WorldData<Real>&, DirectIsland<Real>&);              \
   template void load_links(WorldData<Real>&, DirectIsland<Real>&, Real);        \
   template void damp_links(WorldData<Real>&, DirectIsland<Real>&);              \
-  template bool add_missing_loads(WorldData<Real>&, DirectIsland<Real>&, Real); \
   template void restore_links(WorldData<Real>&, DirectIsland<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -21,10 +21,6 @@ void find_links(WorldData<Real>& w, DirectIsland<Real>& island);
 /// Gives links the inertia for the loads of the rows' impulses and a substep of h, s.
 template <class Real>
 void load_links(WorldData<Real>& w, DirectIsland<Real>& island, Real h);
-/// Counts the impulses that were found missing, too: a chain that snaps taut has its load at once. Whether
-/// links have become heavier.
-template <class Real>
-bool add_missing_loads(WorldData<Real>& w, DirectIsland<Real>& island, Real h);
 
 /// What a joint's two bodies turn relative to each other, by the share of their inertia that the load made,
 /// is taken out: fast modes gain energy where loads change within their period. Angular momentum stays.
