@@ -180,19 +180,19 @@ struct JointConstraint {
   }
 
   /// For the rows as they are.
-  JointMobility<Real> mobility(const SolverBodies<Real>& bodies) const {
-    const JointVelocities<Real> v = velocities(bodies);
-    JointMobility<Real> sum;
-    const auto add = [&](const JointRow<Real>& row) {
-      sum.a += v.m_a * length_squared(row.linear_a) + v.i_a * (row.angular_a * row.angular_a);
-      sum.b += v.m_b * length_squared(row.linear_b) + v.i_b * (row.angular_b * row.angular_b);
-    };
-    for (int i = 0; i < kAxial; ++i) add(axial[i].row);
+  JointLoad<Real> load(const SolverBodies<Real>& bodies) const {
+    constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);
+    JointRow<Real> rows[kRows];
+    int count = 0;
+    if constexpr (Rows::kTurn)
+      rows[count++] = {{}, {}, turn.count > 0 ? Real(-1) : 0, turn.count > 0 ? Real(1) : 0};
+    for (int i = 0; i < kAxial; ++i) rows[count++] = axial[i].count > 0 ? axial[i].row : JointRow<Real>{};
     if constexpr (kBlock > 0)
-      for (const JointRow<Real>& row : block.row) add(row);
-    if constexpr (Rows::kPoint) return point_mobility(v, point.point.arm_a, point.point.arm_b);
-    if constexpr (Rows::kTurn && kAxial == 0) return {v.i_a, v.i_b};
-    return sum;
+      for (const JointRow<Real>& row : block.row) rows[count++] = row;
+    if constexpr (Rows::kPoint)
+      for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}})
+        rows[count++] = point.point.plain_row(n);
+    return joint_load(rows, velocities(bodies));
   }
 
   void warm_start(const SolverBodies<Real>& bodies) const {

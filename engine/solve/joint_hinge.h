@@ -100,9 +100,9 @@ struct alignas(16) HingeConstraint {
     v.store(motion_a, motion_b);
   }
 
-  JointMobility<Real> mobility(const SolverBodies<Real>& bodies) const {
+  JointLoad<Real> load(const SolverBodies<Real>& bodies) const {
     const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
-    return point_mobility(JointVelocities<Real>(motion_a, motion_b), arm_a, arm_b);
+    return point_load(JointVelocities<Real>(motion_a, motion_b), arm_a, arm_b);
   }
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
     const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];

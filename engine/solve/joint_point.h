@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "engine/solve/joint_rule.h"
-#include "engine/solve/joint_share.h"
 #include "engine/solve/joint_velocities.h"
 
 namespace plumb {
@@ -56,12 +55,6 @@ template <class Real>
 [[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
                                                           Vec2<Real> arm_b, Real share) {
   return mass_of(point_response(v, arm_a, arm_b), share);
-}
-
-/// Traces of both bodies' parts of K.
-template <class Real>
-JointMobility<Real> point_mobility(const JointVelocities<Real>& v, Vec2<Real> arm_a, Vec2<Real> arm_b) {
-  return {2 * v.m_a + v.i_a * length_squared(arm_a), 2 * v.m_b + v.i_b * length_squared(arm_b)};
 }
 
 /// Both components of the gap between two anchors, solved at once, by a rule that bounds the vector's length.

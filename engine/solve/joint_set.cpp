@@ -344,7 +344,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
           constraint.alone = std::max(count_a, count_b) < 2;
         constraint.prepare(bodies, step);
         if (std::max(count_a, count_b) < kManyJoints) continue;
-        constraint.share = joint_share(constraint.mobility(bodies), count_a, count_b);
+        constraint.share = joint_share(constraint.load(bodies), count_a, count_b);
         if (constraint.share < 1) constraint.evaluate(bodies, step);
       }
     });

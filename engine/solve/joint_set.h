@@ -140,10 +140,6 @@ class JointSet {
   /// the rate is 1 / h: all of an error is taken back.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
 
-  /// Returns whether sequential impulses cannot be relied on to hold the joint: for its kind, or because many
-  /// joints share a light body. Joints have been prepared.
-  bool needs_direct(int joint) const;
-
   /// Appends the rows of a joint where its bodies are now.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 

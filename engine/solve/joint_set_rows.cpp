@@ -96,18 +96,6 @@ void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodi
 }  // namespace
 
 template <class Real>
-bool JointSet<Real>::needs_direct(int joint) const {
-  return parts_->at(joint, []<class Constraint>(const Constraint& constraint) {
-    if (constraint.share < 1) return true;
-    constexpr bool kIsHinge = requires { constraint.arm_a; };
-    return !kIsHinge && !std::is_same_v<Constraint, JointConstraint<Real, RevoluteRows>>;
-  });
-}
-
-template bool JointSet<float>::needs_direct(int) const;
-template bool JointSet<double>::needs_direct(int) const;
-
-template <class Real>
 void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
                                  std::vector<JointSolverRow<Real>>& rows) {
   parts_->at(joint, [&](auto& constraint) { add_rows(constraint, bodies, rows); });

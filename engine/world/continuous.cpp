@@ -166,7 +166,7 @@ Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSe
 template <class Real>
 void set_arm(const WorldData<Real>& w, Flight& flight) {
   const BodyRecord<Real>& record = w.bodies[flight.body];
-  if (record.type != BodyType::Dynamic || flight.turn == 0) return;
+  if (record.type != BodyType::Dynamic || flight.turn == 0 || record.lock_x || record.lock_y) return;
   for_each_edge(w.joints, record.first_joint, [&](int edge, const JointRecord& joint) {
     const bool is_a = (edge & 1) == 0;
     if (!joint.active || w.gives_way(is_a ? joint.body_b : joint.body_a)) return;
@@ -312,7 +312,9 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
   for_each_tied(w, place, search.dt, [&](int tied) {
     Flight& flight = w.scratch.flights[tied];
     if (flight.carrier != kNone) return;
-    flight.go_along(w.scratch.flights[pusher], fraction);
+    const BodyRecord<Real>& record = w.bodies[flight.body];
+    flight.go_along(w.scratch.flights[pusher], fraction,
+                    {record.lock_x, record.lock_y, record.lock_rotation});
     show_way(w, flight);
     look_ahead(w, tied, fraction, search);
     look_back(w, tied, fraction, search);

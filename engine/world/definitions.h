@@ -56,6 +56,12 @@ struct MassProperties {
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
+/// What of a body's motion is held.
+struct BodyLocks {
+  bool x = false, y = false, rotation = false;
+  friend bool operator==(const BodyLocks&, const BodyLocks&) = default;
+};
+
 struct BodyDefinition {
   std::string name{};  ///< for messages
   BodyType type = BodyType::Dynamic;

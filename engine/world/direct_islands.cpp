@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <variant>
 
 #include "engine/world/constants.h"
 #include "engine/world/free_motion.h"
@@ -32,11 +31,10 @@ int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
-// In the size of an island with joints: left to the sweeps; solved as one where sweeps have left a joint
-// open; solved as one in any case.
-constexpr int kSwept = tuning::kSlenderRows + 1, kWatched = -1, kJointed = -2;
+// In the size of an island with joints: left to the sweeps; solved as one.
+constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
 
-// Which islands with joints may be solved as one.
+// Which islands with joints are solved as one: those whose masses are far apart.
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -61,39 +59,8 @@ void choose_jointed(WorldData<Real>& w) {
     const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kJointedContacts;
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
-    s.island_size[body] = !small                                         ? kSwept
-                          : alike && w.settings.solver != Solver::Direct ? kWatched
-                                                                         : kJointed;
+    s.island_size[body] = small && (!alike || w.settings.solver == Solver::Direct) ? kJointed : kSwept;
   }
-}
-
-// A motor that could hold its link against gravity is a rigid row, which sweeps leave short of what it asks
-// for: legs that stand on such hips flail. Weaker ones, as the friction of a ragdoll's joints, are forces.
-template <class Real>
-bool holds_link(const WorldData<Real>& w, const JointRecord& joint) {
-  const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
-  if (hinge == nullptr || !hinge->motor) return false;
-  double lightest = std::numeric_limits<double>::infinity();
-  for (const int body : {joint.body_a, joint.body_b})
-    if (w.gives_way(body)) lightest = std::min(lightest, static_cast<double>(w.bodies[body].mass));
-  const double arm_squared = std::max(length_squared(hinge->anchor_a), length_squared(hinge->anchor_b));
-  return hinge->motor->max_force > lightest * std::sqrt(length_squared(w.settings.gravity) * arm_squared);
-}
-
-// Islands that sweeps do not hold well are solved as one in this step.
-template <class Real>
-void find_loose(WorldData<Real>& w) {
-  Scratch<Real>& s = w.scratch;
-  s.island_loose.assign(w.bodies.size(), 0);
-  w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!is_swept(w, joint)) return;
-    const int root = s.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
-    if (s.island_loose[root] != 0) return;
-    const int size = s.island_size[root];
-    s.island_loose[root] =
-        size == kJointed ||
-        (size == kWatched && (w.joint_set.needs_direct(joint.slot) || holds_link(w, joint)));
-  });
 }
 
 // Takes towers and other slender heaps into the choice, however high: contacts that close no loops, with few
@@ -186,7 +153,7 @@ void fill_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
-    if (rows < 0 && s.island_loose[root] != 0) jointed_at(root).contacts.push_back(&c);
+    if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
     if (rows > 2 && rows <= tuning::kDirectRows)
       island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
@@ -194,7 +161,7 @@ void fill_islands(WorldData<Real>& w) {
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_swept(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
-    if (s.island_loose[root] != 0) jointed_at(root).joints.push_back(joint.slot);
+    if (s.island_size[root] == kJointed) jointed_at(root).joints.push_back(joint.slot);
   });
 }
 
@@ -222,7 +189,6 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (w.graph.empty() && swept_joints(w) == 0) return;
   if (!w.scratch.islands_known) find_islands(w);
   w.scratch.islands_known = true;
-  if (swept_joints(w) > 0) find_loose(w);
   fill_islands(w);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];

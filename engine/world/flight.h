@@ -2,6 +2,7 @@
 
 #include "engine/collide/time_of_impact.h"
 #include "engine/math/trigonometry.h"
+#include "engine/world/definitions.h"
 
 namespace plumb {
 
@@ -77,8 +78,9 @@ struct Flight {
     gain = way = curve = arm = {}, turn = 0;
     stands = true;
   }
-  /// Goes on from a fraction of the step as if it were a part of what pushes it along.
-  void go_along(const Flight& pusher, double fraction) {
+  /// Goes on from a fraction of the step as if it were a part of what pushes it along, but for what is
+  /// locked.
+  void go_along(const Flight& pusher, double fraction, BodyLocks locks) {
     velocity = velocity_at(fraction);
     begin_anew(fraction);
     gain = curve = {};
@@ -87,6 +89,10 @@ struct Flight {
     arm = rotation.inverse() * (there - start);
     const Rotation<double> r = rotation_of(turn);
     way = pusher.straight_at(1) - r * (there - start) - start;
+    if (locks.x || locks.y || locks.rotation) arm = {};  // and goes straight
+    if (locks.x) way.x = 0;
+    if (locks.y) way.y = 0;
+    if (locks.rotation) turn = 0;
     stands = false;
     carrier = pusher.body;
   }

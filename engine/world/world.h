@@ -37,12 +37,6 @@ struct ContactReading {
   double approach = 0;         ///< m/s, along the normal at the step's start, negative: closing
 };
 
-/// What of a body's motion is held.
-struct BodyLocks {
-  bool x = false, y = false, rotation = false;
-  friend bool operator==(const BodyLocks&, const BodyLocks&) = default;
-};
-
 struct WorldCounts {
   int bodies = 0, awake = 0, shapes = 0, contacts = 0, touching = 0, joints = 0;
 };

@@ -1,4 +1,4 @@
-#!/ usr / bin / env python3
+#!/usr/bin/env python3
 """Rewrites tests/world/golden_hashes.txt with the hashes that the tests print now.
 
 Example: tests/world/golden.py --why "joints are solved with the contacts that press on them"
