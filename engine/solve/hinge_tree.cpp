@@ -182,7 +182,7 @@ void undo(std::span<TreeLink> tree) {
   }
 }
 
-// ---- Loads. See engine/world/link_inertia.h: h^2 k is what a substep can follow.
+// ---- Loads. h^2 k is what a substep can follow.
 
 // What the impulses of `share` of a substep ask of each link; whether any has less.
 bool find_demands(std::span<TreeLink> tree, double h, double share, Vec2d TreeLink::*impulse) {

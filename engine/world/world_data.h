@@ -256,7 +256,6 @@ struct Scratch {
   std::vector<int> link_of;  ///< by body: its place among the links of its island
   std::vector<Real> lightest, heaviest;
   std::vector<int> island_joints;
-  std::vector<char> island_loose;  ///< by the body that stands for an island: solved as one in this step
   std::vector<JointSolverRow<Real>> joint_rows;
   /// What small islands are made of: what one of them gives up when it grows, another one takes.
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
