@@ -89,10 +89,10 @@ void restore_links(WorldData<Real>& w, DirectIsland<Real>& island) {
   island.links.clear();
 }
 
-#define PLUMB_FOR(Real)                                                         \
-  template void find_links(WorldData<Real>&, DirectIsland<Real>&);              \
-  template void load_links(WorldData<Real>&, DirectIsland<Real>&, Real);        \
-  template void damp_links(WorldData<Real>&, DirectIsland<Real>&);              \
+#define PLUMB_FOR(Real)                                                  \
+  template void find_links(WorldData<Real>&, DirectIsland<Real>&);       \
+  template void load_links(WorldData<Real>&, DirectIsland<Real>&, Real); \
+  template void damp_links(WorldData<Real>&, DirectIsland<Real>&);       \
   template void restore_links(WorldData<Real>&, DirectIsland<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
