@@ -16,9 +16,9 @@ constexpr double kExact = 1e-11;
 // Of the largest speed: by how much a row may be on the wrong side.
 constexpr double kSlack = 1e-9;
 // Block pivots: of systems that they end for, nine in ten need no more.
-constexpr int kPivots = 6;
+constexpr int kPivots = 4;
 // Rounds of descent after that, the sweeps in each, and those at the end when rounds run out.
-constexpr int kRounds = 12, kSweeps = 3, kLastSweeps = 20;
+constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
 
 double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {
   return body.inverse_mass.x * linear_r.x * linear_s.x + body.inverse_mass.y * linear_r.y * linear_s.y +

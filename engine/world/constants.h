@@ -53,7 +53,7 @@ inline constexpr int kSweptLinksMost = 16;
 /// ms. Larger ones are left to the sweeps.
 inline constexpr int kJointedJoints = 4096;
 inline constexpr int kJointedContacts = 512;
-inline constexpr double kJointedCost = 5e4;
+inline constexpr double kJointedCost = 2e5;
 /// Share of a joint's gap that is closed in a step, by moving its bodies, and by how much its rows give way:
 /// no body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With 1e-4, 50 times, links of
 /// a taut bridge turn so far for a gap of 0.4 mm that it sags; at 0.1 chains close half as fast.

@@ -194,7 +194,10 @@ class RowMaker {
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
-      add(row, {.impulse = &c.normal_impulse[i]}, 0, std::numeric_limits<double>::infinity());
+      // What bounces is let through until its time.
+      const bool passes = !(c.mass[i] > 0);
+      add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
+      if (passes) island_.impulses[island_.ties.size() - 1] = 0;
       pressure += island_.impulses[island_.ties.size() - 1];
     }
     if (c.friction > 0) {
@@ -254,7 +257,7 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold) {
 
 template <class Real>
 void solve(JointedIsland<Real>& island, bool hold) {
-  constexpr int kRenewals = 3;
+  constexpr int kRenewals = 1;
   const auto load = [&] {
     for (std::size_t i = 0; i < island.links.size(); ++i) {
       BoundedBody& body = island.system.bodies[i];
@@ -342,6 +345,19 @@ void note_free_velocities(WorldData<Real>& w) {
 }
 
 template <class Real>
+void note_blows(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.jointed[i].links) {
+      const BodyMotion<Real>& motion = w.motion[link.body];
+      const Vec2d velocity = motion.velocity.template as<double>();
+      const double spin = motion.angular_velocity;
+      link.before += velocity - link.velocity, link.spin_before += spin - link.spin;
+      link.velocity = velocity, link.spin = spin;
+    }
+  }
+}
+
+template <class Real>
 void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
   const double h = step.h;
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
@@ -393,6 +409,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
   template void prepare_jointed_islands(WorldData<Real>&);                        \
   template void begin_jointed_substep(WorldData<Real>&);                          \
   template void note_free_velocities(WorldData<Real>&);                           \
+  template void note_blows(WorldData<Real>&);                                     \
   template void hold_jointed_islands(WorldData<Real>&, const ContactStep<Real>&); \
   template void relax_jointed_islands(WorldData<Real>&, const ContactStep<Real>&, bool);
 PLUMB_FOR(float)

@@ -28,6 +28,11 @@ void begin_jointed_substep(WorldData<Real>& w);
 template <class Real>
 void note_free_velocities(WorldData<Real>& w);
 
+/// Impacts at their time within the substep have changed velocities since, and bodies' places accordingly:
+/// the way goes on as if they had had the new ones from its start.
+template <class Real>
+void note_blows(WorldData<Real>& w);
+
 /// Finds the impulses of the way, and leaves its velocity in the bodies.
 template <class Real>
 void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);

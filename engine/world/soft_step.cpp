@@ -87,8 +87,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     repeat ? repeat_velocities(w) : integrate_velocities(w);
     // What joints and contacts of a mechanism did last cancels only when they are solved: until then their
     // impulses make no approach.
-    if (jointed) place();
     note_free_velocities(w);
+    if (jointed) place();
+    if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
     if (!jointed) place();
