@@ -35,7 +35,7 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], h);
   }
   void scale(Real factor) {
-    for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
+    for (int i = 0; i < count; ++i) rule[i].impulse *= factor, rule[i].usual *= factor;
   }
 
   /// lambda along +q of all rules.

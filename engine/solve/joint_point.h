@@ -62,6 +62,7 @@ template <class Real>
 struct JointPoint {
   SolverRule<Real> rule{};  ///< without sign and origin
   Vec2<Real> impulse{};     ///< N s, on b
+  Vec2<Real> usual{};       ///< see SolverRule
   AnchorPoint<Real> point{};
   Symmetric2<Real> mass{};
   Symmetric2<Real> compliance{};  ///< of a spring: what its impulse gives way by
@@ -69,7 +70,7 @@ struct JointPoint {
   Real mass_scale[2]{1, 1}, impulse_scale[2]{};
 
   void load(const RowRule& r) {
-    if (r.role != rule.role) impulse = {};
+    if (r.role != rule.role) impulse = usual = {};
     rule.load(r);
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
@@ -93,6 +94,11 @@ struct JointPoint {
       bias[pass] = term[pass].bias * at.gap;
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
+    }
+    if (impulse_scale[kSolve] > 0 && rule.role == RowRole::Motor) {
+      usual += (impulse - usual) * static_cast<Real>(kMotorMemory);
+      bias[kSolve] -= (impulse_scale[kSolve] / mass_scale[kSolve]) *
+                      Vec2<Real>{k.xx * usual.x + k.xy * usual.y, k.xy * usual.x + k.yy * usual.y};
     }
   }
   /// The same of a spring beside a rigid angle, which leaves `held` of the point's mobility.

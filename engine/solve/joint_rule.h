@@ -72,6 +72,10 @@ struct StiffSpring {
   }
 };
 
+/// Of a motor's impulse that its average takes in at each substep. From a tenth on the linear model of three
+/// legs on a torso of a fifth of their mass swings up; less follows a load more slowly.
+inline constexpr double kMotorMemory = 0.05;
+
 /// A rule ready for its role: parameters rounded to Real, and its spring for the substep.
 template <class Real>
 struct SolverRule {
@@ -80,11 +84,12 @@ struct SolverRule {
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
+  Real usual = 0;  ///< of a motor: its impulse, averaged over some substeps
 
   /// Takes another rule's parameters; the impulse stays where it still means the same.
   void load(const RowRule& rule) {
     const Real new_sign = static_cast<Real>(rule.sign);
-    if (rule.role != role || new_sign != sign) impulse = 0;
+    if (rule.role != role || new_sign != sign) impulse = usual = 0;
     role = rule.role;
     sign = new_sign;
     origin = static_cast<Real>(rule.origin);
@@ -99,7 +104,7 @@ struct SolverRule {
   /// this substep, `solve` of the next one. `spring_mobility` is what its spring refers to. A spring's force
   /// belongs to where the substep began: one impulse a substep, in both passes.
   void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
-             RowTerm<Real> (&term)[2]) const {
+             RowTerm<Real> (&term)[2]) {
     const Real share = part.share;
     const Real c = sign * (q - origin);
     const Real mass = mobility > 0 ? share / mobility : 0;
@@ -134,6 +139,15 @@ struct SolverRule {
         return;
       case RowRole::Motor:
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
+        if (part.alone) {
+          usual = impulse;
+          return;
+        }
+        // What differs from its usual impulse fades, as all of it does in rigid rows: legs on many held hips
+        // would swing up by what each row repeats. Its usual impulse stays, or a brake would creep.
+        usual += (impulse - usual) * static_cast<Real>(kMotorMemory);
+        term[kSolve].mass = pull.mass, term[kSolve].scale = pull.scale;
+        if (pull.mass > 0) term[kSolve].bias -= pull.scale * usual / pull.mass;
         return;
     }
   }
