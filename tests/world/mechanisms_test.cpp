@@ -49,29 +49,84 @@ TYPED_TEST(Mechanisms, APropellerOfWeldedBladesSpinsOn) {
       }
 }
 
-// Brakes of up to 500 N m at the hips of four legs that weigh 6 N: it falls on its feet, and stands.
-TYPED_TEST(Mechanisms, ASpiderWithBrakedHipsStands) {
+struct Walker {
+  int legs = 4;
+  double length = 1.5, spread = 0.6;  ///< m, rad between legs
+  double torso_density = 1;           ///< kg/m^2
+};
+
+/// A torso on legs above a floor, with brakes of up to 500 N m at its hips.
+template <class Real>
+BodyId add_walker(Mechanism<Real>& m, const Walker& walker) {
   const Filter own{.group = -1};
-  Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
   m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{80, 2}});
-  const BodyId torso =
-      m.world.create_body({.position = {0, 2.2}}, {.geometry = Box{0.6, 0.3}, .filter = own});
+  const Vec2d at{0, walker.length + 0.7};
+  const BodyId torso = m.world.create_body(
+      {.position = at}, {.geometry = Box{0.6, 0.3}, .density = walker.torso_density, .filter = own});
   m.bodies.push_back(torso);
-  for (int i = 0; i < 4; ++i) {
-    const double angle = -std::numbers::pi / 2 + (i - 1.5) * 0.6;
+  for (int i = 0; i < walker.legs; ++i) {
+    const double angle = -std::numbers::pi / 2 + (i - (walker.legs - 1) / 2.0) * walker.spread;
     const Vec2d out{std::cos(angle), std::sin(angle)}, hip{0.25 * out.x, 0.12 * out.y};
-    m.bodies.push_back(m.world.create_body({.position = Vec2d{0, 2.2} + hip + 0.75 * out, .angle = angle},
-                                           {.geometry = Box{1.5, 0.1}, .filter = own}));
+    m.bodies.push_back(m.world.create_body({.position = at + hip + walker.length / 2 * out, .angle = angle},
+                                           {.geometry = Box{walker.length, 0.1}, .filter = own}));
     m.joints.push_back(
         m.world.create_joint(torso, m.bodies.back(),
                              {.kind = RevoluteDefinition{.anchor_a = hip,
-                                                         .anchor_b = {-0.75, 0},
+                                                         .anchor_b = {-walker.length / 2, 0},
                                                          .reference_angle = angle,
                                                          .motor = Motor{.speed = 0, .max_force = 500}}}));
   }
+  return torso;
+}
+
+// Brakes of up to 500 N m at the hips of four legs that weigh 6 N: it falls on its feet, and stands.
+TYPED_TEST(Mechanisms, ASpiderWithBrakedHipsStands) {
+  Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+  const BodyId torso = add_walker(m, {});
   for (int i = 0; i < 480; ++i) m.world.step();
   EXPECT_GT(m.world.position(torso).y, 1.4);
   for (const BodyId body : m.bodies) EXPECT_LT(length_squared(m.world.velocity(body)), 1e-6);
+}
+
+// With 2 to 7 legs, on torsos of a fifth to five times a leg's density: they come to rest. With one substep
+// those of two legs may rock until they fall, but no leg swings up.
+TYPED_TEST(Mechanisms, WalkersWithBrakedHipsComeToRest) {
+  for (int legs = 2; legs <= 7; ++legs)
+    for (const double length : {0.8, 2.5})
+      for (const double ratio : {0.2, 5.0})
+        for (const int substeps : {1, 4, 8}) {
+          Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+          add_walker(m, {.legs = legs, .length = length, .spread = 0.4, .torso_density = ratio});
+          const double start = m.energy();
+          for (int i = 0; i < 480; ++i) m.world.step(1.0 / 60, substeps);
+          EXPECT_LT(m.energy(), start);
+          for (const BodyId body : m.bodies)
+            EXPECT_LT(length_squared(m.world.velocity(body)), substeps == 1 ? 25 : 1)
+                << legs << " legs of " << length << " m, torso of " << ratio << ", " << substeps;
+        }
+}
+
+// An arm of two links held out by brakes of 500 N m, under 4 and 1 N m: once it has taken up its load, it
+// stays.
+TYPED_TEST(Mechanisms, BrakesHoldALoadWithoutCreeping) {
+  for (const int substeps : {1, 4}) {
+    BasicWorld<TypeParam> world;
+    const BodyId wall = world.create_body({.type = BodyType::Static});
+    std::vector<BodyId> links{wall};
+    for (int i = 0; i < 2; ++i) {
+      links.push_back(world.create_body({.position = {0.5 + i, 0}}, {.geometry = Box{1, 0.1}}));
+      world.create_joint(links[i], links[i + 1],
+                         {.kind = RevoluteDefinition{.anchor_a = {i * 0.5, 0},
+                                                     .anchor_b = {-0.5, 0},
+                                                     .motor = Motor{.speed = 0, .max_force = 500}}});
+    }
+    const auto angles = [&] { return Vec2d{world.angle(links[1]), world.angle(links[2])}; };
+    for (int i = 0; i < 120; ++i) world.step(1.0 / 60, substeps);
+    const Vec2d before = angles();
+    EXPECT_LT(length_squared(before), 0.05 * 0.05) << substeps;
+    for (int i = 0; i < 600; ++i) world.step(1.0 / 60, substeps);
+    EXPECT_LT(length_squared(angles() - before), 1e-10) << substeps;
+  }
 }
 
 // Thrown at a floor, whatever the masses of their links: they lose energy, and gain none.
