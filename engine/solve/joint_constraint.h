@@ -93,22 +93,37 @@ struct JointConstraint {
     }
     if constexpr (kPulley) recall_length(bodies);
     if (step.warm_start != 1) scale(step.warm_start);
-    evaluate(bodies, step);
+    evaluate(bodies, step, When::StepStarts);
   }
 
+  /// Motors count what they drift from the step's start, over each substep.
+  enum class When { StepStarts, SubstepEnds, Between };
   /// All rows at the poses as they are now.
-  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step, When when = When::Between) {
     const JointVelocities<Real> v = velocities(bodies);
     JointRows<Real> rows;
     const JointPose<Real> at = pose(bodies);
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
+    if (when != When::Between) follow(bodies, rows, when, step.h);
     evaluate_coordinates(at, rows, v, step, {share, alone});
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
+  }
+
+  void follow(const SolverBodies<Real>& bodies, const JointRows<Real>& rows, When when, Real h) {
+    const bool starts = when == When::StepStarts;
+    const auto see = [starts, h](auto& coordinate, Real q) {
+      starts ? coordinate.start_at(q) : coordinate.follow(q, h);
+    };
+    // What it has turned since the step began, which is 0 then: the angle may be of many turns.
+    if constexpr (Rows::kTurn) see(turn, bodies.motion[b].turned - bodies.motion[a].turned);
+    for (int i = 0; i < kAxial; ++i) see(axial[i], rows.axial[i].residual);
+    if constexpr (Rows::kPoint)
+      if (!starts) point.follow(rows.point.gap);
   }
 
   /// Turn, axial and point at a pose and its rows; `at.angle` and the residuals are the coordinates.
@@ -226,7 +241,7 @@ struct JointConstraint {
   }
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-    evaluate(bodies, step);
+    evaluate(bodies, step, When::SubstepEnds);
     pass(bodies, step, kRelax);
   }
 

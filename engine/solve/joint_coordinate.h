@@ -38,6 +38,14 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) rule[i].impulse *= factor, rule[i].usual *= factor;
   }
 
+  /// Sees where a step starts, and where each substep ends.
+  void start_at(Real q) {
+    for (int i = 0; i < count; ++i) rule[i].last = q;
+  }
+  void follow(Real q, Real h) {
+    for (int i = 0; i < count; ++i) rule[i].follow(q, h);
+  }
+
   /// lambda along +q of all rules.
   Real impulse() const {
     Real sum = 0;

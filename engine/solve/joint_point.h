@@ -62,7 +62,7 @@ template <class Real>
 struct JointPoint {
   SolverRule<Real> rule{};  ///< without sign and origin
   Vec2<Real> impulse{};     ///< N s, on b
-  Vec2<Real> usual{};       ///< see SolverRule
+  Vec2<Real> drift{};       ///< m, see SolverRule
   AnchorPoint<Real> point{};
   Symmetric2<Real> mass{};
   Symmetric2<Real> compliance{};  ///< of a spring: what its impulse gives way by
@@ -70,10 +70,17 @@ struct JointPoint {
   Real mass_scale[2]{1, 1}, impulse_scale[2]{};
 
   void load(const RowRule& r) {
-    if (r.role != rule.role) impulse = usual = {};
+    if (r.role != rule.role) impulse = drift = {};
     rule.load(r);
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
+
+  /// Sees where a substep ends; the gap of its start is that of `point`.
+  void follow(Vec2<Real> gap) {
+    if (rule.role != RowRole::Motor) return;
+    const bool suffices = length_squared(impulse) < rule.most * rule.most;
+    drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
+  }
 
   bool rigid() const {
     return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
@@ -89,9 +96,10 @@ struct JointPoint {
     }
     mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
+    rule.drift = 1;
     rule.terms(1, 1, 1, part, step, term);
     for (int pass = 0; pass < 2; ++pass) {
-      bias[pass] = term[pass].bias * at.gap;
+      bias[pass] = term[pass].bias * (rule.role == RowRole::Motor ? drift : at.gap);
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }

@@ -84,12 +84,14 @@ struct SolverRule {
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
-  Real usual = 0;  ///< of a motor: its impulse, averaged over some substeps
+  /// Of a motor, m or rad: how far it has come short of its speed, or beyond, while its force sufficed.
+  Real drift = 0;
+  Real last = 0;  ///< of a motor: its coordinate when `drift` was counted
 
   /// Takes another rule's parameters; the impulse stays where it still means the same.
   void load(const RowRule& rule) {
     const Real new_sign = static_cast<Real>(rule.sign);
-    if (rule.role != role || new_sign != sign) impulse = usual = 0;
+    if (rule.role != role || new_sign != sign) impulse = drift = 0;
     role = rule.role;
     sign = new_sign;
     origin = static_cast<Real>(rule.origin);
@@ -98,6 +100,13 @@ struct SolverRule {
   void set_substep(const RowRule& rule, double h) {
     most = static_cast<Real>(rule.max_force * h);
     if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, h);
+  }
+
+  /// Counts a motor's drift over a substep that ended at `q`.
+  void follow(Real q, Real h) {
+    if (role != RowRole::Motor) return;
+    drift = std::abs(impulse) < most ? drift + sign * (q - last) - speed * h : 0;
+    last = q;
   }
 
   /// Both terms for a coordinate at `q` with the given mobility, at the poses after a substep: `relax` of
@@ -138,16 +147,10 @@ struct SolverRule {
         }
         return;
       case RowRole::Motor:
+        // As rigid rows, whose impulses fade and which their gaps call back: with impulses that stay whole
+        // legs on many held hips swing up.
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
-        if (part.alone) {
-          usual = impulse;
-          return;
-        }
-        // What differs from its usual impulse fades, as all of it does in rigid rows: legs on many held hips
-        // would swing up by what each row repeats. Its usual impulse stays, or a brake would creep.
-        usual += (impulse - usual) * static_cast<Real>(kMotorMemory);
-        term[kSolve].mass = pull.mass, term[kSolve].scale = pull.scale;
-        if (pull.mass > 0) term[kSolve].bias -= pull.scale * usual / pull.mass;
+        if (!part.alone) term[kSolve] = {share * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
         return;
     }
   }

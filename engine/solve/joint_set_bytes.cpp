@@ -168,7 +168,7 @@ void fields(const A& ar, JointRow<Real>& row) {
 template <class A, class Real, bool kAngular>
 void fields(const A& ar, JointCoordinate<Real, kAngular>& coordinate) {
   fields(ar, coordinate.row);
-  for (auto& rule : coordinate.rule) ar(rule.impulse), ar(rule.usual);
+  for (auto& rule : coordinate.rule) ar(rule.impulse), ar(rule.drift);
 }
 template <class A, class Real>
 void fields(const A& ar, HingeConstraint<Real>& hinge) {
@@ -186,7 +186,7 @@ void fields(const A& ar, JointConstraint<Real, Kind>& c) {
     for (auto& row : c.block.row) fields(ar, row);
     for (auto& impulse : c.block.impulse) ar(impulse);
   }
-  if constexpr (Constraint::Rows::kPoint) ar(c.point.impulse), ar(c.point.usual);
+  if constexpr (Constraint::Rows::kPoint) ar(c.point.impulse), ar(c.point.drift);
 }
 
 /// Whether each body has the colours of its joints, and joints of one colour share none: they are solved side
