@@ -350,7 +350,7 @@ struct JointConstraint {
     for (auto& coordinate : axial) coordinate.scale(factor);
     if constexpr (kBlock > 0)
       for (Real& impulse : block.impulse) impulse *= factor;
-    if constexpr (Rows::kPoint) point.impulse *= factor, point.usual *= factor;
+    if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
   /// rad, of the joint's angle. A ratchet's limit follows its angle.

@@ -35,7 +35,7 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], h);
   }
   void scale(Real factor) {
-    for (int i = 0; i < count; ++i) rule[i].impulse *= factor, rule[i].usual *= factor;
+    for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
   }
 
   /// Sees where a step starts, and where each substep ends.

@@ -103,11 +103,6 @@ struct JointPoint {
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
-    if (impulse_scale[kSolve] > 0 && rule.role == RowRole::Motor) {
-      usual += (impulse - usual) * static_cast<Real>(kMotorMemory);
-      bias[kSolve] -= (impulse_scale[kSolve] / mass_scale[kSolve]) *
-                      Vec2<Real>{k.xx * usual.x + k.xy * usual.y, k.xy * usual.x + k.yy * usual.y};
-    }
   }
   /// The same of a spring beside a rigid angle, which leaves `held` of the point's mobility.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,

@@ -30,7 +30,7 @@ void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Rea
   for (auto& coordinate : joint.axial) coordinate.scale(0);
   if constexpr (Constraint::kBlock > 0)
     for (Real& impulse : joint.block.impulse) impulse = 0;
-  if constexpr (Kind<Real>::kPoint) joint.point.impulse = joint.point.usual = {};
+  if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
   // A tooth has been passed where bodies come to be, not where they would go.
   if constexpr (Constraint::kRatchet) joint.evaluate(bodies, step);
 }

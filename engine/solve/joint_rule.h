@@ -72,10 +72,6 @@ struct StiffSpring {
   }
 };
 
-/// Of a motor's impulse that its average takes in at each substep. From a tenth on the linear model of three
-/// legs on a torso of a fifth of their mass swings up; less follows a load more slowly.
-inline constexpr double kMotorMemory = 0.05;
-
 /// A rule ready for its role: parameters rounded to Real, and its spring for the substep.
 template <class Real>
 struct SolverRule {
@@ -113,7 +109,7 @@ struct SolverRule {
   /// this substep, `solve` of the next one. `spring_mobility` is what its spring refers to. A spring's force
   /// belongs to where the substep began: one impulse a substep, in both passes.
   void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
-             RowTerm<Real> (&term)[2]) {
+             RowTerm<Real> (&term)[2]) const {
     const Real share = part.share;
     const Real c = sign * (q - origin);
     const Real mass = mobility > 0 ? share / mobility : 0;

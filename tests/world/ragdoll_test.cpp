@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "tests/world/support.h"
@@ -73,11 +74,13 @@ TEST(Ragdoll, SettlesOnAHeapAndSleeps) {
 // Limbs wedged in each other press joints against contacts; what is solved directly must not make much of it.
 // They come apart no faster than overlaps of half a limb are pushed out at. Where two limbs catch each other
 // is chance: one start in 200 flings one faster (of 3,000 other starts 12 to 26, with each of five values of
-// kExpectedOverlap from 0.0015 to 0.0025), so that the bound is for all but two in a hundred.
+// kExpectedOverlap from 0.0015 to 0.0025), so that the bound is for all but one in 25.
 TEST(Ragdoll, TwoThatBeginInsideEachOtherComeApart) {
+  const char* more = std::getenv("PLUMB_PROPERTY_CASES");
+  const int starts = 25 * (more != nullptr ? std::max(std::atoi(more), 1) : 1);
   std::vector<double> fastest;
-  for (int start = 0; start <= 150; ++start) {
-    const double apart = start / 300.0;
+  for (int start = 0; start < starts; ++start) {
+    const double apart = 0.5 * start / starts;
     World world;
     add_ground(world);
     add_ragdoll(world, {.at = {0, 2}, .head_density = 40});
@@ -92,7 +95,7 @@ TEST(Ragdoll, TwoThatBeginInsideEachOtherComeApart) {
   }
   std::sort(fastest.begin(), fastest.end());
   EXPECT_LT(fastest[fastest.size() / 2], 6);
-  EXPECT_LT(fastest[fastest.size() * 98 / 100], 15);
+  EXPECT_LT(fastest[fastest.size() * 96 / 100 - 1], 15);
 }
 
 // An angle that starts far beyond its limits comes back within a second, without a burst, and about the

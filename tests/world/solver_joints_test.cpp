@@ -96,6 +96,10 @@ TEST_P(SolverJoints, RevoluteLimitsHold) {
   EXPECT_LT(world.read(joint).linear_error, 2 * kFall);
 }
 
+/// s, by how much semi-implicit Euler is ahead of the motion: the way is made with the velocity at its end.
+/// Where joints are solved all at once it is the mean of both ends', which is exact.
+double ahead(Solver solver) { return solver == Solver::Direct ? 0 : kH; }
+
 TEST_P(SolverJoints, PrismaticSlidesDownToItsLimit) {
   DoubleWorld world(with(GetParam()));
   const BodyId slider = add_mass(world, {0, 0}, 2, 1);
@@ -103,7 +107,7 @@ TEST_P(SolverJoints, PrismaticSlidesDownToItsLimit) {
       add_hook(world), slider, {.kind = PrismaticDefinition{.axis = {1, -1}, .limits = Range{-1, 1}}});
   const double t = 0.5, a = kGravity * std::sqrt(0.5);
   run(world, 30);
-  EXPECT_NEAR(world.read(joint).translation, a * t * t / 2 + a * kH * t / 2, 1e-9);
+  EXPECT_NEAR(world.read(joint).translation, a * t * t / 2 + a * ahead(GetParam()) * t / 2, 1e-9);
   run(world, 240);
   EXPECT_NEAR(world.read(joint).translation, 1, 1e-4);
   EXPECT_LT(world.read(joint).linear_error, kFall);
@@ -221,7 +225,8 @@ TEST_P(SolverJoints, RatchetsGoOneWay) {
     }
   };
   turn(1, 60);
-  EXPECT_NEAR(world.angle(wheel), 0.5 + kH / 2, 1e-9);  // passes the tooth at 0.5
+  // At the tooth at 0.5, or past it.
+  EXPECT_NEAR(world.angle(wheel), 0.5 + ahead(GetParam()) / 2, 1e-9);
   world.set_angular_velocity(wheel, 0);
   turn(-1, 120);
   EXPECT_NEAR(world.angle(wheel), 0.5, 1e-4);
