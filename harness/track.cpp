@@ -26,6 +26,8 @@ void Track::put(int sample, std::size_t body, const Point& point) {
   points_[static_cast<std::size_t>(sample / stride_) * bodies_ + body] = point;
 }
 
+bool Track::Difference::agrees() const { return distance <= tolerance; }
+
 std::optional<Track::Difference> Track::worst_difference(const Track& other) const {
   std::optional<Difference> worst;
   double worst_share = -1;
