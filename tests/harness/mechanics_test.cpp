@@ -1,4 +1,4 @@
-// What the harness takes for energy and for gaps of joints, with engines that are 2 % wrong.
+// Holds the energy and the gaps of joints that the harness measures against engines that are 2 % wrong.
 #include <cmath>
 #include <numbers>
 

@@ -313,7 +313,7 @@ MUTATIONS = [
     Mutation("envelopes leave out what is more than rounding", "engine/solve/envelope_matrix.cpp",
              "kNothing = 1e-12;", "kNothing = 1.05e-12;", "world", ("solve/redundancy",)),
 
-    # What judges the engines.
+    # The judges of the engines.
     Mutation("harness: engines agree at three times their bounds", "harness/track.cpp",
              "return distance <= tolerance;", "return distance <= 3 * tolerance;", "harness",
              ("harness/judging",)),

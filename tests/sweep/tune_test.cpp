@@ -1,4 +1,4 @@
-// What tune calls found: what meets the wish, twice.
+// Holds tune to its word: settings are found that meet the wish, twice.
 #include "harness/sweep/tune.h"
 
 #include <sys/mman.h>
@@ -54,7 +54,7 @@ TuneAnswer tuned(double first, double again, std::optional<double> tolerance = k
   const Tuned all =
       tune(options, [&](const std::string& what) { *measuring += what.starts_with("measuring") ? 1 : 0; });
   EXPECT_EQ(all.answers.size(), 1u);
-  // What is no answer is not offered.
+  // Settings that are no answer are not offered.
   const std::string text = tune_text(options, all, Style{}), json = tune_json(options, all);
   EXPECT_EQ(text.find("to paste") != std::string::npos, all.answers[0].found) << text;
   EXPECT_EQ(json.find("\"problem\"") == std::string::npos, all.answers[0].found) << json;

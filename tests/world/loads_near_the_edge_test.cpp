@@ -1,4 +1,4 @@
-// What bodies bear and do with gravity, joints and wind of their own, 2 % beside the closed form on either
+// Bodies with gravity, joints and wind of their own, held to figures 2 % beside the closed form on either
 // side.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What just touches and what just does not, for all shapes and questions; recordings of calls with default
-// values; hashes that tell each number.
+// Asks each question about shapes that just touch or just do not; recordings of calls with default values;
+// hashes that tell each number.
 #include <gtest/gtest.h>
 
 #include <cmath>
