@@ -356,7 +356,7 @@ double BasicWorld<Real>::angular_damping(BodyId body) const {
 template <class Real>
 BodyLocks BasicWorld<Real>::locks(BodyId body) const {
   const BodyRecord<Real>& record = data_->bodies[place(body)];
-  return {record.lock_x, record.lock_y, record.lock_rotation};
+  return record.locks();
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
