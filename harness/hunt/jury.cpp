@@ -1,14 +1,12 @@
 // Other engines as judges: Precise alone, and the rivals with it as a jury.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "harness/hunt/relations.h"
 #include "harness/hunt/subject.h"
-#include "harness/isolate.h"
 
 namespace plumb::harness::hunt {
 
@@ -41,8 +39,7 @@ std::optional<Motion> run_by(const char* name, const Case& one) {
   if (!backend.identity().available) return {};
   const Engine engine(backend);
   if (!unsupported(engine, one).empty()) return {};
-  Motion out = engine.kind == Engine::Kind::Precise ? run_guarded(engine, one, kSeconds)
-                                                    : run(engine, one, {.seconds = kSeconds});
+  Motion out = run(engine, one, {.seconds = kSeconds});
   if (out.samples.empty()) return {};
   return out;
 }
@@ -51,13 +48,6 @@ std::optional<Motion> run_by(const char* name, const Case& one) {
 bool judged(const Case& one, const Motion& motion) {
   return motion.failure.empty() && starts_closed(one.scene) && starts_apart(one.scene) &&
          one.scene.bodies.size() <= 3 * kMost;
-}
-
-std::string as_bytes(const Motion& motion) {
-  std::string out;
-  for (const Sample& sample : motion.samples)
-    out.append(reinterpret_cast<const char*>(sample.states.data()), sample.states.size() * sizeof(BodyState));
-  return out;
 }
 
 /// The first sample at which `a` leaves `b` by more than its bound; none: never, while both last.
@@ -82,20 +72,6 @@ Objection objection(const std::string& name, const Case& one, double off, double
 }
 
 }  // namespace
-
-Motion run_guarded(const Engine& engine, const Case& one, double seconds) {
-  const Outcome outcome = isolate([&] { return as_bytes(run(engine, one, {.seconds = seconds})); }, seconds);
-  Motion out{.dt = one.dt};
-  const std::size_t bodies = one.scene.bodies.size(), size = bodies * sizeof(BodyState);
-  if (outcome.kind != Outcome::Kind::Done || size == 0) return out;
-  for (std::size_t at = 0; at + size <= outcome.text.size(); at += size) {
-    Sample sample{std::vector<BodyState>(bodies), std::vector<bool>(bodies, true),
-                  std::vector<bool>(bodies, false)};
-    std::memcpy(sample.states.data(), outcome.text.data() + at, size);
-    out.samples.push_back(std::move(sample));
-  }
-  return out;
-}
 
 Verdict precise_relation(const Case& one, const Engine& engine, const Motion& motion) {
   const auto dynamic = std::count_if(one.scene.bodies.begin(), one.scene.bodies.end(),

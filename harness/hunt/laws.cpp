@@ -35,6 +35,19 @@ double slack_of_places(const Case& one, const Sample& sample, const std::vector<
   return sum;
 }
 
+// What a tolerance of 1e-9 of a motion that is none may add: each body is off by 1e-6 of its reach, and a
+// second later there.
+double slack_of_rounding(const Case& one, const std::vector<double>& reach) {
+  double sum = 0;
+  for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+    const Body& body = one.scene.bodies[i];
+    const double off = 1e-6 * reach[i];
+    if (body.type == BodyType::Dynamic)
+      sum += body.mass * (std::abs(body.gravity_scale) * length(one.scene.gravity) * off + off * off);
+  }
+  return sum;
+}
+
 bool left_alone(const Case& one) {
   if (driven(one) || !one.scene.forces.empty()) return false;
   for (const Body& body : one.scene.bodies) {
@@ -101,7 +114,7 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
         precise ? kPreciseShare
                 : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt / one.substeps);
     double bound = share * (budget.kinetic + budget.fall + given);
-    if (!precise) bound += slack_of_places(one, motion.samples[k], reach);
+    bound += precise ? slack_of_rounding(one, reach) : slack_of_places(one, motion.samples[k], reach);
     const double gain = now.kinetic + now.potential - budget.start - given;
     if (gain > bound) {
       return Objection{

@@ -14,7 +14,6 @@ namespace {
 constexpr double kPerturbation = 1e-6;
 // Of the largest body: what differs by more is another motion. A perturbation has to stay far below it.
 constexpr double kShare = 0.1, kCalm = 0.01;
-constexpr double kGuardSeconds = 2;
 constexpr double kShift = 64;  // m, so that no place is rounded
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
@@ -148,9 +147,7 @@ std::vector<double> growth(const Case& one, const Engine& engine, const Motion& 
   std::vector<double> out(motion.samples.size(), 0);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Case off_a_little = perturbed(one, seed == 3 ? 30 * kPerturbation : kPerturbation, seed);
-    const Motion other = engine.kind == Engine::Kind::Precise
-                             ? run_guarded(engine, off_a_little, kGuardSeconds)
-                             : run(engine, off_a_little);
+    const Motion other = run(engine, off_a_little);
     const std::vector<double> off = apart(one, motion, other);
     out.resize(std::min(out.size(), off.size()));
     double most = 0;

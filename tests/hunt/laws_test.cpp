@@ -116,7 +116,44 @@ TEST(Outline, DistancesAreThoseOfGeometry) {
   EXPECT_NEAR(separation(box, at(Box{2, 2}, {1.5, 0})), -0.5, 1e-12);
   EXPECT_NEAR(separation(box, at(Box{1, 1}, {3, 0}, M_PI / 4)), 2 - std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(separation(box, at(Capsule{{-1, 0}, {1, 0}, 0.25}, {0, 2})), 0.75, 1e-12);
+  EXPECT_NEAR(separation(at(Circle{0.5}, {0, 0}), at(Circle{0.25}, {0.6, 0.8})), 0.25, 1e-12);
+  EXPECT_NEAR(separation(at(Circle{0.5}, {0, 0}), at(Circle{0.25}, {0.3, 0.4})), -0.25, 1e-12);
+  const Capsule link{{-0.5, 0}, {0.5, 0}, 0.1};
+  EXPECT_NEAR(separation(at(link, {0, 0}, 0.3), at(link, 1.5 * Vec2d{std::cos(0.3), std::sin(0.3)}, 0.3)),
+              0.3, 1e-12)
+      << "in a row, but for rounding";
   EXPECT_NEAR(width_of(outlines_of({.geometry = Box{3, 0.5}}).front()), 0.5, 1e-12);
+}
+
+TEST(Laws, PreciseMayBeOffByItsToleranceAndNoMore) {
+  const Engine precise(reference::find_backend("plumb-precise"));
+  Case one = falling();
+  one.scene.bodies.front().position = {0, 0.5};
+  one.scene.bodies.push_back({.name = "floor",
+                              .type = BodyType::Static,
+                              .position = {0, -0.5},
+                              .shapes = {{.geometry = Box{10, 1}}}});
+  const auto at_rest = [](double creep) {
+    return [creep](std::size_t i, double t) {
+      return BodyState{.position = {creep * t, i == 0 ? 0.5 : -0.5}, .velocity = {creep, 0}};
+    };
+  };
+  Motion motion = made_up(one, at_rest(1e-9));
+  motion.samples.front() = made_up(one, at_rest(0)).samples.front();
+  EXPECT_FALSE(energy_law(one, precise, motion));
+  motion = made_up(one, at_rest(1e-2));
+  motion.samples.front() = made_up(one, at_rest(0)).samples.front();
+  EXPECT_TRUE(energy_law(one, precise, motion));
+}
+
+TEST(Examine, AnEngineThatSaysWhyItStopsIsNotWrong) {
+  Case one = falling();
+  one.scene.bodies.push_back(one.scene.bodies.front());
+  one.scene.bodies.back().name = "another", one.scene.bodies.back().position.x = 0.3;
+  const Engine precise(reference::find_backend("plumb-precise"));
+  const Motion motion = run(precise, one);
+  EXPECT_NE(motion.stopped.find("overlap"), std::string::npos) << motion.stopped;
+  EXPECT_FALSE(finite_law(one, precise, motion));
 }
 
 TEST(Examine, ABallThatIsAtRestOnTheGroundIsRightInEveryEngine) {
