@@ -50,6 +50,9 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::string_view kQuantityNames[] = {
     "x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity", "drift"};
 
+/// Among an expectation's needs: that masses and inertias are those that it was composed with.
+inline constexpr std::string_view kMasses = "masses";
+
 /// What the one who composed a scene knows of its motion.
 struct Expectation {
   std::string name;  ///< "keeps its speed"
@@ -59,7 +62,7 @@ struct Expectation {
   double upper = std::numeric_limits<double>::infinity();
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s
-  std::vector<std::string> needs{};  ///< idioms, bodies or joints without which it is not owed
+  std::vector<std::string> needs{};  ///< bodies or joints without which it is not owed; or `kMasses`
   std::string why{};                 ///< one line that says what is right
 };
 

@@ -49,6 +49,12 @@ void remove_body(Case& one, std::size_t index) {
   forget(one, name);
 }
 
+bool needs_masses(const Case& one) {
+  return std::any_of(one.expectations.begin(), one.expectations.end(), [](const Expectation& each) {
+    return std::find(each.needs.begin(), each.needs.end(), kMasses) != each.needs.end();
+  });
+}
+
 double with_digits(double value, int digits) {
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
@@ -178,7 +184,7 @@ class Shrinker {
         set([&](Case& one) -> Vec2d& { return body(one).velocity; }, Vec2d{});
         set([&](Case& one) -> double& { return body(one).angular_velocity; }, 0.0);
       }
-      set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
+      if (!needs_masses(best_)) set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
       for (std::size_t k = 0; k < best_.scene.bodies[i].shapes.size(); ++k) {
         const auto shape = [&, k](Case& one) -> Shape& { return body(one).shapes[k]; };
         if (!best_.expectations.empty()) continue;
