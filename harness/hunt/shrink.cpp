@@ -26,8 +26,15 @@ bool names(const Joint& joint, const std::string& body) {
 void forget(Case& one, const std::string& gone) {
   std::erase_if(one.actions, [&](const Action& action) { return action.target == gone; });
   std::erase(one.sensors, gone);
+  for (Expectation& each : one.expectations) {
+    const auto at = each.until.find(gone);
+    if (at == each.until.end()) continue;
+    each.to = std::min(each.to, at->second);
+    each.until.erase(at);
+  }
   std::erase_if(one.expectations, [&](const Expectation& each) {
-    return each.body == gone || std::find(each.needs.begin(), each.needs.end(), gone) != each.needs.end();
+    return each.body == gone || each.to < each.from ||
+           std::find(each.needs.begin(), each.needs.end(), gone) != each.needs.end();
   });
 }
 

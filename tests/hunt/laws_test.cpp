@@ -66,6 +66,38 @@ TEST(Laws, ABodyThatStartsToSpinByItselfBreaksTheLawOfAngularMomentum) {
   EXPECT_FALSE(momentum_law(one, world(), motion));
 }
 
+TEST(Laws, RoundingsOfWhatIsAtRestAreNoMomentum) {
+  Case one = falling();
+  one.scene.gravity = {0, 0};
+  const auto drifts = [](double speed) {
+    return [speed](std::size_t, double t) {
+      return BodyState{.position = {speed * t, 5},
+                       .velocity = {t > 0 ? speed : 0, 0},
+                       .angular_velocity = t > 0 ? speed : 0};
+    };
+  };
+  EXPECT_FALSE(momentum_law(one, world(), made_up(one, drifts(1e-9))));
+  EXPECT_FALSE(angular_momentum_law(one, world(), made_up(one, drifts(1e-9))));
+  EXPECT_TRUE(momentum_law(one, world(), made_up(one, drifts(1e-2))));
+  EXPECT_TRUE(angular_momentum_law(one, world(), made_up(one, drifts(1e-2))));
+}
+
+TEST(Laws, ARopeIsJudgedUntilItsLoadIsAtThePulley) {
+  Case one = falling();
+  one.scene.bodies.push_back({.name = "other", .position = {2, 5}, .shapes = {{.geometry = Circle{0.5}}}});
+  one.scene.joints = {PulleyJoint{
+      .name = "rope", .body_a = "ball", .body_b = "other", .ground_a = {0, 6}, .ground_b = {2, 8}}};
+  // The first goes up by itself; later both of them are where the rope has its length of 4 m no more.
+  const auto rises = [](double speed) {
+    return [speed](std::size_t i, double t) {
+      return BodyState{.position = {i == 0 ? 0.0 : 2.0, i == 0 ? 5 + speed * t : 5.0},
+                       .velocity = {0, i == 0 ? speed : 0}};
+    };
+  };
+  EXPECT_TRUE(joint_gap_law(one, world(), made_up(one, rises(0.5))));
+  EXPECT_FALSE(joint_gap_law(one, world(), made_up(one, rises(30))));
+}
+
 TEST(Laws, ShapesThatStayInEachOtherAreSeenAndThoseThatPartAreNot) {
   Case one = falling();
   one.scene.bodies.push_back({.name = "floor",

@@ -33,6 +33,18 @@ TEST(Shrink, LeavesWhatIsNeededAlone) {
   EXPECT_EQ(smallest.steps, 1);
 }
 
+TEST(Shrink, WhatIsNeededOnlyLaterIsTakenAwayWhereItFailsBefore) {
+  Case one = with_bodies(6);
+  one.expectations = {{.name = "stays", .body = "b0", .until = {{"b3", 0.5}, {"b4", 1.5}}, .why = "it does"}};
+  // It is wrong from 1 s on.
+  const Case smallest = shrink(one, [](const Case& candidate) {
+    return !candidate.expectations.empty() && candidate.expectations.front().to >= 1;
+  });
+  ASSERT_EQ(smallest.scene.bodies.size(), 2u);
+  EXPECT_EQ(smallest.scene.bodies.back().name, "b3");
+  EXPECT_EQ(smallest.expectations.front().to, 1.5);
+}
+
 TEST(Shrink, WhatAnExpectationNeedsGoesWithIt) {
   Case one = with_bodies(6);
   one.expectations = {{.name = "stays", .body = "b0", .needs = {"b3"}, .why = "it does"}};

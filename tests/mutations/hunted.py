@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Plants bugs of bugs.py in a copy of the checkout, hunts each with `plumb hunt` and counts what it finds there and
+not in the engine as it is: the same seed draws the same scenes.
+
+    hunted.py [--draw 20] [--draw-seed 32] [--minutes 5] [--jobs 2] [--hunt-seed 1] [--out DIR] [--work DIR]
+    hunted.py --list         names the bugs that are drawn
+
+The bugs are drawn from those in engine/, whatever they break. A finding is new where its scene, engine and judge
+have none in the unchanged engine, which hunts half as long again. Bugs whose hunt is in DIR (build/hunted) are not
+hunted again. Exit status: 0 when three of four were caught, else 1.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import pathlib
+import random
+import shlex
+import shutil
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "support")]
+sys.dont_write_bytecode = True
+
+import checkout_copy  # noqa: E402
+from bugs import MUTATIONS  # noqa: E402
+
+# The project's own: each bug is in one of them at least.
+ENGINES = "plumb-world,plumb,plumb-float,plumb-precise"
+
+
+def drawn(count, seed):
+    return random.Random(seed).sample([bug for bug in MUTATIONS if bug.file.startswith("engine/")], count)
+
+
+def read(folder):
+    """The scenes of a hunt that were judged to the end, with how many engines ran them, and its findings."""
+    scenes, findings = {}, collections.defaultdict(str)
+    for line in (folder / "hunt.jsonl").read_text(encoding="utf-8").splitlines():
+        try:
+            entry = json.loads(line)
+        except ValueError:
+            continue
+        if "scene" in entry and "runs" in entry:
+            scenes[entry["scene"]] = entry["runs"]
+        finding = entry.get("finding")
+        if finding and (not finding["shrunk"] or finding["judge"] == "crash"):
+            findings[entry["scene_of"], finding["engine"], finding["judge"]] = finding["what"]
+    return scenes, findings
+
+
+def hunt(program, folder, minutes, seed):
+    _, output = checkout_copy.run(["nice", "-n", "19", program, "hunt", "--engine", ENGINES, "--jobs", "1", "--seed",
+                                   seed, "--minutes", minutes, "--out", folder], check=False)
+    (folder / "table.txt").write_text(output, encoding="utf-8")
+
+
+def compare(base, other):
+    """New findings, those that are gone, and of how many scenes. Scenes that an engine did not run both times
+    (it was too slow, or refused them) say nothing."""
+    (scenes, known), (others, found) = base, other
+    crashed = {scene for scene, _, judge in found if judge == "crash"}
+    both = {scene for scene, runs in scenes.items() if others.get(scene) == runs or scene in crashed}
+    new = {key: what for key, what in found.items() if key[0] in both and key not in known}
+    gone = [key for key in known if key[0] in both and key[0] not in crashed and key not in found]
+    return new, gone, len(both)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--draw", type=int, default=20)
+    parser.add_argument("--draw-seed", type=int, default=32)
+    parser.add_argument("--minutes", type=float, default=5)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--hunt-seed", type=int, default=1)
+    root = HERE.parent.parent
+    parser.add_argument("--out", type=lambda path: pathlib.Path(path).resolve(), default=root / "build" / "hunted")
+    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), default=root / "build" / "mutations")
+    parser.add_argument("--cmake", default="", help="more arguments of cmake")
+    parser.add_argument("--list", action="store_true")
+    options = parser.parse_args()
+    bugs = drawn(options.draw, options.draw_seed)
+    if options.list:
+        print("\n".join(f"{bug.name:64} {bug.file}" for bug in bugs))
+        return 0
+
+    tree = options.work / "tree"
+    checkout_copy.sync(root, tree)
+    build = checkout_copy.configure(tree, ["-DPLUMB_BENCHES=OFF", "-DPLUMB_TESTS=OFF", "-DPLUMB_WINDOW=OFF",
+                                           *shlex.split(options.cmake)])
+
+    def program_of(name):
+        """Builds the copy as it is now; the program's copy is in a folder of its own, with the other workers."""
+        checkout_copy.run(["ninja", "-C", build, "programs"])
+        folder = options.out / name
+        folder.mkdir(parents=True, exist_ok=True)
+        for file in (build / "bin").iterdir():
+            shutil.copy(file, folder)
+        return folder / "plumb"
+
+    results = {}
+
+    def work(name, program, minutes):
+        folder = options.out / name / "hunt"
+        folder.mkdir(parents=True, exist_ok=True)
+        begin = time.monotonic()
+        hunt(program, folder, minutes, options.hunt_seed)
+        print(f"hunted: {name} [{time.monotonic() - begin:.0f} s]", flush=True)
+        results[name] = read(folder)
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        waiting = []
+        for number, bug in enumerate([None, *bugs]):
+            name = f"{number:02}"
+            if (options.out / name / "hunt" / "table.txt").exists():
+                results[name] = read(options.out / name / "hunt")
+                continue
+            file = tree / (bug.file if bug else "README.md")
+            text = file.read_text(encoding="utf-8")
+            try:
+                if bug:
+                    file.write_text(bug.apply(text), encoding="utf-8")
+                program = program_of(name)
+            finally:
+                file.write_text(text, encoding="utf-8")
+            waiting.append(pool.submit(work, name, program, options.minutes * (1 if bug else 1.5)))
+        for each in waiting:
+            each.result()
+
+    caught = 0
+    for number, bug in enumerate(bugs, 1):
+        new, gone, scenes = compare(results["00"], results[f"{number:02}"])
+        caught += len(new) > len(gone)
+        judges = collections.Counter(f"{judge} ({engine})" for _, engine, judge in new)
+        print(f"{'caught' if len(new) > len(gone) else 'MISSED'}  {bug.name}: {len(new)} new, {len(gone)} gone of "
+              f"{scenes} scenes; {', '.join(f'{n} {judge}' for judge, n in judges.most_common(4))}")
+    print(f"{caught} of {len(bugs)} caught")
+    return 0 if 4 * caught >= 3 * len(bugs) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
