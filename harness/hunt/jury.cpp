@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/hunt/objection.h"
 #include "harness/hunt/relations.h"
 #include "harness/hunt/subject.h"
 
@@ -41,6 +42,9 @@ std::optional<Motion> run_by(const char* name, const Case& one) {
   if (!unsupported(engine, one).empty()) return {};
   Motion out = run(engine, one, {.seconds = kSeconds});
   if (out.samples.empty()) return {};
+  // Who makes energy is no judge of others: Newton's law of restitution with friction may (Kane, Levinson
+  // 1985).
+  if (energy_law(one, engine, out)) return {};
   return out;
 }
 

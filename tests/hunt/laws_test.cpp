@@ -188,6 +188,22 @@ TEST(Examine, AnEngineThatSaysWhyItStopsIsNotWrong) {
   EXPECT_FALSE(finite_law(one, precise, motion));
 }
 
+// A rod falls on a table with friction and bounces: Newton's law makes energy, which Precise follows.
+TEST(Examine, WhoMakesEnergyIsNoJudgeOfOthers) {
+  Case one = falling();
+  Body& rod = one.scene.bodies.front();
+  rod.angle = 90, rod.position = {-2, 1}, rod.velocity = {-2, -3};
+  rod.shapes = {{.geometry = Capsule{{-0.35, 0}, {0.35, 0}, 0.2}, .friction = 0.6, .restitution = 1}};
+  one.scene.bodies.push_back({.name = "table",
+                              .type = BodyType::Static,
+                              .position = {-2, -2},
+                              .shapes = {{.geometry = Box{2, 2}, .friction = 0.6}}});
+  const Engine precise(reference::find_backend("plumb-precise"));
+  ASSERT_TRUE(energy_law(one, precise, run(precise, one)));
+  EXPECT_TRUE(examine(world(), one, "precise").objections.empty());
+  EXPECT_TRUE(examine(world(), one, "jury").objections.empty());
+}
+
 TEST(Examine, ABallThatIsAtRestOnTheGroundIsRightInEveryEngine) {
   Case one = falling();
   one.scene.bodies.front().position = {0, 0.5};

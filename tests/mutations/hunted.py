@@ -2,12 +2,13 @@
 """Plants bugs of bugs.py in a copy of the checkout, hunts each with `plumb hunt` and counts what it finds there and
 not in the engine as it is: the same seed draws the same scenes.
 
-    hunted.py [--draw 20] [--draw-seed 32] [--minutes 5] [--jobs 2] [--hunt-seed 1] [--out DIR] [--work DIR]
+    hunted.py [--draw 20] [--draw-seed 32] [--seconds 300] [--jobs 2] [--hunt-seed 1] [--out DIR] [--work DIR]
     hunted.py --list         names the bugs that are drawn
 
-The bugs are drawn from those in engine/, whatever they break. A finding is new where its scene, engine and judge
-have none in the unchanged engine, which hunts half as long again. Bugs whose hunt is in DIR (build/hunted) are not
-hunted again. Exit status: 0 when three of four were caught, else 1.
+The bugs are drawn from those in engine/, whatever they break; each is hunted in the engines that its suite tests,
+in as many scenes as take about so many seconds of processor time. A finding is new where its scene, engine and
+judge have none in the unchanged engine. Bugs whose hunt is in DIR (build/hunted) are not hunted again. Exit status:
+0 when three of four were caught, else 1.
 """
 
 import argparse
@@ -28,8 +29,13 @@ sys.dont_write_bytecode = True
 import checkout_copy  # noqa: E402
 from bugs import MUTATIONS  # noqa: E402
 
-# The project's own: each bug is in one of them at least.
-ENGINES = "plumb-world,plumb,plumb-float,plumb-precise"
+# By the suite of a bug: the engines that are hunted, and how many scenes they judge in a second.
+ENGINES = {
+    "world": ("plumb-world", 10),
+    "realtime": ("plumb,plumb-float", 1),
+    "agreement": ("plumb-world,plumb", 1.5),
+    "precise": ("plumb-precise", 1.5),
+}
 
 
 def drawn(count, seed):
@@ -52,10 +58,15 @@ def read(folder):
     return scenes, findings
 
 
-def hunt(program, folder, minutes, seed):
-    _, output = checkout_copy.run(["nice", "-n", "19", program, "hunt", "--engine", ENGINES, "--jobs", "1", "--seed",
-                                   seed, "--minutes", minutes, "--out", folder], check=False)
+def hunt(program, folder, suite, options):
+    engines, rate = ENGINES[suite]
+    folder.mkdir(parents=True, exist_ok=True)
+    begin = time.monotonic()
+    _, output = checkout_copy.run(["nice", "-n", "19", program, "hunt", "--engine", engines, "--jobs", "1", "--shrinks", "0",
+                                   "--seed", options.hunt_seed, "--scenes", int(rate * options.seconds), "--out", folder],
+                                  check=False)
     (folder / "table.txt").write_text(output, encoding="utf-8")
+    print(f"hunted: {folder.parent.name} {suite} [{time.monotonic() - begin:.0f} s]", flush=True)
 
 
 def compare(base, other):
@@ -73,7 +84,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draw", type=int, default=20)
     parser.add_argument("--draw-seed", type=int, default=32)
-    parser.add_argument("--minutes", type=float, default=5)
+    parser.add_argument("--seconds", type=float, default=300)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--hunt-seed", type=int, default=1)
     root = HERE.parent.parent
@@ -92,47 +103,41 @@ def main():
     build = checkout_copy.configure(tree, ["-DPLUMB_BENCHES=OFF", "-DPLUMB_TESTS=OFF", "-DPLUMB_WINDOW=OFF",
                                            *shlex.split(options.cmake)])
 
-    def program_of(name):
-        """Builds the copy as it is now; the program's copy is in a folder of its own, with the other workers."""
-        checkout_copy.run(["ninja", "-C", build, "programs"])
-        folder = options.out / name
+    # 0 is the engine as it is.
+    tasks = [(0, suite) for suite in ENGINES if suite in {bug.suite for bug in bugs}]
+    tasks += [(number, bug.suite) for number, bug in enumerate(bugs, 1)]
+
+    def folder_of(number, suite):
+        return options.out / f"{number:02}" / suite
+
+    def program_of(number):
+        """Plants the bug and builds; the program's copy is in a folder of its own, with the other workers."""
+        folder = options.out / f"{number:02}"
+        if (folder / "plumb").exists():
+            return folder / "plumb"
+        bug = bugs[number - 1] if number else None
+        file = tree / (bug.file if bug else "README.md")
+        text = file.read_text(encoding="utf-8")
+        try:
+            if bug:
+                file.write_text(bug.apply(text), encoding="utf-8")
+            checkout_copy.run(["ninja", "-C", build, "programs"])
+        finally:
+            file.write_text(text, encoding="utf-8")
         folder.mkdir(parents=True, exist_ok=True)
-        for file in (build / "bin").iterdir():
-            shutil.copy(file, folder)
+        for made in (build / "bin").iterdir():
+            shutil.copy(made, folder)
         return folder / "plumb"
 
-    results = {}
-
-    def work(name, program, minutes):
-        folder = options.out / name / "hunt"
-        folder.mkdir(parents=True, exist_ok=True)
-        begin = time.monotonic()
-        hunt(program, folder, minutes, options.hunt_seed)
-        print(f"hunted: {name} [{time.monotonic() - begin:.0f} s]", flush=True)
-        results[name] = read(folder)
-
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        waiting = []
-        for number, bug in enumerate([None, *bugs]):
-            name = f"{number:02}"
-            if (options.out / name / "hunt" / "table.txt").exists():
-                results[name] = read(options.out / name / "hunt")
-                continue
-            file = tree / (bug.file if bug else "README.md")
-            text = file.read_text(encoding="utf-8")
-            try:
-                if bug:
-                    file.write_text(bug.apply(text), encoding="utf-8")
-                program = program_of(name)
-            finally:
-                file.write_text(text, encoding="utf-8")
-            waiting.append(pool.submit(work, name, program, options.minutes * (1 if bug else 1.5)))
+        waiting = [pool.submit(hunt, program_of(number), folder_of(number, suite), suite, options)
+                   for number, suite in tasks if not (folder_of(number, suite) / "table.txt").exists()]
         for each in waiting:
             each.result()
 
     caught = 0
     for number, bug in enumerate(bugs, 1):
-        new, gone, scenes = compare(results["00"], results[f"{number:02}"])
+        new, gone, scenes = compare(read(folder_of(0, bug.suite)), read(folder_of(number, bug.suite)))
         caught += len(new) > len(gone)
         judges = collections.Counter(f"{judge} ({engine})" for _, engine, judge in new)
         print(f"{'caught' if len(new) > len(gone) else 'MISSED'}  {bug.name}: {len(new)} new, {len(gone)} gone of "
