@@ -17,6 +17,9 @@ constexpr double kSeconds = 2;     // that another engine may take
 constexpr double kShare = 0.2;     // of the largest body
 constexpr std::size_t kMost = 12;  // bodies that Precise is asked about
 constexpr double kCalm = 0.02;
+// Of the bound: how far a rival may leave itself with half the step. A method of first order halves its
+// error, so that it is off by twice that.
+constexpr double kSteady = 0.25;
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
@@ -63,6 +66,19 @@ std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motio
   return {};
 }
 
+/// Whether an engine with half the step goes the same way up to sample `k`. Precise chooses its own.
+bool steady(const Case& one, const char* name, const Motion& motion, const std::vector<double>& bound,
+            std::size_t k) {
+  const Engine engine(reference::find_backend(name));
+  if (engine.kind == Engine::Kind::Precise) return true;
+  const std::vector<double> off =
+      apart(one, motion, run(engine, one, {.refine = 2, .seconds = 2 * kSeconds}));
+  if (off.size() <= k) return false;
+  for (std::size_t i = 0; i <= k; ++i)
+    if (off[i] > kSteady * bound[i]) return false;
+  return true;
+}
+
 Objection objection(const std::string& name, const Case& one, double off, double bound, std::size_t k,
                     const std::string& right) {
   return {.law = name,
@@ -98,9 +114,10 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion) {
   if (!judged(one, motion)) return {};
   std::vector<Motion> jury;
+  std::vector<const char*> names;
   for (const char* name : {"plumb-precise", "box2d", "bullet"}) {
     if (engine.name() == name) continue;
-    if (auto other = run_by(name, one)) jury.push_back(std::move(*other));
+    if (auto other = run_by(name, one)) jury.push_back(std::move(*other)), names.push_back(name);
   }
   if (jury.size() < 2) return {};
   std::vector<double> bound = bounds(one, jury.front());
@@ -119,6 +136,8 @@ Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motio
     if (nearest <= 2 * bound[k]) continue;
     const std::vector<double> calm = growth(one, engine, motion);
     if (k >= calm.size() || calm[k] > kCalm * bound[k]) return {};
+    for (std::size_t i = 0; i < jury.size(); ++i)
+      if (!steady(one, names[i], jury[i], bound, k)) return {};
     return objection("jury", one, nearest, 2 * bound[k], k,
                      "the other engines agree with each other, not with this one");
   }

@@ -204,6 +204,23 @@ TEST(Examine, WhoMakesEnergyIsNoJudgeOfOthers) {
   EXPECT_TRUE(examine(world(), one, "jury").objections.empty());
 }
 
+// A box falls on its corner and bounces without friction: Box2D and Bullet are 0.3 m and 0.15 m off, and
+// nearer to each other than a step's way.
+TEST(Examine, RivalsThatLeaveThemselvesWithHalfTheStepAreNoJury) {
+  Case one = falling();
+  Body& box = one.scene.bodies.front();
+  box.position = {-1.5, 2.876}, box.angle = -109.62815022205297, box.angular_velocity = -6.88;
+  box.shapes = {{.geometry = Box{0.4, 0.37768}, .friction = 0, .restitution = 0.8}};
+  one.scene.gravity = {0, -9.81};
+  one.scene.bodies.push_back({.name = "floor",
+                              .type = BodyType::Static,
+                              .position = {0, -0.1},
+                              .shapes = {{.geometry = Box{6.5, 0.25}, .friction = 0}}});
+  one.steps = 90;
+  const Examined seen = examine(Engine(reference::find_backend("plumb-precise")), one, "jury");
+  EXPECT_TRUE(seen.objections.empty()) << seen.objections.front().what;
+}
+
 TEST(Examine, ABallThatIsAtRestOnTheGroundIsRightInEveryEngine) {
   Case one = falling();
   one.scene.bodies.front().position = {0, 0.5};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/geometry.h"
 #include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {
@@ -37,7 +38,13 @@ void build(Draft& draft) {
   moves.lower = from + right - slack, moves.upper = from + right + slack;
   moves.from = moves.to = t;
   moves.why = "what is pushed harder than it is held moves by the difference";
-  for (int i = 0; i < made; ++i) moves.needs.push_back(draft.name(i));
+  // The parts of the floor beneath its way.
+  for (int i = 0; i < made; ++i) {
+    const std::vector<Shape>& shapes = draft.body(i).shapes;
+    const double reach = shapes.size() > 1 ? draft.site.width : reach_of(shapes.front().geometry);
+    const double low = draft.body(i).position.x - reach, high = draft.body(i).position.x + reach;
+    if (high > -width && low < width + (up ? 0 : right + slack)) moves.needs.push_back(draft.name(i));
+  }
   moves.needs.emplace_back(kMasses);
 }
 
