@@ -31,10 +31,10 @@ from bugs import MUTATIONS  # noqa: E402
 
 # By the suite of a bug: the engines that are hunted, and how many scenes they judge in a second.
 ENGINES = {
-    "world": ("plumb-world", 10),
-    "realtime": ("plumb,plumb-float", 1),
-    "agreement": ("plumb-world,plumb", 1.5),
-    "precise": ("plumb-precise", 1.5),
+    "world": ("plumb-world", 12),
+    "realtime": ("plumb,plumb-float", 100),
+    "agreement": ("plumb-world,plumb", 11),
+    "precise": ("plumb-precise", 4),
 }
 
 

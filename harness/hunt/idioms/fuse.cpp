@@ -18,7 +18,7 @@ void build(Draft& draft) {
   if (draft.out.scene.gravity == Vec2d{0, 0}) draft.out.scene.gravity = {0, -9.81};
   const double g = -draft.out.scene.gravity.y, length = random.within(0.5, 2) * s;
   const bool holds = random.chance(0.4);
-  const double share = holds ? random.within(1.1, 2) : random.within(0.9, 0.985);
+  const double share = holds ? random.pick({1.05, 1.2, 2.0}) : random.pick({0.99, 0.98, 0.96, 0.9});
   const bool beam = random.chance(0.4);
   const int made =
       beam ? draft.box({length / 2, 0}, length, 0.2 * s) : draft.box({0, -length / 2}, 0.3 * s, length);
