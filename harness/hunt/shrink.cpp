@@ -178,12 +178,14 @@ class Shrinker {
       if (reach(best_) == value) return;
       any = try_change([&](Case& one) { reach(one) = value; }) || any;
     };
-    set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
+    // What is owed with its masses stands in figures of the weights and of the step.
+    const bool bare = !needs_masses(best_);
+    if (bare) set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
-    set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
+    if (bare) set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
     // Not back and forth between the two.
-    if (!(best_.scene.gravity == Vec2d{0, 0}))
+    if (bare && !(best_.scene.gravity == Vec2d{0, 0}))
       set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
       const auto body = [i](Case& one) -> Body& { return one.scene.bodies[i]; };
@@ -191,7 +193,7 @@ class Shrinker {
         set([&](Case& one) -> Vec2d& { return body(one).velocity; }, Vec2d{});
         set([&](Case& one) -> double& { return body(one).angular_velocity; }, 0.0);
       }
-      if (!needs_masses(best_)) set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
+      if (bare) set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
       for (std::size_t k = 0; k < best_.scene.bodies[i].shapes.size(); ++k) {
         const auto shape = [&, k](Case& one) -> Shape& { return body(one).shapes[k]; };
         if (!best_.expectations.empty()) continue;

@@ -56,7 +56,7 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
       world(reference::find_backend("plumb-world"));
-  for (const char* name : {"pendulum", "forces", "shaker", "bat", "fuse"}) {
+  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse"}) {
     int judged = 0;
     for (std::uint64_t index = 0; index < 60; ++index) {
       const Case one = compose(23, index, {&find_idiom(name)});
