@@ -33,7 +33,7 @@ struct Options {
   EngineOptions engines;
   std::string out = "hunt", format = "console", minutes, replay;
   std::int64_t seed = 1, scenes = 0, draw = -1;
-  int jobs = 0;
+  int jobs = 0, shrinks = 3;
   bool list = false;
 };
 
@@ -113,7 +113,8 @@ int start(const Options& options) {
   hunting::HuntOptions what{.families = chosen_families(options.names),
                             .seed = static_cast<std::uint64_t>(options.seed),
                             .scenes = static_cast<std::uint64_t>(options.scenes),
-                            .folder = options.out};
+                            .folder = options.out,
+                            .shrinks = options.shrinks};
   if (options.draw >= 0) {
     const auto index = static_cast<std::uint64_t>(options.draw);
     print(hunting::to_json(hunting::compose(what.seed, index, what.families)) + "\n");
@@ -167,6 +168,11 @@ void add_hunt(CLI::App& app, Action& chosen) {
   command->add_option("--minutes", options->minutes, "how long to hunt (default 10)")->type_name("T");
   command->add_option("--scenes", options->scenes, "stop after so many scenes")
       ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command
+      ->add_option("--shrinks", options->shrinks,
+                   "findings of a judge, engine and family that are made smaller (default 3)")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->add_option("--jobs", options->jobs, "processes (default: one a core)")
       ->check(CLI::Range(1, 1024))

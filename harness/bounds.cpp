@@ -81,8 +81,9 @@ Tolerances::Bound Tolerances::energy(int sample) const {
     const BodyState& exact = truth_.at(sample)[i];
     const double v = magnitude(exact.velocity), w = std::abs(exact.angular_velocity);
     const double off_v = *velocity(sample, i), off_w = *angular_velocity(sample, i);
-    sum += body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
-           body.mass * magnitude(problem_.scene.gravity) * *position(sample, i);
+    sum +=
+        body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
+        body.mass * std::abs(body.gravity_scale) * magnitude(problem_.scene.gravity) * *position(sample, i);
   }
   // A potential is off by its force times the way, and half its stiffness times the way's square: by the two
   // ends' ways together, (a + b)^2/2 <= a^2 + b^2.
@@ -125,9 +126,10 @@ double Tolerances::reach(int sample, std::size_t body, double radius) const {
 Tolerances::Bound Tolerances::joint_gap(int sample, const JointGaps& joints, std::size_t joint) const {
   if (const Bound bound = stated(&Bounds::joint_gap, rounding(sample).position)) return bound;
   if (!envelope_) return {};
+  const JointGaps::End &a = joints.end_a(joint), &b = joints.end_b(joint);
   double sum = 0;
-  for (const JointGaps::End& end : {joints.end_a(joint), joints.end_b(joint)})
-    if (end.body) sum += reach(sample, *end.body, magnitude(end.anchor));
+  if (a.body) sum += reach(sample, *a.body, magnitude(a.anchor) + joints.lever(joint, truth_.at(sample)));
+  if (b.body) sum += b.gain * reach(sample, *b.body, magnitude(b.anchor));
   return sum;
 }
 

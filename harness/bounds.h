@@ -19,10 +19,12 @@ namespace plumb::harness {
 ///    one was asked for), `Problem::second_order` for one of second order: C h^2 + rounding.
 /// 2. Else the truth's own motion and the method's order: `Envelope` + rounding.
 /// 3. What must hold besides follows from how far the bodies may be from the truth, P, V (and angles, A, W):
-///    energy       sum m |v| V + m V^2/2 + I |w| W + I W^2/2 + m |g| P, over the energy scale
+///    energy       sum m |v| V + m V^2/2 + I |w| W + I W^2/2 + m |s g| P (s: the body's gravity scale), over
+///                 the energy scale
 ///    momentum     rounding alone: every exchange of momentum is equal and opposite
 ///    ang. mom.    sum m (|x| V + P |v| + P V) + I W, over its scale
-///    joint gap    of a's and b's anchors at r from their centres: P_a + r_a A_a + P_b + r_b A_b
+///    joint gap    of a's and b's anchors at r from their centres: P_a + r_a A_a + P_b + r_b A_b; where a
+///                 has an axis, d A_a besides, b's anchor at d from a's; of a pulley b's part by its ratio
 ///    penetration  twice the largest P + r A over the bodies, r the radius of the circle that holds the body
 class Tolerances {
  public:

@@ -1,6 +1,5 @@
 #include "harness/check.h"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,7 +8,7 @@ namespace plumb::harness {
 void WorstRatio::add(double value, double tolerance) {
   const bool pass = value <= tolerance;  // false for NaN as well
   double ratio = value > 0 ? value / tolerance : 0;
-  if (std::isnan(ratio) || (!pass && tolerance == 0)) ratio = std::numeric_limits<double>::infinity();
+  if (!pass && !(ratio > 1)) ratio = std::numeric_limits<double>::infinity();  // NaN, or nothing is allowed
   if (!any_ || ratio > ratio_) {
     ratio_ = ratio;
     value_ = value;

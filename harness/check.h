@@ -29,7 +29,8 @@ struct Check {
   std::string known_limit{};  ///< why a miss is expected; empty where none is declared
 };
 
-/// Follows value and tolerance through a run and keeps the sample with the largest ratio.
+/// Follows value and tolerance through a run and keeps the sample with the largest ratio. A value or a
+/// tolerance that is NaN does not pass, and has the largest.
 class WorstRatio {
  public:
   void add(double value, double tolerance);

@@ -44,8 +44,7 @@ void find_agreement(std::vector<Entrant>& entrants) {
       if (&a == &b || a.run.result.status != Status::Ok || b.run.result.status != Status::Ok) continue;
       const auto difference = a.track->worst_difference(*b.track);
       if (!difference) continue;
-      auto& list = difference->distance <= difference->tolerance ? a.run.result.agrees_with
-                                                                 : a.run.result.disagrees_with;
+      auto& list = difference->agrees() ? a.run.result.agrees_with : a.run.result.disagrees_with;
       list.push_back(b.run.result.engine);
     }
   }

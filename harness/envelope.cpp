@@ -130,7 +130,8 @@ class Growth {
           [&](const auto& j) {
             for (const std::string& name : {j.body_a, j.body_b})
               if (const auto body = find_body(problem_.scene, name))
-                differences_[*body] = {problem_.scene.gravity, std::nullopt, 0.0, std::nullopt};
+                differences_[*body] = {problem_.scene.bodies[*body].gravity_scale * problem_.scene.gravity,
+                                       std::nullopt, 0.0, std::nullopt};
           },
           joint);
     }

@@ -26,9 +26,14 @@ double rope_length(const PulleyJoint& pulley, const Placed& at) {
   return magnitude(at.a - pulley.ground_a) + pulley.ratio * magnitude(at.b - pulley.ground_b);
 }
 
-double across(Vec2d axis, const Placed& at) {
-  const Vec2d along = rotation_of(at.angle_a) * axis;
-  return std::abs(cross(along, at.b - at.a)) / magnitude(along);
+double outside(const std::optional<Range>& range, double value) {
+  return range ? std::max({range->lower - value, value - range->upper, 0.0}) : 0;
+}
+
+// How far b's anchor is from the stretch of a's axis that it may be on.
+double off_axis(const auto& joint, const Placed& at) {
+  const Vec2d axis = (1 / magnitude(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
+  return std::hypot(cross(axis, way), outside(joint.limits, dot(axis, way)));
 }
 
 struct Gap {
@@ -38,12 +43,12 @@ struct Gap {
   double operator()(const RevoluteJoint&) const { return magnitude(at.b - at.a); }
   double operator()(const DistanceJoint& j) const {
     const double length = magnitude(at.b - at.a);
-    if (j.range) return std::max({j.range->lower - length, length - j.range->upper, 0.0});
+    if (j.range) return outside(j.range, length);
     return j.spring ? 0 : std::abs(length - j.length);
   }
   double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : magnitude(at.b - at.a); }
-  double operator()(const PrismaticJoint& j) const { return across(j.axis, at); }
-  double operator()(const WheelJoint& j) const { return across(j.axis, at); }
+  double operator()(const PrismaticJoint& j) const { return off_axis(j, at); }
+  double operator()(const WheelJoint& j) const { return off_axis(j, at); }
   double operator()(const PulleyJoint& j) const { return std::abs(rope_length(j, at) - rope); }
   double operator()(const auto&) const { return 0; }
 };
@@ -67,6 +72,7 @@ JointGaps::JointGaps(const Scene& scene) {
           if constexpr (requires { j.anchor_b; }) entry.b.anchor = j.anchor_b;
         },
         joint);
+    if (const auto* pulley = std::get_if<PulleyJoint>(&joint)) entry.b.gain = pulley->ratio;
     if (const auto* pulley = std::get_if<PulleyJoint>(&joint))
       entry.rope = pulley->length ? *pulley->length : rope_length(*pulley, place(entry.a, entry.b, start));
     joints_.push_back(std::move(entry));
@@ -77,6 +83,15 @@ double JointGaps::gap(std::size_t joint, std::span<const BodyState> states) cons
   const Entry& entry = joints_[joint];
   const Placed at = place(entry.a, entry.b, states);
   return std::visit(Gap{at, entry.rope}, entry.joint);
+}
+
+double JointGaps::lever(std::size_t joint, std::span<const BodyState> states) const {
+  const Entry& entry = joints_[joint];
+  const bool has_axis =
+      std::holds_alternative<PrismaticJoint>(entry.joint) || std::holds_alternative<WheelJoint>(entry.joint);
+  if (!has_axis || !entry.a.body) return 0;
+  const Placed at = place(entry.a, entry.b, states);
+  return magnitude(at.b - at.a);
 }
 
 }  // namespace plumb::harness

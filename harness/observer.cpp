@@ -15,7 +15,10 @@ bool finite(const BodyState& s) {
          std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
 }
 
-void raise(std::optional<double>& largest, double value) { largest = std::max(largest.value_or(0), value); }
+// NaN is larger than all, and stays.
+void raise(std::optional<double>& largest, double value) {
+  if (!largest || std::isnan(value) || value > *largest) largest = value;
+}
 
 void hold(WorstRatio& check, double value, const Tolerances::Bound& bound) {
   if (bound) check.add(value, *bound);

@@ -26,6 +26,8 @@ void Track::put(int sample, std::size_t body, const Point& point) {
   points_[static_cast<std::size_t>(sample / stride_) * bodies_ + body] = point;
 }
 
+bool Track::Difference::agrees() const { return distance <= tolerance; }
+
 std::optional<Track::Difference> Track::worst_difference(const Track& other) const {
   std::optional<Difference> worst;
   double worst_share = -1;
@@ -38,6 +40,8 @@ std::optional<Track::Difference> Track::worst_difference(const Track& other) con
                                       {std::abs(a.angle - b.angle), angle_tolerance}};
     for (const Difference& difference : differences) {
       if (difference.tolerance < 0) continue;
+      // A place or bound that is no number agrees with nothing.
+      if (std::isnan(difference.distance) || std::isnan(difference.tolerance)) return difference;
       const double share = difference.distance == 0 ? 0 : difference.distance / difference.tolerance;
       if (share <= worst_share) continue;
       worst_share = share;

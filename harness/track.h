@@ -26,8 +26,10 @@ class Track {
   struct Difference {
     double distance = 0;   ///< m or rad, where it is the largest share of what is allowed
     double tolerance = 0;  ///< the sum of the two bounds there
+    bool agrees() const;
   };
-  /// The worst difference of two runs; nothing where no bound is known.
+  /// The worst difference of two runs; nothing where no bound is known. A place or a bound that is NaN is the
+  /// worst.
   std::optional<Difference> worst_difference(const Track& other) const;
 
  private:

@@ -69,7 +69,9 @@ void TruthTable::measure(const Scene& scene) {
   for (std::size_t k = 0; k < states_.size(); ++k) include(k % bodies_, states_[k]);
   if (!known()) {
     // Without a truth: what gravity and the first speeds reach.
-    scale_.speed += magnitude(scene.gravity) * scale_.duration;
+    double pulled = 0;
+    for (const Body& body : scene.bodies) pulled = std::max(pulled, std::abs(body.gravity_scale));
+    scale_.speed += pulled * magnitude(scene.gravity) * scale_.duration;
     high += Vec2d{scale_.speed * scale_.duration, 0};
   }
   scale_.extent = std::max(magnitude(high - low), 1e-3);

@@ -11,6 +11,7 @@
 #include "engine/scene/subject.h"
 #include "engine/scene/text.h"
 #include "engine/scene/validate.h"
+#include "engine/world/naming.h"
 #include "engine/world/validate.h"
 
 namespace plumb {
@@ -98,12 +99,19 @@ void check_parts(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     validate(definition_of(body));
     const Shapes shapes = shapes_of(body);
-    for (const ShapeDefinition& shape : shapes.solid) {
-      validate(shape);
-      const bool weighs = body.type == BodyType::Dynamic && !definition_of(body).mass;
-      if (std::is_same_v<Real, float> && weighs) require_weight(shape);
-    }
-    for (const ChainDefinition& chain : shapes.chains) validate(chain);
+    const std::string of = " of body " + quoted(body.name);
+    const bool weighs = body.type == BodyType::Dynamic && !definition_of(body).mass;
+    naming([&] { return "shape" + of; },
+           [&] {
+             for (const ShapeDefinition& shape : shapes.solid) {
+               validate(shape);
+               if (std::is_same_v<Real, float> && weighs) require_weight(shape);
+             }
+           });
+    naming([&] { return "chain" + of; },
+           [&] {
+             for (const ChainDefinition& chain : shapes.chains) validate(chain);
+           });
   }
   for (const Joint& joint : scene.joints) validate(definition_of(joint));
 }

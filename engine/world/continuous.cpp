@@ -8,113 +8,13 @@
 #include "engine/geometry/convex_bounds.h"
 #include "engine/world/constants.h"
 #include "engine/world/contacts.h"
+#include "engine/world/meetings.h"
 #include "engine/world/rebound.h"
 #include "engine/world/step.h"
 #include "engine/world/swept_pair.h"
 
 namespace plumb {
 namespace {
-
-// Whether two bodies move fast relative to each other: no slower than one could pass through the other.
-template <class Real>
-bool pass_fast(const WorldData<Real>& w, int a, int b) {
-  const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
-  const Real turned =
-      std::abs(w.motion[a].turned) * w.extents[a] + std::abs(w.motion[b].turned) * w.extents[b];
-  return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
-}
-
-// Whether a body may be in the way of another one: fast for it, or not where the solver has brought it.
-template <class Real>
-bool may_block(const WorldData<Real>& w, int body, int other) {
-  if (pass_fast(w, body, other)) return true;
-  const Flight* met = flight_in(w, other);
-  return met != nullptr && met->changed;
-}
-
-// A box around all that the body covers for the rest of its way.
-template <class Real>
-Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
-  const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
-                   end = flight.straight_at(1).template as<Real>();
-  const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
-  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm + aside);
-}
-
-// Of two shapes in contact, what the solver had between them in this step; null when it was nothing.
-template <class Real>
-const ContactConstraint<Real>* constraint_in(const WorldData<Real>& w, const ContactRecord& contact) {
-  if (contact.home != ContactHome::Graph) return nullptr;
-  return &w.graph.at({contact.colour, contact.index});
-}
-
-template <class Real>
-const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int shape, int other) {
-  const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
-  const ContactConstraint<Real>* found = nullptr;
-  const auto is_theirs = [&](const ContactRecord& contact) {
-    if ((contact.shape_a != shape || contact.shape_b != other) &&
-        (contact.shape_a != other || contact.shape_b != shape))
-      return false;
-    found = constraint_in(w, contact);
-    return true;
-  };
-  any_between(w.contacts, w.bodies[body].first_contact, w.bodies[other_body].first_contact, body, other_body,
-              is_theirs);
-  return found;
-}
-
-// Takes the sooner one.
-template <class Real>
-void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
-  const double fraction = fraction_of_impact(w, way, pair);
-  if (fraction < first.fraction)
-    first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
-}
-
-// The first of all that the body meets, when all of that has a contact with it.
-template <class Real>
-void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
-  const int body = way.flight.body;
-  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
-    const bool is_a = (edge & 1) == 0;
-    if (!way.flight.expected && !may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
-    const int shape = is_a ? contact.shape_a : contact.shape_b,
-              other = is_a ? contact.shape_b : contact.shape_a;
-    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
-  });
-}
-
-// Whether both are pushed along by the same.
-template <class Real>
-bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
-  if (flight.carrier == kNone) return false;
-  if (flight.carrier == other) return true;
-  const Flight* met = flight_in(w, other);
-  return met != nullptr && met->carrier == flight.carrier;
-}
-
-// The first of all that the body meets. What it goes on to after an impact, no solver has seen to.
-template <class Real>
-void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
-  const int body = way.flight.body;
-  const bool as_solved = !way.flight.changed;
-  const Aabb<Real> swept = way_of(w, way.flight);
-  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
-    if (w.forms[shape].sensor || mask == 0) continue;
-    const auto visit = [&](int other, int) {
-      const int other_body = w.shapes[other].body;
-      if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
-      if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
-      note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
-      return true;
-    };
-    w.still_tree.query(swept, mask, visit);
-    w.moving_tree.query(swept, mask, visit);
-  }
-}
 
 // The contacts of a body lie anywhere in memory: those of the flights to come are asked for in time, one of
 // each flight's at a time.
@@ -138,29 +38,6 @@ class ContactsAhead {
  private:
   std::array<int, 8> edges_;
 };
-
-// Notes what is met as it is now.
-template <class Real>
-Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
-  if (found.other == kNone) return found;
-  if (const Flight* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
-  return found;
-}
-
-// What a flight meets first from a fraction of the step on.
-template <class Real>
-Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
-  const Flight& flight = w.scratch.flights[place];
-  Meeting first{.flight = place, .version = flight.version};
-  if (!w.gives_way(flight.body)) return first;
-  const Way way(flight, from, search);
-  if (flight.covered && !flight.changed) {
-    meet_pairs(w, way, first);
-  } else {
-    meet_all(w, way, first);
-  }
-  return as_it_is(w, first);
-}
 
 // What hangs by a hinge on a body that does not give way goes round that, not along a straight line.
 template <class Real>
@@ -312,9 +189,7 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
   for_each_tied(w, place, search.dt, [&](int tied) {
     Flight& flight = w.scratch.flights[tied];
     if (flight.carrier != kNone) return;
-    const BodyRecord<Real>& record = w.bodies[flight.body];
-    flight.go_along(w.scratch.flights[pusher], fraction,
-                    {record.lock_x, record.lock_y, record.lock_rotation});
+    flight.go_along(w.scratch.flights[pusher], fraction, w.bodies[flight.body].locks());
     show_way(w, flight);
     look_ahead(w, tied, fraction, search);
     look_back(w, tied, fraction, search);

@@ -56,7 +56,7 @@ struct MassProperties {
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
-/// What of a body's motion is held.
+/// Holds a body's position along x or y of the world, or its angle.
 struct BodyLocks {
   bool x = false, y = false, rotation = false;
   friend bool operator==(const BodyLocks&, const BodyLocks&) = default;

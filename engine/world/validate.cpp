@@ -39,6 +39,14 @@ void check(const std::string& subject, const Material& material) {
   require_finite(subject, "surface_speed", material.surface_speed);
 }
 
+std::string point_field(std::size_t index) { return "points[" + std::to_string(index) + "]"; }
+
+// The field's name is made where it is needed: chains have 100,000 points.
+void require_point(const std::string& subject, std::size_t index, Vec2d point) {
+  if (!(std::abs(point.x) <= kLargestNumber && std::abs(point.y) <= kLargestNumber))
+    require_finite(subject, point_field(index), point);
+}
+
 struct CheckGeometry {
   const std::string subject = "shape";
   void operator()(const Circle& circle) const { require_positive(subject, "radius", circle.radius); }
@@ -53,7 +61,7 @@ struct CheckGeometry {
   }
   void operator()(const Polygon& polygon) const {
     require_not_negative(subject, "radius", polygon.radius);
-    for (const Vec2d point : polygon.points) require_finite(subject, "points", point);
+    for (std::size_t i = 0; i < polygon.points.size(); ++i) require_point(subject, i, polygon.points[i]);
     convex_hull(polygon.points);  // refuses what has no area
   }
   void operator()(const Segment& segment) const {
@@ -148,12 +156,13 @@ void validate(const ChainDefinition& definition) {
                 "must be " + std::to_string(least) + " or more points");
   }
   for (std::size_t i = 0; i < definition.points.size(); ++i) {
-    require_finite(subject, "points", definition.points[i]);
+    require_point(subject, i, definition.points[i]);
     const bool last = i + 1 == definition.points.size();
     if (last && !definition.closed) break;
-    const Vec2d next = definition.points[last ? 0 : i + 1];
+    const std::size_t after = last ? 0 : i + 1;
+    const Vec2d next = definition.points[after];
     if (!(length_squared(next - definition.points[i]) > kSmallestNumber * kSmallestNumber)) {
-      throw Error(Error::Kind::Value, subject, "points", text_of(next),
+      throw Error(Error::Kind::Value, subject, point_field(after), text_of(next),
                   "must be apart from the point before it");
     }
   }

@@ -9,6 +9,7 @@
 #include "engine/world/islands.h"
 #include "engine/world/lock.h"
 #include "engine/world/mass.h"
+#include "engine/world/naming.h"
 #include "engine/world/quarantine.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
@@ -21,9 +22,16 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {
   unlocked(*this);
   validate(definition);
-  for (const ShapeDefinition& shape : shapes) validate(shape);
-  if (std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass) {
-    for (const ShapeDefinition& shape : shapes) require_weight(shape);
+  const bool weighs = std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass;
+  for (const ShapeDefinition& shape : shapes) {
+    const auto subject = [&] {
+      const std::string which = "shape " + std::to_string(&shape - shapes.data());
+      return definition.name.empty() ? which : which + " of " + body_subject(0, definition.name);
+    };
+    naming(subject, [&] {
+      validate(shape);
+      if (weighs) require_weight(shape);
+    });
   }
   const int body = add_body(*data_, definition, shapes);
   return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
@@ -91,19 +99,19 @@ double BasicWorld<Real>::angular_velocity(BodyId body) const {
 }
 template <class Real>
 Vec2d BasicWorld<Real>::velocity_at(BodyId body, Vec2d point) const {
-  require_place("body", "point", point);
+  naming_body(*data_, place(body), [&] { require_place("body", "point", point); });
   return velocity(body) + cross(angular_velocity(body), point - centre(body));
 }
 template <class Real>
 Vec2d BasicWorld<Real>::world_point(BodyId body, Vec2d local) const {
   const Rotation<Real> q = data_->rotation[place(body)];
-  require_place("body", "local", local);
+  naming_body(*data_, place(body), [&] { require_place("body", "local", local); });
   return position(body) + Rotation<double>{q.c, q.s} * local;
 }
 template <class Real>
 Vec2d BasicWorld<Real>::local_point(BodyId body, Vec2d world) const {
   const Rotation<Real> q = data_->rotation[place(body)];
-  require_place("body", "world", world);
+  naming_body(*data_, place(body), [&] { require_place("body", "world", world); });
   return Rotation<double>{q.c, -q.s} * (world - position(body));
 }
 template <class Real>
@@ -115,15 +123,17 @@ template <class Real>
 void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "position", position);
-  require_finite("body", "angle", angle);
+  naming_body(*data_, index, [&] {
+    require_finite("body", "position", position);
+    require_finite("body", "angle", angle);
+  });
   place_body(*data_, index, position, angle);
 }
 template <class Real>
 void BasicWorld<Real>::set_velocity(BodyId body, Vec2d velocity) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "velocity", velocity);
+  naming_body(*data_, index, [&] { require_finite("body", "velocity", velocity); });
   if (own_type(*data_, index) == BodyType::Static) return;
   settle(*data_);
   wake_moved(index);
@@ -133,7 +143,7 @@ template <class Real>
 void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "angular_velocity", angular_velocity);
+  naming_body(*data_, index, [&] { require_finite("body", "angular_velocity", angular_velocity); });
   if (own_type(*data_, index) == BodyType::Static) return;
   settle(*data_);
   wake_moved(index);
@@ -143,16 +153,20 @@ template <class Real>
 void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, double dt) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "position", position);
-  require_finite("body", "angle", angle);
-  require_positive("body", "dt", dt);
+  naming_body(*data_, index, [&] {
+    require_finite("body", "position", position);
+    require_finite("body", "angle", angle);
+    require_positive("body", "dt", dt);
+  });
   const Rotation<double> q = rotation_of(angle);
   const Vec2<Real> centre_in_body = data_->bodies[index].centre + way_to_centre(*data_, index);
   const Vec2d target = position + q * centre_in_body.template as<double>();
   const Vec2d velocity = (1 / dt) * (target - centre(body));
   const double angular_velocity = (angle - this->angle(body)) / dt;
-  require_finite("body", "velocity", velocity);
-  require_finite("body", "angular_velocity", angular_velocity);
+  naming_body(*data_, index, [&] {
+    require_finite("body", "velocity", velocity);
+    require_finite("body", "angular_velocity", angular_velocity);
+  });
   set_velocity(body, velocity);
   set_angular_velocity(body, angular_velocity);
 }
@@ -166,8 +180,10 @@ template <class Real>
 void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "force", force);
-  require_finite("body", "point", point);
+  naming_body(*data_, index, [&] {
+    require_finite("body", "force", force);
+    require_finite("body", "point", point);
+  });
   if (!data_->gives_way(index)) return;
   settle(*data_);
   wake(index);
@@ -179,7 +195,7 @@ template <class Real>
 void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "torque", torque);
+  naming_body(*data_, index, [&] { require_finite("body", "torque", torque); });
   if (!data_->gives_way(index)) return;
   settle(*data_);
   wake(index);
@@ -194,8 +210,10 @@ template <class Real>
 void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "impulse", impulse);
-  require_finite("body", "point", point);
+  naming_body(*data_, index, [&] {
+    require_finite("body", "impulse", impulse);
+    require_finite("body", "point", point);
+  });
   if (!data_->gives_way(index)) return;
   settle(*data_);
   wake(index);
@@ -205,7 +223,7 @@ template <class Real>
 void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "angular_impulse", impulse);
+  naming_body(*data_, index, [&] { require_finite("body", "angular_impulse", impulse); });
   if (!data_->gives_way(index)) return;
   settle(*data_);
   wake(index);
@@ -220,8 +238,9 @@ template <class Real>
 void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
   unlocked(*this);
   const int index = place(body);
-  validate(type);
-  if (type == BodyType::Dynamic && !data_->bodies[index].mass_given) require_weights(*data_, index);
+  naming_body(*data_, index, [&] { validate(type); });
+  if (type == BodyType::Dynamic && !data_->bodies[index].mass_given)
+    naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
   settle(*data_);
   plumb::set_type(*data_, index, type);
 }
@@ -243,7 +262,7 @@ template <class Real>
 void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
   unlocked(*this);
   const int index = place(body);
-  validate(BodyDefinition{.mass = mass});
+  naming_body(*data_, index, [&] { validate(BodyDefinition{.mass = mass}); });
   settle(*data_);
   plumb::set_mass(*data_, index, mass);
   wake(index);
@@ -252,7 +271,7 @@ template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
   unlocked(*this);
   const int index = place(body);
-  if (data_->gives_way(index)) require_weights(*data_, index);
+  if (data_->gives_way(index)) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
   settle(*data_);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);
@@ -262,7 +281,7 @@ template <class Real>
 void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
   unlocked(*this);
   const int index = place(body);
-  require_finite("body", "gravity_scale", scale);
+  naming_body(*data_, index, [&] { require_finite("body", "gravity_scale", scale); });
   plumb::set_gravity_scale(*data_, index, scale);
   wake(index);
 }
@@ -270,8 +289,10 @@ template <class Real>
 void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
   unlocked(*this);
   const int index = place(body);
-  require_not_negative("body", "linear_damping", linear);
-  require_not_negative("body", "angular_damping", angular);
+  naming_body(*data_, index, [&] {
+    require_not_negative("body", "linear_damping", linear);
+    require_not_negative("body", "angular_damping", angular);
+  });
   plumb::set_damping(*data_, index, linear, angular);
   wake(index);
 }
@@ -335,7 +356,7 @@ double BasicWorld<Real>::angular_damping(BodyId body) const {
 template <class Real>
 BodyLocks BasicWorld<Real>::locks(BodyId body) const {
   const BodyRecord<Real>& record = data_->bodies[place(body)];
-  return {record.lock_x, record.lock_y, record.lock_rotation};
+  return record.locks();
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {

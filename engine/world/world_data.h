@@ -50,6 +50,8 @@ struct BodyRecord {
   Real half_width = 0;         ///< m, smallest half width of its shapes; negative: in `unsettled`
   Real still_for = 0;          ///< s
   double angle = 0;            ///< rad, whole turns counted
+
+  BodyLocks locks() const { return {lock_x, lock_y, lock_rotation}; }
 };
 static_assert(sizeof(BodyRecord<float>) == 64);
 

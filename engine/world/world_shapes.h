@@ -5,6 +5,7 @@
 #include "engine/world/bodies.h"
 #include "engine/world/islands.h"
 #include "engine/world/lock.h"
+#include "engine/world/naming.h"
 #include "engine/world/shape_reading.h"
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
@@ -16,9 +17,11 @@ template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   unlocked(*this);
   const int index = place(body);
-  validate(definition);
   const bool weighs = data_->gives_way(index) && !data_->bodies[index].mass_given;
-  if (std::is_same_v<Real, float> && weighs) require_weight(definition);
+  naming_part(*data_, "shape", index, [&] {
+    validate(definition);
+    if (std::is_same_v<Real, float> && weighs) require_weight(definition);
+  });
   const int shape = add_shape(*data_, index, definition);
   return {static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)};
 }
@@ -57,7 +60,8 @@ template <class Real>
 void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
   unlocked(*this);
   const int index = place(shape);
-  validate(ShapeDefinition{.material = material});
+  naming_part(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
+              [&] { validate(ShapeDefinition{.material = material}); });
   plumb::set_material(*data_, index, material);
 }
 template <class Real>
@@ -99,7 +103,7 @@ template <class Real>
 ChainId BasicWorld<Real>::create_chain(BodyId body, const ChainDefinition& definition) {
   unlocked(*this);
   const int index = place(body);
-  validate(definition);
+  naming_part(*data_, "chain", index, [&] { validate(definition); });
   const int chain = add_chain(*data_, index, definition);
   return {static_cast<std::uint32_t>(chain), data_->chains.generation(chain)};
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,9 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::string_view kQuantityNames[] = {
     "x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity", "drift"};
 
+/// Among an expectation's needs: that masses and inertias are those that it was composed with.
+inline constexpr std::string_view kMasses = "masses";
+
 /// What the one who composed a scene knows of its motion.
 struct Expectation {
   std::string name;  ///< "keeps its speed"
@@ -59,8 +63,9 @@ struct Expectation {
   double upper = std::numeric_limits<double>::infinity();
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s
-  std::vector<std::string> needs{};  ///< idioms, bodies or joints without which it is not owed
-  std::string why{};                 ///< one line that says what is right
+  std::vector<std::string> needs{};       ///< bodies or joints without which it is not owed; or `kMasses`
+  std::map<std::string, double> until{};  ///< s: bodies without which it is owed only until then
+  std::string why{};                      ///< one line that says what is right
 };
 
 /// One scene with all that a run of it takes.

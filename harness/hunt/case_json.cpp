@@ -63,6 +63,7 @@ Json to_object(const Expectation& expectation) {
   number("from", expectation.from);
   number("to", expectation.to);
   out["needs"] = expectation.needs;
+  if (!expectation.until.empty()) out["until"] = expectation.until;
   out["why"] = expectation.why;
   return out;
 }
@@ -77,6 +78,7 @@ Expectation expectation_of(const Json& json) {
   out.from = json.value("from", out.from);
   out.to = json.value("to", out.to);
   out.needs = json.value("needs", out.needs);
+  out.until = json.value("until", out.until);
   out.why = json.value("why", out.why);
   return out;
 }

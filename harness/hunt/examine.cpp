@@ -16,6 +16,10 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
   out.skipped = unsupported(engine, one);
   if (!out.skipped.empty()) return out;
   const Motion motion = run(engine, one);
+  if (motion.samples.empty() && motion.failure.empty()) {
+    out.skipped = motion.stopped.empty() ? "it takes too long" : motion.stopped;
+    return out;
+  }
   for (const Law& each : laws()) {
     if (!law.empty() && each.name != law) continue;
     Verdict verdict = each.judge(one, engine, motion);

@@ -35,6 +35,19 @@ double slack_of_places(const Case& one, const Sample& sample, const std::vector<
   return sum;
 }
 
+// What a tolerance of 1e-9 of a motion that is none may add: each body is off by 1e-6 of its reach, and a
+// second later there.
+double slack_of_rounding(const Case& one, const std::vector<double>& reach) {
+  double sum = 0;
+  for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
+    const Body& body = one.scene.bodies[i];
+    const double off = 1e-6 * reach[i];
+    if (body.type == BodyType::Dynamic)
+      sum += body.mass * (std::abs(body.gravity_scale) * length(one.scene.gravity) * off + off * off);
+  }
+  return sum;
+}
+
 bool left_alone(const Case& one) {
   if (driven(one) || !one.scene.forces.empty()) return false;
   for (const Body& body : one.scene.bodies) {
@@ -54,6 +67,23 @@ bool left_alone(const Case& one) {
     if (held || std::holds_alternative<PulleyJoint>(joint)) return false;
   }
   return true;
+}
+
+struct Sizes {
+  double mass = 0, mass_times_reach = 0, mass_times_reach_squared = 0;
+};
+
+Sizes sizes_of(const Scene& scene) {
+  Sizes out;
+  const std::vector<double> reach = reaches(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.type != BodyType::Dynamic) continue;
+    out.mass += body.mass;
+    out.mass_times_reach += body.mass * reach[i];
+    out.mass_times_reach_squared += body.mass * reach[i] * reach[i];
+  }
+  return out;
 }
 
 std::size_t dynamic_bodies(const Scene& scene) {
@@ -101,7 +131,7 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
         precise ? kPreciseShare
                 : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt / one.substeps);
     double bound = share * (budget.kinetic + budget.fall + given);
-    if (!precise) bound += slack_of_places(one, motion.samples[k], reach);
+    bound += precise ? slack_of_rounding(one, reach) : slack_of_places(one, motion.samples[k], reach);
     const double gain = now.kinetic + now.potential - budget.start - given;
     if (gain > bound) {
       return Objection{
@@ -128,11 +158,17 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
   Vec2d weight{};
   for (const Body& body : one.scene.bodies)
     if (body.type == BodyType::Dynamic) weight += body.mass * body.gravity_scale * one.scene.gravity;
-  double most = first.sum_of_momenta;
+  const Sizes sizes = sizes_of(one.scene);
+  const double duration = one.steps * one.dt;
+  // What is at rest is moved by roundings all the same: of its own size in the time of the run.
+  double most = std::max(first.sum_of_momenta, sizes.mass_times_reach / duration);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const double time = static_cast<double>(k) * one.dt;
     const Mechanics now = mechanics(one.scene, motion.samples[k].states);
-    most = std::max(most, std::min(now.sum_of_momenta, 10 * most + length(weight) * time));
+    // sum |m v| <= sqrt(2 sum m sum m v^2 / 2) (Cauchy, Schwarz): no more than the energy that there is
+    // allows.
+    const double allowed = std::sqrt(2 * sizes.mass * (first.kinetic + stored(one.scene, time)));
+    most = std::max(most, std::min(now.sum_of_momenta, allowed + length(weight) * time));
     const double off = length(now.momentum - first.momentum - time * weight);
     const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
     const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
@@ -168,16 +204,20 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
   };
   if (dynamic_bodies(one.scene) == 0) return {};
   const Mechanics first = about_centre(motion.samples.front());
+  const Sizes sizes = sizes_of(one.scene);
   double most = first.sum_of_angular_momenta, impulse = 0;
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const Mechanics now = about_centre(motion.samples[k]);
     const double time = static_cast<double>(k) * one.dt;
+    const double energy = first.kinetic + stored(one.scene, time);
     most = std::max(most, std::min(now.sum_of_angular_momenta, 4 * most));
     // An impulse J on bodies that pass each other at v acts a step's way v dt beside its line at most.
-    impulse = std::max(impulse, 2 * first.kinetic * one.dt);
+    impulse = std::max(impulse, 2 * energy * one.dt);
     const double off = std::abs(now.angular_momentum - first.angular_momentum);
     const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;
-    const double bound = share * most + (engine.kind == Engine::Kind::Precise ? 0 : 4 * impulse);
+    const double rounding = engine.epsilon() * (8.0 * static_cast<double>(k) * one.substeps + 100) *
+                            sizes.mass_times_reach_squared / (one.steps * one.dt);
+    const double bound = share * most + rounding + (engine.kind == Engine::Kind::Precise ? 0 : 4 * impulse);
     if (off > bound && off > 0) {
       return Objection{.judge = "angular_momentum",
                        .what = fmt::format("the sum of angular momenta is off by {:.3g} kg m^2/s", off),

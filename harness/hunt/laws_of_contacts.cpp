@@ -108,7 +108,8 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
           std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
                     2 * length(one.scene.gravity) * one.dt * one.dt});
       if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
-      if (k == 0 && depth > bound) given[n] = true;
+      // Precise refuses what it has no law for.
+      if (k == 0 && depth > bound) given[n] = engine.kind != Engine::Kind::Precise;
       // A body that was put where another is may leave it no way out; it has to be awake then.
       const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
       if (depth <= bound || given[n] || (intruded && !asleep)) {

@@ -26,6 +26,22 @@ bool may_break(const Joint& joint) {
   return std::visit([](const auto& j) { return j.break_force > 0 || j.break_torque > 0; }, joint);
 }
 
+// Where a rope's end comes to its pulley the rope has no direction: no law says how it goes on.
+bool at_its_pulley(const Case& one, const Joint& joint, const std::vector<BodyState>& states) {
+  const auto* rope = std::get_if<PulleyJoint>(&joint);
+  if (rope == nullptr) return false;
+  const auto short_of = [&](const std::string& name, Vec2d anchor, Vec2d ground) {
+    const auto at = find_body(one.scene, name);
+    if (!at) return false;
+    const BodyState& s = states[*at];
+    const Vec2d arm = rotation_of(s.angle) * anchor;
+    return length(s.position + arm - ground) <=
+           2 * one.dt * length(s.velocity + cross(s.angular_velocity, arm));
+  };
+  return short_of(rope->body_a, rope->anchor_a, rope->ground_a) ||
+         short_of(rope->body_b, rope->anchor_b, rope->ground_b);
+}
+
 bool judged(const Case& one) {
   return one.actions.empty() && !one.scene.joints.empty() && starts_closed(one.scene);
 }
@@ -67,11 +83,13 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
   const JointGaps gaps(one.scene);
   const std::vector<double> reach = reaches(one.scene);
   std::vector<int> open(one.scene.joints.size(), 0);
+  std::vector<bool> over(one.scene.joints.size(), false);
   const double step = engine.kind == Engine::Kind::Precise ? 0 : one.dt / one.substeps;
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const std::vector<BodyState>& states = motion.samples[k].states;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      if (may_break(one.scene.joints[i])) continue;
+      over[i] = over[i] || at_its_pulley(one, one.scene.joints[i], states);
+      if (may_break(one.scene.joints[i]) || over[i]) continue;
       double size = 0, speed = 0;
       for (const auto& end : {gaps.end_a(i), gaps.end_b(i)}) {
         if (!end.body || one.scene.bodies[*end.body].type != BodyType::Dynamic) continue;

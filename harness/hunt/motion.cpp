@@ -1,15 +1,23 @@
 #include "harness/hunt/motion.h"
 
 #include <cmath>
+#include <cstring>
 #include <ctime>
 #include <exception>
+#include <stdexcept>
+
+#include <sys/resource.h>
 
 #include "engine/scene/error.h"
 #include "harness/hunt/processor_time.h"
 #include "harness/hunt/world_run.h"
+#include "harness/isolate.h"
+#include "reference/process_backend.h"
 
 namespace plumb::harness::hunt {
 namespace {
+
+constexpr double kPatience = 20;  // times the processor time, of a machine that others use
 
 bool finite(const BodyState& s) {
   return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
@@ -34,14 +42,63 @@ Motion run_backend(const Engine& engine, const Case& one, const RunOptions& opti
                     std::vector<bool>(count, false)};
       simulator->read(sample.states);
       for (const BodyState& state : sample.states)
-        if (!finite(state)) throw Error(Error::Kind::Run, "state", "", "", "is not finite");
+        if (!finite(state)) throw std::runtime_error("a state is not finite");
       out.samples.push_back(std::move(sample));
       if (processor_seconds() - begin > options.seconds) break;
     }
+  } catch (const reference::ProcessError& error) {
+    out.failure = error.what();
+  } catch (const Error& error) {
+    (error.kind() == Error::Kind::Run ? out.stopped : out.failure) = error.what();
   } catch (const std::exception& error) {
     out.failure = error.what();
   }
   return out;
+}
+
+// The texts, each behind its length, then the states.
+std::string as_bytes(const Motion& motion) {
+  std::string out;
+  for (const std::string& text : {motion.failure, motion.stopped}) {
+    const std::uint64_t size = text.size();
+    out.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
+  }
+  for (const Sample& sample : motion.samples)
+    out.append(reinterpret_cast<const char*>(sample.states.data()), sample.states.size() * sizeof(BodyState));
+  return out;
+}
+
+Motion from_bytes(const std::string& bytes, const Case& one) {
+  Motion out{.dt = one.dt};
+  std::size_t at = 0;
+  for (std::string* text : {&out.failure, &out.stopped}) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at, sizeof size);
+    *text = bytes.substr(at + sizeof size, size);
+    at += sizeof size + size;
+  }
+  const std::size_t bodies = one.scene.bodies.size(), size = bodies * sizeof(BodyState);
+  for (; size > 0 && at + size <= bytes.size(); at += size) {
+    Sample sample{std::vector<BodyState>(bodies), std::vector<bool>(bodies, true),
+                  std::vector<bool>(bodies, false)};
+    std::memcpy(sample.states.data(), bytes.data() + at, size);
+    out.samples.push_back(std::move(sample));
+  }
+  return out;
+}
+
+Motion run_guarded(const Engine& engine, const Case& one, const RunOptions& options) {
+  const Outcome outcome = isolate(
+      [&] {
+        const auto seconds = static_cast<rlim_t>(options.seconds) + 1;
+        const rlimit limit{seconds, seconds + 1};
+        setrlimit(RLIMIT_CPU, &limit);
+        return as_bytes(run_backend(engine, one, options));
+      },
+      kPatience * (options.seconds + 1));
+  if (outcome.kind == Outcome::Kind::Done) return from_bytes(outcome.text, one);
+  const bool slow = outcome.kind != Outcome::Kind::Crashed || outcome.text.find("XCPU") != std::string::npos;
+  return {.dt = one.dt, .samples = {}, .failure = slow ? "" : outcome.text};
 }
 
 Engine::Kind kind_of(const std::string_view name) {
@@ -72,6 +129,7 @@ std::string unsupported(const Engine& engine, const Case& one) {
 Motion run(const Engine& engine, const Case& one, const RunOptions& options) {
   if (engine.kind == Engine::Kind::World) return run_world<float>(one, options);
   if (engine.kind == Engine::Kind::DoubleWorld) return run_world<double>(one, options);
+  if (engine.kind == Engine::Kind::Precise) return run_guarded(engine, one, options);
   return run_backend(engine, one, options);
 }
 

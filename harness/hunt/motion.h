@@ -27,6 +27,7 @@ struct Motion {
   double dt = 0;  ///< s, from sample to sample
   std::vector<Sample> samples{};
   std::string failure{};  ///< empty, or why it ended before its time
+  std::string stopped{};  ///< empty, or why the engine itself says that it ends before its time
   /// Events that do not pair up: what and when.
   struct EventFault {
     double time = 0;
@@ -57,7 +58,9 @@ struct RunOptions {
 /// Empty, or why `engine` does not take `one`.
 std::string unsupported(const Engine& engine, const Case& one);
 
-/// Runs it. What the engine throws is the motion's failure.
+/// Runs it. What the engine throws is the motion's failure, but where one in this process says why it goes no
+/// further. Precise, whose steps may take any time, runs in a process of its own; it has no samples where it
+/// did not come to a sample in time.
 Motion run(const Engine& engine, const Case& one, const RunOptions& options = {});
 
 }  // namespace plumb::harness::hunt

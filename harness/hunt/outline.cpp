@@ -89,7 +89,11 @@ Outline placed(const Outline& outline, const BodyState& state) {
 
 double separation(const Outline& a, const Outline& b) {
   const double apart = std::max(gap_along_normals(a.core, b.core), gap_along_normals(b.core, a.core));
-  const double cores = apart < 0 ? apart : std::min(nearest(a.core, b.core), nearest(b.core, a.core));
+  // Points have no normals, and lines in a row none along which they are apart: rounding alone says that such
+  // cores overlap.
+  const double rounding = 1e-13 * (length(a.high - a.low) + length(b.high - b.low) + length(a.low));
+  const bool overlap = apart < -rounding && apart > -kInfinity;
+  const double cores = overlap ? apart : std::min(nearest(a.core, b.core), nearest(b.core, a.core));
   return cores - a.radius - b.radius;
 }
 

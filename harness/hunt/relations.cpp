@@ -14,7 +14,9 @@ namespace {
 constexpr double kPerturbation = 1e-6;
 // Of the largest body: what differs by more is another motion. A perturbation has to stay far below it.
 constexpr double kShare = 0.1, kCalm = 0.01;
-constexpr double kGuardSeconds = 2;
+// Of the largest body, for an engine with a tolerance of 1e-9; and how far perturbations may have grown,
+// which leaves those of the tolerance a hundredth of that.
+constexpr double kSampled = 1e-4, kGrown = 1000;
 constexpr double kShift = 64;  // m, so that no place is rounded
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
@@ -114,10 +116,37 @@ Verdict restored(const Case& one, const Engine& engine, const Motion& motion) {
   return {};
 }
 
+// An engine that chooses its steps looks at what happens between samples too.
+Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!motion.failure.empty() || motion.samples.size() != static_cast<std::size_t>(one.steps) + 1) return {};
+  Case coarse = one;
+  coarse.dt = one.dt * one.steps, coarse.steps = 1;
+  const Motion other = run(engine, coarse);
+  if (other.samples.size() != 2) return {};
+  Motion ends{.dt = coarse.dt};
+  ends.samples = {motion.samples.front(), motion.samples.back()};
+  const double off = apart(one, ends, other).back(), bound = kSampled * largest_size(one.scene);
+  if (off <= bound) return {};
+  // A perturbation that grows a thousandfold and more is chaos: that of a tolerance may then show.
+  const std::vector<double> calm = growth(one, engine, motion);
+  if (calm.size() != motion.samples.size() ||
+      calm.back() > kGrown * 30 * kPerturbation * largest_size(one.scene))
+    return {};
+  return Objection{.law = "sampling",
+                   .judge = "sampling",
+                   .what = fmt::format("is {:.3g} m off where it is looked at only once, at the end", off),
+                   .right = "the motion does not depend on when it is looked at",
+                   .figure = off,
+                   .bound = bound,
+                   .unit = "m",
+                   .time = coarse.dt};
+}
+
 bool unscaled(const Case& one, const Engine& engine) {
   return plain(one, engine) && engine.is_world() && one.scene.forces.empty() && !one.sleeping;
 }
 bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
+bool is_precise(const Case&, const Engine& engine) { return engine.kind == Engine::Kind::Precise; }
 bool plain_world(const Case& one, const Engine& engine) { return plain(one, engine) && engine.is_world(); }
 bool law_free(const Case& one, const Engine& engine) {
   return plain(one, engine) &&
@@ -148,9 +177,7 @@ std::vector<double> growth(const Case& one, const Engine& engine, const Motion& 
   std::vector<double> out(motion.samples.size(), 0);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Case off_a_little = perturbed(one, seed == 3 ? 30 * kPerturbation : kPerturbation, seed);
-    const Motion other = engine.kind == Engine::Kind::Precise
-                             ? run_guarded(engine, off_a_little, kGuardSeconds)
-                             : run(engine, off_a_little);
+    const Motion other = run(engine, off_a_little);
     const std::vector<double> off = apart(one, motion, other);
     out.resize(std::min(out.size(), off.size()));
     double most = 0;
@@ -168,7 +195,7 @@ const std::vector<Relation>& relations() {
       {"shift", law_free, shift},      {"relabel", plain, relabel},
       {"units", unscaled, units},      {"sleep_switch", plain_world, sleep},
       {"restore", is_world, restored}, {"precise", plain_world, precise_relation},
-      {"jury", plain, jury_relation}};
+      {"jury", plain, jury_relation},  {"sampling", is_precise, sampling}};
   return all;
 }
 

@@ -19,10 +19,6 @@ const std::vector<Relation>& relations();
 Verdict precise_relation(const Case& one, const Engine& engine, const Motion& motion);
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion);
 
-/// Runs a judge's engine in a process of its own for at most `seconds`: Precise may take minutes for one
-/// step. Empty where it does not come to an end.
-Motion run_guarded(const Engine& engine, const Case& one, double seconds);
-
 /// How far two motions are apart at each sample, m: of the dynamic body that is the farthest off, with its
 /// turn times its reach.
 std::vector<double> apart(const Case& one, const Motion& a, const Motion& b);

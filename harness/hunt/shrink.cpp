@@ -26,8 +26,15 @@ bool names(const Joint& joint, const std::string& body) {
 void forget(Case& one, const std::string& gone) {
   std::erase_if(one.actions, [&](const Action& action) { return action.target == gone; });
   std::erase(one.sensors, gone);
+  for (Expectation& each : one.expectations) {
+    const auto at = each.until.find(gone);
+    if (at == each.until.end()) continue;
+    each.to = std::min(each.to, at->second);
+    each.until.erase(at);
+  }
   std::erase_if(one.expectations, [&](const Expectation& each) {
-    return each.body == gone || std::find(each.needs.begin(), each.needs.end(), gone) != each.needs.end();
+    return each.body == gone || each.to < each.from ||
+           std::find(each.needs.begin(), each.needs.end(), gone) != each.needs.end();
   });
 }
 
@@ -47,6 +54,12 @@ void remove_body(Case& one, std::size_t index) {
   });
   one.scene.bodies.erase(one.scene.bodies.begin() + static_cast<std::ptrdiff_t>(index));
   forget(one, name);
+}
+
+bool needs_masses(const Case& one) {
+  return std::any_of(one.expectations.begin(), one.expectations.end(), [](const Expectation& each) {
+    return std::find(each.needs.begin(), each.needs.end(), kMasses) != each.needs.end();
+  });
 }
 
 double with_digits(double value, int digits) {
@@ -165,12 +178,14 @@ class Shrinker {
       if (reach(best_) == value) return;
       any = try_change([&](Case& one) { reach(one) = value; }) || any;
     };
-    set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
+    // What is owed with its masses stands in figures of the weights and of the step.
+    const bool bare = !needs_masses(best_);
+    if (bare) set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
-    set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
+    if (bare) set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
     // Not back and forth between the two.
-    if (!(best_.scene.gravity == Vec2d{0, 0}))
+    if (bare && !(best_.scene.gravity == Vec2d{0, 0}))
       set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
       const auto body = [i](Case& one) -> Body& { return one.scene.bodies[i]; };
@@ -178,7 +193,7 @@ class Shrinker {
         set([&](Case& one) -> Vec2d& { return body(one).velocity; }, Vec2d{});
         set([&](Case& one) -> double& { return body(one).angular_velocity; }, 0.0);
       }
-      set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
+      if (bare) set([&](Case& one) -> double& { return body(one).mass; }, 1.0);
       for (std::size_t k = 0; k < best_.scene.bodies[i].shapes.size(); ++k) {
         const auto shape = [&, k](Case& one) -> Shape& { return body(one).shapes[k]; };
         if (!best_.expectations.empty()) continue;

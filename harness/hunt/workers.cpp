@@ -140,8 +140,9 @@ void Workers::start(std::uint64_t task) {
     if (worker->at_work) continue;
     if (worker->process <= 0) fork_anew(*worker);
     worker->at_work = true, worker->task = task;
-    worker->deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds_));
+    worker->began = processor_seconds_of(worker->process);
+    worker->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(kPatience * seconds_));
     // Where this fails the worker has died, which `wait` finds out.
     write_all(worker->tasks, reinterpret_cast<const char*>(&task), sizeof task);
     return;

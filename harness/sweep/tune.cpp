@@ -71,7 +71,9 @@ class Tuner {
   bool measure(const std::function<void(const std::string&)>& progress);
   std::vector<std::pair<Entrant*, RunRequest>> next_runs();
   void take(Entrant& entrant, IsolatedRun run);
+  bool meets(const Trial& trial) const;
   bool better(const Trial& a, const Trial& b) const;
+  void fill(TuneAnswer& answer, const Trial& trial) const;
   TuneAnswer answer(Entrant& entrant);
   void confirm(const Entrant& entrant, TuneAnswer& answer);
 
@@ -120,7 +122,7 @@ std::vector<std::pair<Entrant*, RunRequest>> Tuner::next_runs() {
 void Tuner::take(Entrant& entrant, IsolatedRun run) {
   const auto place = entrant.explorer.space().find(run.result.asked);
   const auto& error = run.result.metrics.*options_.metric->value;
-  if (run.result.status != Status::Ok || !error || !run.rough) {
+  if (run.result.status != Status::Ok || !error || !std::isfinite(*error) || !run.rough) {
     entrant.explorer.fail(*place);
     entrant.last_failure = run.result.status == Status::Ok
                                ? fmt::format("{} has no meaning for this scene", options_.metric->name)
@@ -150,16 +152,18 @@ bool Tuner::search(const std::function<void(const std::string&)>& progress) {
   return true;
 }
 
-// Whether `a` is nearer to what is asked for.
+// Holds a trial against what was asked for itself, also where that lies below the floor of the search.
+bool Tuner::meets(const Trial& trial) const {
+  return options_.tolerance ? trial.error <= *options_.tolerance : trial.ns_a_second() <= *goal_.cost;
+}
+
+// Finds whether `a` is nearer to what is asked for: of two that meet it the cheaper, or the more accurate;
+// else the one that misses by less.
 bool Tuner::better(const Trial& a, const Trial& b) const {
-  if (goal_.error) {
-    const bool a_meets = a.error <= *goal_.error, b_meets = b.error <= *goal_.error;
-    if (a_meets != b_meets) return a_meets;
-    return a_meets ? a.ns_a_second() < b.ns_a_second() : a.error < b.error;
-  }
-  const bool a_keeps = a.ns_a_second() <= *goal_.cost, b_keeps = b.ns_a_second() <= *goal_.cost;
-  if (a_keeps != b_keeps) return a_keeps;
-  return a_keeps ? a.error < b.error : a.ns_a_second() < b.ns_a_second();
+  const bool a_meets = meets(a);
+  if (a_meets != meets(b)) return a_meets;
+  const bool by_cost = options_.tolerance.has_value() == a_meets;
+  return by_cost ? a.ns_a_second() < b.ns_a_second() : a.error < b.error;
 }
 
 bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
@@ -187,13 +191,34 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
   return true;
 }
 
+// Runs the answer once more. What the second run misses, the answer misses.
 void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
   const Case& scene_case = cases_.at(*entrant.backend, answer.row.dt);
   const IsolatedRun again =
       run_isolated(scene_case, *entrant.backend, answer.row.asked, nullptr, options_.seconds_a_run);
   const auto& error = again.result.metrics.*options_.metric->value;
-  answer.confirmed = again.result.status == Status::Ok && error &&
-                     std::bit_cast<std::uint64_t>(*error) == std::bit_cast<std::uint64_t>(answer.error);
+  const bool ran = again.result.status == Status::Ok && error && std::isfinite(*error);
+  answer.confirmed =
+      ran && std::bit_cast<std::uint64_t>(*error) == std::bit_cast<std::uint64_t>(answer.error);
+  answer.found = answer.confirmed;
+  if (answer.found) return;
+  if (ran) answer.error = std::max(answer.error, *error);
+  answer.found = ran && (!options_.tolerance || *error <= *options_.tolerance);
+  if (answer.found) return;
+  const std::string what =
+      ran ? fmt::format("reach {}", figure(*error))
+      : again.result.status == Status::Ok
+          ? fmt::format("give no {}", options_.metric->name)
+          : fmt::format("end as {}: {}", name_of(again.result.status), again.result.reason);
+  answer.problem =
+      fmt::format("{}: they met it, and run once more {}", settings_text(answer.row.asked), what);
+}
+
+void Tuner::fill(TuneAnswer& answer, const Trial& trial) const {
+  answer.row = trial.row;
+  answer.row.cost = summarise(trial.samples, trial.row.dt);
+  answer.error = trial.error;
+  answer.ns_a_step = trial.ns_a_second() * options_.step;
 }
 
 TuneAnswer Tuner::answer(Entrant& entrant) {
@@ -201,25 +226,28 @@ TuneAnswer Tuner::answer(Entrant& entrant) {
   out.engine = entrant.backend->name();
   out.problem = entrant.problem;
   out.tried = static_cast<int>(entrant.explorer.tried());
-  const Trial* best = nullptr;
+  std::vector<const Trial*> measured;
   for (const Trial& trial : entrant.trials)
-    if (!trial.samples.empty() && (best == nullptr || better(trial, *best))) best = &trial;
-  if (best == nullptr) {
+    if (!trial.samples.empty()) measured.push_back(&trial);
+  std::stable_sort(measured.begin(), measured.end(),
+                   [&](const Trial* a, const Trial* b) { return better(*a, *b); });
+  for (const Trial* trial : measured) {
+    if (!meets(*trial)) break;
+    fill(out, *trial);
+    confirm(entrant, out);
+    if (out.found || interrupted()) return out;
+  }
+  if (measured.empty()) {
     if (out.problem.empty())
       out.problem = entrant.last_failure.empty() ? "no run within the time" : entrant.last_failure;
     return out;
   }
-  out.row = best->row;
-  out.row.cost = summarise(best->samples, best->row.dt);
-  out.error = best->error;
-  out.ns_a_step = best->ns_a_second() * options_.step;
-  out.found = goal_.error ? best->error <= *goal_.error : best->ns_a_second() <= *goal_.cost;
-  if (!out.found)
-    out.problem =
-        goal_.error
-            ? fmt::format("the most accurate of {} settings reaches {}", out.tried, figure(out.error))
-            : fmt::format("the cheapest of {} settings costs {}", out.tried, duration_text(out.ns_a_step));
-  if (out.found) confirm(entrant, out);
+  if (meets(*measured.front())) return out;  // none of those that met it did so twice
+  fill(out, *measured.front());
+  out.problem =
+      options_.tolerance
+          ? fmt::format("the most accurate of {} settings reaches {}", out.tried, figure(out.error))
+          : fmt::format("the cheapest of {} settings costs {}", out.tried, duration_text(out.ns_a_step));
   return out;
 }
 
@@ -232,6 +260,8 @@ Tuned Tuner::run(const std::function<void(const std::string&)>& progress) {
     return out;
   }
   for (Entrant& entrant : entrants_) out.answers.push_back(answer(entrant));
+  out.interrupted = interrupted();
+  if (out.interrupted) return out;
   std::stable_sort(out.answers.begin(), out.answers.end(), [&](const TuneAnswer& a, const TuneAnswer& b) {
     if (a.found != b.found) return a.found;
     if (!a.found) return false;

@@ -35,7 +35,7 @@ struct TuneAnswer {
   bool found = false;
   std::string problem;     ///< why there is none
   Result row;              ///< the run of the settings, its cost measured; where none is found, the nearest
-  double error = 0;        ///< of the metric
+  double error = 0;        ///< of the metric; of two runs that differ the larger
   double ns_a_step = 0;    ///< for one step of the game
   int tried = 0;           ///< settings that were run
   bool confirmed = false;  ///< run once more at the end, with the same error to the bit
@@ -48,7 +48,7 @@ struct Tuned {
 };
 
 /// Searches every engine's settings near where the wish is met, measures the costs of the best few of all
-/// engines in turns, and runs each answer once more.
+/// engines in turns, and runs each answer once more: what the second run misses is no answer.
 Tuned tune(const TuneOptions& options, const std::function<void(const std::string& what)>& progress = {});
 
 std::string tune_text(const TuneOptions& options, const Tuned& tuned, const Style& style);

@@ -95,6 +95,30 @@ TEST(Run, JsonHasALineASampleAndStartsWithTheScene) {
     EXPECT_DOUBLE_EQ(Json::parse(lines[k])["t"], static_cast<double>(k) / 60);
 }
 
+// A spring of 1e9 N/m that is let go stretched is beyond what these engines follow at this step. A state that
+// is no number is no data: the run fails, and what is on stdout are numbers.
+TEST(Run, AStateThatIsNotFiniteIsAFailureAndNotData) {
+  const std::string scene = R"({"name": "stiff",
+    "bodies": [{"name": "left", "position": [0, 0], "mass": 1, "inertia": 1,
+                "shapes": [{"type": "circle", "radius": 0.1}]},
+               {"name": "right", "position": [1.5, 0], "mass": 1, "inertia": 1,
+                "shapes": [{"type": "circle", "radius": 0.1}]}],
+    "forces": [{"type": "spring", "body_a": "left", "body_b": "right", "stiffness": 1e9, "rest_length": 1}]})";
+  for (const std::string engine : {"bullet", "bullet-double"}) {
+    for (const std::string format : {"csv", "json"}) {
+      const Ran ran =
+          plumb({"run", "-", "--engine", engine, "--duration", "2", "--format", format}, {}, scene);
+      if (ran.err.find("not installed") != std::string::npos) continue;
+      EXPECT_EQ(ran.code, 1) << engine << ran.err;
+      EXPECT_NE(ran.err.find("not finite"), std::string::npos) << ran.err;
+      EXPECT_NE(ran.err.find("engine '" + engine + "'"), std::string::npos) << ran.err;
+      EXPECT_FALSE(ran.out.empty()) << "what came before is there";
+      for (const char* no_number : {"nan", "inf", "null"})
+        EXPECT_EQ(ran.out.find(no_number), std::string::npos) << engine << " writes " << no_number;
+    }
+  }
+}
+
 TEST(Run, TwiceGivesTheSameBits) {
   for (const char* engine : {"plumb", "plumb-float", "plumb-precise"}) {
     const std::vector<std::string> arguments = {"run", "pendulum_chain[5]", "--engine", engine};

@@ -105,7 +105,7 @@ TYPED_TEST(ValidExtremes, OfMotionAndMass) {
 TYPED_TEST(ValidExtremes, OfMovingThere) {
   BasicWorld<TypeParam> world;
   const BodyId lift = world.create_body({.type = BodyType::Kinematic}, ShapeDefinition{});
-  expect_refused(world, {"body", "angular_velocity", "5e+12"}, [&] {
+  expect_refused(world, {"body 0", "angular_velocity", "5e+12"}, [&] {
     world.move_towards(lift, {0.5, 0}, 5, 1e-12);
   });
 }

@@ -67,7 +67,7 @@ void add_world_calls(CallList<Real>& list) {
 template <class Real>
 void add_motion_calls(CallList<Real>& list) {
   using T = Things<Real>;
-  list.subject = "body";
+  list.subject = "body 'box'";
   list.vector(
       "velocity_at", "point", [](T& t, Vec2d v) { expect_finite(t.world.velocity_at(t.box, v)); }, kPlace);
   list.vector(
@@ -79,6 +79,7 @@ void add_motion_calls(CallList<Real>& list) {
   list.vector("set_velocity", "velocity", [](T& t, Vec2d v) { t.world.set_velocity(t.box, v); });
   list.number("set_angular_velocity", "angular_velocity", kAny,
               [](T& t, double x) { t.world.set_angular_velocity(t.box, x); });
+  list.subject = "body 1";
   list.vector("move_towards", "position", [](T& t, Vec2d v) { t.world.move_towards(t.lift, v, 0, 1); });
   list.number("move_towards", "angle", kAny, [](T& t, double x) { t.world.move_towards(t.lift, {}, x, 1); });
   list.number("move_towards", "dt", kPositive,
@@ -88,7 +89,7 @@ void add_motion_calls(CallList<Real>& list) {
 template <class Real>
 void add_force_calls(CallList<Real>& list) {
   using T = Things<Real>;
-  list.subject = "body";
+  list.subject = "body 'box'";
   list.vector("apply_force", "force", [](T& t, Vec2d v) { t.world.apply_force(t.box, v); });
   list.vector("apply_force", "force", [](T& t, Vec2d v) { t.world.apply_force(t.box, v, {}); });
   list.vector("apply_force", "point", [](T& t, Vec2d v) { t.world.apply_force(t.box, {1, 1}, v); });

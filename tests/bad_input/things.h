@@ -24,7 +24,7 @@ struct Things {
                                ShapeDefinition{.geometry = Box{20, 1}, .position = {0, -0.5}});
     lift = world.create_body({.type = BodyType::Kinematic, .position = {-4, 1}},
                              ShapeDefinition{.geometry = Box{1, 0.2}});
-    box = world.create_body({.position = {0, 1}, .velocity = {1, 0}});
+    box = world.create_body({.name = "box", .position = {0, 1}, .velocity = {1, 0}});
     shape = world.create_shape(box, {.geometry = Box{1, 1}});
     ball = world.create_body({.position = {2, 2}}, ShapeDefinition{.geometry = Circle{0.5}});
     sensor = world.create_shape(ground, {.geometry = Circle{1}, .position = {4, 0}, .sensor = true});

@@ -114,7 +114,7 @@ struct Place {
   Place() {
     ground = world.create_body({.type = BodyType::Static},
                                ShapeDefinition{.geometry = Box{20, 1}, .position = {0, -0.5}});
-    a = world.create_body({.position = {0, 1}, .velocity = {1, 0}});
+    a = world.create_body({.name = "crate", .position = {0, 1}, .velocity = {1, 0}});
     shape = world.create_shape(a, {.geometry = Box{1, 1}});
     b = world.create_body({.position = {2, 2}, .angular_velocity = 1},
                           ShapeDefinition{.geometry = Circle{0.5}});
@@ -213,7 +213,7 @@ TYPED_TEST(WorldDefinitions, OfMasses) {
                {"MassProperties.inertia", kInertia}});
   Tally tally;
   try_every_field<Real>(
-      MassProperties{}, "body", rules, tally,
+      MassProperties{}, "body 'crate'", rules, tally,
       [](Place<Real>& place, const MassProperties& each) { place.world.set_mass(place.a, each); });
   EXPECT_GT(tally.refused, 40);
 }
@@ -229,11 +229,11 @@ TYPED_TEST(WorldDefinitions, OfShapes) {
     const auto added = [](Place<Real>& place, const ShapeDefinition& each) {
       place.world.create_shape(place.a, each);
     };
-    try_every_field<Real>(good, "shape", rules, tally, added);
+    try_every_field<Real>(good, "shape of body 'crate'", rules, tally, added);
     const auto with_body = [](Place<Real>& place, const ShapeDefinition& each) {
-      place.world.create_body({.position = {5, 5}}, each);
+      place.world.create_body({.name = "one", .position = {5, 5}}, std::vector{ShapeDefinition{}, each});
     };
-    try_every_field<Real>(good, "shape", rules, tally, with_body);
+    try_every_field<Real>(good, "shape 1 of body 'one'", rules, tally, with_body);
   }
   rules.expect_all_used();
   EXPECT_GT(tally.refused, 500);
@@ -243,9 +243,9 @@ TYPED_TEST(WorldDefinitions, OfMaterials) {
   using Real = TypeParam;
   Rules rules(shape_rules());
   Tally tally;
-  try_every_field<Real>(Material{}, "shape", rules, tally, [](Place<Real>& place, const Material& each) {
-    place.world.set_material(place.shape, each);
-  });
+  try_every_field<Real>(
+      Material{}, "shape 1 of body 'crate'", rules, tally,
+      [](Place<Real>& place, const Material& each) { place.world.set_material(place.shape, each); });
   EXPECT_GT(tally.refused, 30);
 }
 
@@ -255,9 +255,10 @@ TYPED_TEST(WorldDefinitions, OfChains) {
   Tally tally;
   for (const bool closed : {false, true}) {
     const ChainDefinition good{.points = {{-5, 4}, {-4, 3}, {-3, 4.5}}, .closed = closed};
-    try_every_field<Real>(good, "chain", rules, tally, [](Place<Real>& place, const ChainDefinition& each) {
-      place.world.create_chain(place.ground, each);
-    });
+    try_every_field<Real>(good, "chain of body 0", rules, tally,
+                          [](Place<Real>& place, const ChainDefinition& each) {
+                            place.world.create_chain(place.ground, each);
+                          });
   }
   rules.expect_all_used();
   EXPECT_GT(tally.refused, 100);

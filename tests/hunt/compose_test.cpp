@@ -4,6 +4,7 @@
 
 #include "engine/scene/error.h"
 #include "engine/scene/validate.h"
+#include "harness/hunt/examine.h"
 #include "harness/hunt/idiom.h"
 #include "harness/hunt/subject.h"
 #include "harness/hunt/views.h"
@@ -49,6 +50,37 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
     EXPECT_EQ(read.scene, one.scene) << index;
     EXPECT_EQ(to_json(read), text) << index;
   }
+}
+
+// What a composer knows of a motion has a closed form, and Precise integrates it: neither knows of the other.
+TEST(Compose, PreciseMovesAsIsExpected) {
+  const Engine precise(reference::find_backend("plumb-precise")),
+      world(reference::find_backend("plumb-world"));
+  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse"}) {
+    int judged = 0;
+    for (std::uint64_t index = 0; index < 60; ++index) {
+      const Case one = compose(23, index, {&find_idiom(name)});
+      if (one.expectations.empty() || one.idioms.size() > 2) continue;
+      // Things that are done to bodies, and joints that break, are the World's alone.
+      const bool only_world = one.world_only() || std::string(name) == "fuse";
+      const Examined seen = examine(only_world ? world : precise, one, "expectation");
+      if (seen.skipped.empty()) ++judged;
+      for (const Objection& objection : seen.objections)
+        ADD_FAILURE() << name << " " << index << ": " << objection.judge << ": " << objection.what;
+    }
+    EXPECT_GE(judged, 10) << name;
+  }
+}
+
+TEST(Compose, WhatMassesMatterToIsNotOwedWithOthers) {
+  int odd = 0;
+  for (std::uint64_t index = 0; index < 300; ++index) {
+    const Case one = compose(29, index, {&find_idiom("pendulum")});
+    if (std::find(one.idioms.begin(), one.idioms.end(), "odd_mass") == one.idioms.end()) continue;
+    ++odd;
+    EXPECT_TRUE(one.expectations.empty());
+  }
+  EXPECT_GT(odd, 5);
 }
 
 TEST(Compose, EveryIdiomIsDrawn) {

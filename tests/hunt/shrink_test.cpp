@@ -33,6 +33,32 @@ TEST(Shrink, LeavesWhatIsNeededAlone) {
   EXPECT_EQ(smallest.steps, 1);
 }
 
+TEST(Shrink, WhatIsOwedWithItsMassesKeepsThemAndTheStep) {
+  Case one = with_bodies(2);
+  one.scene.joints.clear(), one.actions.clear();
+  one.dt = 0.01, one.scene.gravity = {0, -3}, one.scene.bodies.front().mass = 7;
+  const auto always = [](const Case& candidate) { return find_body(candidate.scene, "b0").has_value(); };
+  EXPECT_EQ(shrink(one, always).scene.bodies.front().mass, 1);
+  one.expectations = {
+      {.name = "falls", .body = "b0", .needs = {"b0", std::string(kMasses)}, .why = "it does"}};
+  const Case smallest = shrink(one, [&](const Case& candidate) { return !candidate.expectations.empty(); });
+  EXPECT_EQ(smallest.scene.bodies.front().mass, 7);
+  EXPECT_EQ(smallest.scene.gravity, (Vec2d{0, -3}));
+  EXPECT_EQ(smallest.dt, 0.01);
+}
+
+TEST(Shrink, WhatIsNeededOnlyLaterIsTakenAwayWhereItFailsBefore) {
+  Case one = with_bodies(6);
+  one.expectations = {{.name = "stays", .body = "b0", .until = {{"b3", 0.5}, {"b4", 1.5}}, .why = "it does"}};
+  // It is wrong from 1 s on.
+  const Case smallest = shrink(one, [](const Case& candidate) {
+    return !candidate.expectations.empty() && candidate.expectations.front().to >= 1;
+  });
+  ASSERT_EQ(smallest.scene.bodies.size(), 2u);
+  EXPECT_EQ(smallest.scene.bodies.back().name, "b3");
+  EXPECT_EQ(smallest.expectations.front().to, 1.5);
+}
+
 TEST(Shrink, WhatAnExpectationNeedsGoesWithIt) {
   Case one = with_bodies(6);
   one.expectations = {{.name = "stays", .body = "b0", .needs = {"b3"}, .why = "it does"}};

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Plants physics bugs in a copy of the engine, one at a time, and shows that tests catch each: those of
-agreement for what scenes show, the engine's own for Precise and for its real-time world.
+agreement for what scenes show, the engine's own for Precise and for its real-time world, and those of the harness
+for what judges them.
 
     mutate.py [--work DIR] [--only NAME]... [--compiler CXX] [-j N]
     mutate.py --features     plants those of features.py instead: one for each feature of the world
@@ -73,6 +74,7 @@ SUITES = {
     "realtime": (["test_simulation"], ["-L", "unit", "-R", "^simulation/(Watch|Substeps|Contacts|Impacts)"]),
     "world": (["test_collide", "test_joints", "test_solve", "test_world"],
               ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
+    "harness": (["test_harness", "test_sweep"], ["-L", "unit", "-R", "^(harness|sweep)/"]),
     "features": (["test_extremes", "test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
 }
 

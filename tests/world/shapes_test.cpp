@@ -151,7 +151,7 @@ TEST(Shapes, BadOnesAreRefusedAndChangeNothing) {
       ADD_FAILURE() << field;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), Error::Kind::Value);
-      EXPECT_EQ(error.subject(), "shape");
+      EXPECT_EQ(error.subject(), "shape of body 0");
       EXPECT_EQ(error.field(), field);
     }
   };

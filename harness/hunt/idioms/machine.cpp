@@ -3,13 +3,13 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A crank that drives something: gears, a piston, a pulley, a ratchet.
+// A crank that drives something: gears, a piston, a pulley, a ratchet, another crank.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
   const int first = draft.count();
   const Vec2d middle{0, draft.site.kind == Site::Kind::Air ? 0 : 6 * s};
-  const int kind = random.whole(0, 3);
+  const int kind = random.whole(0, 4);
   const double torque = draft.density * s * s * s * s * random.ladder(1, 100);
   if (kind == 0) {  // a slider crank
     const double crank = random.within(0.3, 0.7) * s, rod = random.within(0.8, 3) * s;
@@ -45,6 +45,20 @@ void build(Draft& draft) {
     auto& rope = draft.join<PulleyJoint>(a, b);
     rope.ground_a = middle + Vec2d{-s, 0}, rope.ground_b = middle + Vec2d{s, 0};
     rope.ratio = random.pick({1.0, 1.0, 2.0, 0.5});
+  } else if (kind == 3) {  // two cranks that a rod couples; equal ones pass through a line
+    const double crank = random.within(0.3, 0.8) * s, apart = random.within(1.5, 3) * s;
+    const double angle = random.within(-3, 3), rate = random.within(-8, 8);
+    const Vec2d along = direction(angle), next = middle + Vec2d{apart, 0};
+    const int a = draft.box(middle + 0.5 * crank * along, crank, 0.1 * s, angle);
+    const int b = draft.box(next + 0.5 * crank * along, crank, 0.1 * s, angle);
+    const int rod = draft.box(middle + crank * along + Vec2d{apart / 2, 0}, apart, 0.1 * s);
+    draft.revolute(-1, a, middle);
+    draft.revolute(-1, b, next);
+    draft.revolute(a, rod, middle + crank * along);
+    draft.revolute(b, rod, next + crank * along);
+    for (const int each : {a, b})
+      draft.body(each).angular_velocity = rate, draft.body(each).velocity = cross(rate, 0.5 * crank * along);
+    draft.body(rod).velocity = cross(rate, crank * along);
   } else {  // a wheel that turns one way
     const int wheel = draft.disc(middle, 0.5 * s);
     draft.revolute(-1, wheel, middle);
@@ -54,8 +68,10 @@ void build(Draft& draft) {
   draft.pass_each_other(first);
 }
 
-const Register r{
-    {.name = "machine", .title = "cranks, gears, pulleys and ratchets", .weight = 1, .build = build}};
+const Register r{{.name = "machine",
+                  .title = "cranks, linkages, gears, pulleys and ratchets",
+                  .weight = 1,
+                  .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

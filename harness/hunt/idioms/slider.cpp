@@ -39,9 +39,9 @@ void build(Draft& draft) {
   for (int i = 0; i < made; ++i) {
     const double reach =
         draft.body(i).shapes.size() > 1 ? draft.site.width : reach_of(draft.body(i).shapes.front().geometry);
-    if (draft.body(i).position.x + reach > from - 2 * s &&
-        draft.body(i).position.x - reach < from + way + 2 * s)
-      keeps.needs.push_back(draft.name(i));
+    const double first = draft.body(i).position.x - reach - 2 * s, last = first + 2 * (reach + 2 * s);
+    if (last > from && first < from) keeps.needs.push_back(draft.name(i));
+    if (first >= from && first < from + way) keeps.until[draft.name(i)] = (first - from) / speed;
   }
   keeps.needs.push_back(draft.name(made));
 }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/scene/subject.h"
+#include "engine/world/world_data.h"
+
+/// Errors of calls name the thing that the call is about.
+namespace plumb {
+
+/// Calls `check`; what it refuses is refused about `subject()`.
+template <class Subject, class Check>
+void naming(Subject&& subject, Check&& check) {
+  try {
+    check();
+  } catch (const Error& error) {
+    throw Error(error.kind(), subject(), error.field(), error.value(), error.problem(), error.line());
+  }
+}
+
+/// "body 'ball'", or "body 3" by its handle's index where it has no name.
+template <class Real>
+std::string body_subject(const WorldData<Real>& w, int body) {
+  return body_subject(static_cast<std::size_t>(body), w.uncommon_of(body).name);
+}
+
+template <class Real, class Check>
+void naming_body(const WorldData<Real>& w, int body, Check&& check) {
+  naming([&] { return body_subject(w, body); }, check);
+}
+
+/// "shape of body 'ball'"; `part` is what of the body it is about.
+template <class Real, class Check>
+void naming_part(const WorldData<Real>& w, const std::string& part, int body, Check&& check) {
+  naming([&] { return part + " of " + body_subject(w, body); }, check);
+}
+
+}  // namespace plumb
