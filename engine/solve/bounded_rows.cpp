@@ -11,10 +11,9 @@ namespace {
 // rows miss for it is taken back by refinement.
 constexpr double kSharing = 1e-10;
 constexpr int kRefinements = 2;
-// Of the largest speed: what rows may miss.
-constexpr double kExact = 1e-11;
-// Of the largest speed: by how much a row may be on the wrong side.
-constexpr double kSlack = 1e-9;
+// What rows may miss, and by how much they may be on the wrong side, relative to the row with the largest
+// energy v^2 / mobility: speeds of rows along lines and of angles have different units.
+constexpr double kExact = 1e-11, kSlack = 1e-9;
 // Block pivots: of systems that they end for, nine in ten need no more.
 constexpr int kPivots = 4;
 // Rounds of descent after that, the sweeps in each, and those at the end when rounds run out.
@@ -94,13 +93,14 @@ void BoundedRows::push(const BoundedRow& row, double impulse) {
 
 void BoundedRows::find_mobility() {
   mobility_.resize(rows.size());
-  speed_ = 0;
+  largest_ = 0;
   const int blocks = static_cast<int>(order_.sequence().size());
   block_first_.assign(blocks + 1, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const BoundedRow& row = rows[i];
     mobility_[i] = coupling(bodies, row, row);
-    speed_ = std::max({speed_, std::abs(along(row)), std::abs(row.wanted)});
+    const double speed = std::max(std::abs(along(row)), std::abs(row.wanted));
+    if (mobility_[i] > 0) largest_ = std::max(largest_, speed * speed / mobility_[i]);
     block_first_[row.block + 1] = static_cast<int>(i) + 1;
   }
   for (int block = 0; block < blocks; ++block)
@@ -161,6 +161,11 @@ double BoundedRows::residual(int i) const {
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 
+// Returns whether a row's speed is more than a share of the largest.
+bool BoundedRows::matters(int i, double speed, double share) const {
+  return speed * speed > share * share * largest_ * mobility_[i];
+}
+
 // The bodies' velocities with all impulses as they stand.
 void BoundedRows::apply_all() {
   std::copy(start_.begin(), start_.end(), bodies.begin());
@@ -179,12 +184,12 @@ void BoundedRows::find_free() {
   apply_all();
   x_.resize(free_.size());
   for (int refinement = 0; refinement <= kRefinements; ++refinement) {
-    double most = 0;
+    bool exact = true;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       x_[k] = residual(free_[k]);
-      most = std::max(most, std::abs(x_[k]));
+      exact = exact && !matters(free_[k], x_[k], kExact);
     }
-    if (most <= kExact * speed_) break;
+    if (exact) break;
     matrix_.solve(x_.data());
     for (std::size_t k = 0; k < free_.size(); ++k) {
       rows[free_[k]].impulse += x_[k];
@@ -196,17 +201,20 @@ void BoundedRows::find_free() {
 int BoundedRows::count_wrong() {
   int count = 0;
   wrong_.assign(rows.size(), 0);
-  const double slack = kSlack * speed_;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
     const BoundedRow& row = rows[i];
     int to = -1;
     if (row.state == BoundedRow::kFree) {
-      if ((row.lower - row.impulse) * mobility_[i] > slack) to = BoundedRow::kLower;
-      if ((row.impulse - row.upper) * mobility_[i] > slack) to = BoundedRow::kUpper;
+      if (row.impulse < row.lower && matters(i, (row.lower - row.impulse) * mobility_[i], kSlack))
+        to = BoundedRow::kLower;
+      if (row.impulse > row.upper && matters(i, (row.impulse - row.upper) * mobility_[i], kSlack))
+        to = BoundedRow::kUpper;
     } else if (row.lower < row.upper) {
       const double missing = residual(i);
-      if (row.state == BoundedRow::kLower && missing > slack) to = BoundedRow::kFree;
-      if (row.state == BoundedRow::kUpper && missing < -slack) to = BoundedRow::kFree;
+      if (row.state == BoundedRow::kLower && missing > 0 && matters(i, missing, kSlack))
+        to = BoundedRow::kFree;
+      if (row.state == BoundedRow::kUpper && missing < 0 && matters(i, missing, kSlack))
+        to = BoundedRow::kFree;
     }
     if (to < 0) continue;
     wrong_[i] = static_cast<std::int8_t>(to + 1);

@@ -87,6 +87,7 @@ class BoundedRows {
   void find_free();
   void apply_all();
   double residual(int row) const;
+  bool matters(int row, double speed, double share) const;
   int count_wrong();
   bool pivot();
   void descend();
@@ -112,7 +113,7 @@ class BoundedRows {
   std::pmr::vector<int> first_;
   std::pmr::vector<double> x_, best_;
   std::pmr::vector<std::int8_t> wrong_;  // 0, or the state to go to + 1
-  double speed_ = 0;                     // m/s, the largest that matters
+  double largest_ = 0;                   // J, the largest v^2 / mobility of a row
 };
 
 }  // namespace plumb

@@ -298,10 +298,11 @@ template <class Real>
 void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   RowMaker<Real>(w, island, step, Stage::Close).make();
   BoundedRows& system = island.system;
+  const bool direct = w.settings.solver == Solver::Direct;
+  const double joint_share = direct ? tuning::kDirectJointShare : tuning::kJointShare;
   for (std::size_t i = 0; i < system.rows.size(); ++i)
-    system.rows[i].gap *=
-        static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : tuning::kJointShare;
-  system.correct(tuning::kCloseSoftness);
+    system.rows[i].gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
+  system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
   double most = 0;
   for (const BoundedRows::Shift& s : system.shifts) most = std::max(most, std::abs(s.turn));
   const double share = most > tuning::kLinkTurn ? tuning::kLinkTurn / most : 1;

@@ -103,7 +103,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, false);
     relax_contacts(bodies.motion, w.graph, contacts);
-    relax_jointed_islands(w, contacts, substep + 1 == substeps);
+    relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
     hold_again(w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }

@@ -193,7 +193,7 @@ MUTATIONS = [
     Mutation("world: continuous collision slows what it stops", "engine/world/continuous.cpp",
              "flight.stop(fraction);",
              "w.motion[flight.body].velocity *= static_cast<Real>(fraction); flight.stop(fraction);", "world"),
-    Mutation("world: continuous collision leaves out what has a contact", "engine/world/continuous.cpp",
+    Mutation("world: continuous collision leaves out what has a contact", "engine/world/meetings.h",
              "note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);",
              "if (contact.home != ContactHome::Graph) note_meeting(w, way, {shape, other}, first);", "world",
              ("world/continuous",)),

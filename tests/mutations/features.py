@@ -168,7 +168,7 @@ FEATURES = [
     feature("Soft steps", WORLD + "soft_step.cpp", "relax_contacts(bodies.motion, w.graph, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "soft_step.cpp",
-            "prepare_direct_islands(w, joints);", "", "world/resting", "world/world"),
+            "prepare_direct_islands(w);", "", "world/resting", "world/world"),
     feature("Sequential impulses", WORLD + "sequential_impulses.cpp",
             "sweep < w.settings.iterations", "sweep < 1", "world/solvers",
             "world/sequential_impulses"),
@@ -179,8 +179,9 @@ FEATURES = [
     feature("Mechanisms of hinges (pendulums, chains, levers, trees)", SOLVE + "hinge_tree.cpp",
             "constexpr double kClosed = 1e-11;", "constexpr double kClosed = 1e-5;", "world/hinge_trees"),
     feature("Direct solve of articulated islands", WORLD + "direct_islands.cpp",
-            "if (w.settings.solver != Solver::Direct || w.scratch.direct_count == 0) return;",
-            "if (w.scratch.direct_count >= 0) return;", "world/direct_solver"),
+            "(!alike || w.settings.solver == Solver::Direct)", "!alike", "world/direct_solver"),
+    feature("Jointed islands of unlike masses", WORLD + "direct_islands.cpp",
+            "(!alike || w.settings.solver == Solver::Direct)", "w.settings.solver == Solver::Direct", "world/mechanisms"),
 
     # Ground rules.
     feature("Scenes are one way in", WORLD + "add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",

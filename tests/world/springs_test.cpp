@@ -228,8 +228,8 @@ TEST(Springs, OfHingesOnLightBodiesComeToRest) {
       DoubleWorld world(definition);
       const SceneParts parts = add_scene(world, scene);
       for (int i = 0; i < 240; ++i) world.step();
-      // XPBD's projections do not quite keep the angular momentum.
-      const double near = solver == Solver::Xpbd ? 3e-3 : 2e-4;
+      // Projections of positions do not quite keep the angular momentum: the arms change, the velocities not.
+      const double near = solver == Solver::Xpbd ? 3e-3 : solver == Solver::Direct ? 1e-3 : 2e-4;
       for (std::size_t i = 0; i < 2; ++i)
         EXPECT_NEAR(world.angle(parts.bodies[i]), precise.state(i).angle, near)
             << hertz << " " << name_of(solver);
