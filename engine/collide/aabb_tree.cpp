@@ -18,8 +18,8 @@ void AabbTree<Real>::place(int leaf, const Aabb<Real>& box) {
   insert(leaf);
 }
 
-/// Walks down to where joining `box` costs least: a node's cost is the half perimeter that it adds there and
-/// to all nodes above.
+/// Descends to the node whose pairing with `box` costs least: the half perimeter added to it and to all nodes
+/// above.
 template <class Real>
 int AabbTree<Real>::best_sibling(const Aabb<Real>& box) const {
   int index = root_;
@@ -94,7 +94,8 @@ void AabbTree<Real>::refit_upwards(int index) {
   }
 }
 
-/// Swaps a child with a grandchild on the other side where that shrinks the other child most.
+/// Swaps a child with a child of its sibling if that shrinks the sibling; picks the swap that shrinks it
+/// most.
 template <class Real>
 void AabbTree<Real>::rotate(int index) {
   int best_child = kNone, best_grandchild = kNone;

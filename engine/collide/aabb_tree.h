@@ -7,13 +7,13 @@
 
 namespace plumb {
 
-/// A binary tree of boxes: each node's box surrounds its children's. Leaves are named by their caller.
-/// Insertion follows the surface-area heuristic (Goldsmith and Salmon, 1987) and rotates nodes on the way
-/// back up (Kopta et al., 2012), so that queries stay near logarithmic.
+/// A binary tree of boxes: each node's box surrounds its children's. The caller numbers the leaves. Insertion
+/// follows the surface-area heuristic (Goldsmith and Salmon, 1987) and rotates nodes on the way back up
+/// (Kopta et al., 2012), so that queries stay near logarithmic.
 template <class Real>
 class AabbTree {
  public:
-  /// Makes room for leaves 0 .. count - 1; none is in the tree yet.
+  /// Reserves leaves 0 .. count - 1; none is in the tree yet.
   explicit AabbTree(int count = 0);
 
   /// Puts `leaf` into the tree with `box`, or moves it there.
@@ -42,10 +42,10 @@ class AabbTree {
     }
   }
 
-  /// The longest way from the root to a leaf, in nodes.
+  /// Returns the longest path from the root to a leaf, in nodes.
   int height() const;
 
-  /// Whether every node's box surrounds its children's exactly and all links agree.
+  /// Returns true if every node's box surrounds its children's exactly and all links agree.
   bool valid() const;
 
  private:

@@ -6,7 +6,7 @@
 namespace plumb {
 namespace {
 
-/// The face of one box that looks at the other: separating axes tried on that box alone.
+/// The face of one box that faces the other, found by testing the separating axes of that box alone.
 template <class Real>
 struct Face {
   int axis = 0;         // 0: the box's x, 1: its y
@@ -14,13 +14,13 @@ struct Face {
   Real separation = 0;  // m
 };
 
-/// The face of `box` that `other` is farthest out of. For two boxes the greatest over both boxes is the
-/// greatest over all axes.
+/// Returns the face of `box` with the greatest separation from `other`. The greater of both boxes' results is
+/// the greatest over all axes.
 template <class Real>
 Face<Real> best_face(const SolidShape<Real>& box, const Placement<Real>& at, const SolidShape<Real>& other,
                      const Placement<Real>& at_other) {
   const Vec2<Real> between = at.rotation.inverse() * (at_other.center - at.center);
-  // The other's half extents seen along this box's axes.
+  // The other's half extents projected onto this box's axes.
   const Real c = std::abs(at.rotation.c * at_other.rotation.c + at.rotation.s * at_other.rotation.s);
   const Real s = std::abs(at.rotation.c * at_other.rotation.s - at.rotation.s * at_other.rotation.c);
   const Vec2<Real> seen{c * other.half.x + s * other.half.y, s * other.half.x + c * other.half.y};
@@ -37,7 +37,7 @@ struct Corner {
   std::uint32_t feature = 0;
 };
 
-/// Cuts the edge at sign * along = limit; what lies beyond is dropped. Returns false when nothing is left.
+/// Clips the edge at sign * along = limit. Returns false when nothing is left.
 template <class Real>
 bool clip(Corner<Real> (&edge)[2], Real sign, Real limit, std::uint32_t mark) {
   const Real beyond[2] = {sign * edge[0].along - limit, sign * edge[1].along - limit};
@@ -63,7 +63,7 @@ Manifold<Real> clip_to_face(const SolidShape<Real>& box, const Placement<Real>& 
   const Real half_out = face.axis == 0 ? box.half.x : box.half.y;
   const Real half_along = face.axis == 0 ? box.half.y : box.half.x;
 
-  // The other's edge that faces back most directly.
+  // The other's edge that faces most directly against the normal.
   const Vec2<Real> n = at_other.rotation.inverse() * normal;
   const int other_axis = std::abs(n.x) > std::abs(n.y) ? 0 : 1;
   const Real other_side = (other_axis == 0 ? n.x : n.y) > 0 ? Real{-1} : Real{1};
@@ -98,7 +98,7 @@ Manifold<Real> collide_boxes(const SolidShape<Real>& a, const Placement<Real>& a
   const Face<Real> of_a = best_face(a, at_a, b, at_b);
   const Face<Real> of_b = best_face(b, at_b, a, at_a);
   if (of_a.separation > reach || of_b.separation > reach) return {};
-  // Faces that are nearly parallel compete: b must win clearly, so that rounding does not swap them.
+  // Prefer a's face among nearly parallel ones: b must win clearly, so that rounding does not swap them.
   constexpr Real kPreference = Real(1e-3);
   const Real clearly = kPreference * std::fmin(std::fmin(a.half.x, a.half.y), std::fmin(b.half.x, b.half.y));
   if (of_b.separation <= of_a.separation + clearly) return clip_to_face(a, at_a, of_a, b, at_b, reach);

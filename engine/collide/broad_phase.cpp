@@ -6,7 +6,7 @@ template <class Real>
 bool BroadPhase<Real>::place(int shape, const Aabb<Real>& swept, Real margin) {
   const Aabb<Real> wanted = swept.grown(margin);
   const Aabb<Real>& stored = tree_.box(shape);
-  // A box that a fast motion has left behind would find pairs that are far away.
+  // A long box left over from a fast motion would find pairs that are far away.
   constexpr Real kNeedlesslyLarge = 2;
   if (holds(shape) && stored.contains(swept) &&
       stored.half_perimeter() <= kNeedlesslyLarge * wanted.half_perimeter())

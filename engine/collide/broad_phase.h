@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-/// Two shapes by index, the smaller one first; ordered by it.
+/// Two shapes by index, the smaller index in the upper half; keys sort by it.
 using PairKey = std::uint64_t;
 
 constexpr PairKey pair_key(int a, int b) {
@@ -18,29 +18,29 @@ constexpr PairKey pair_key(int a, int b) {
 constexpr int first_of(PairKey key) { return static_cast<int>(key >> 32); }
 constexpr int second_of(PairKey key) { return static_cast<int>(key & 0xFFFFFFFFu); }
 
-/// Finds the pairs of shapes whose boxes overlap. A shape's stored box is larger than asked for, so that it
-/// is looked at again only after it has moved out of it. Which pairs overlap depends on the stored boxes
-/// alone, not on the tree, so that saving the boxes is enough.
+/// Finds the pairs of shapes whose boxes overlap. Stores fat AABBs, so that a shape is queried again only
+/// after it has left its stored box. The pairs found depend on the stored boxes alone, not on the tree, so
+/// that saving the boxes suffices.
 template <class Real>
 class BroadPhase {
  public:
   explicit BroadPhase(int shapes = 0) : tree_(shapes), moved_flag_(shapes, false) {}
 
-  /// Says that `shape` stays inside `swept` until the next search. Its stored box is kept where it surrounds
-  /// that and is not needlessly large; otherwise it becomes `swept` grown by `margin`. Returns whether it
+  /// Declares that `shape` stays inside `swept` until the next search. Keeps its stored box if that contains
+  /// `swept` and is not needlessly large; otherwise stores `swept` grown by `margin`. Returns true if the box
   /// changed.
   bool place(int shape, const Aabb<Real>& swept, Real margin);
 
-  /// Stores exactly this box (when a snapshot is read back).
+  /// Stores exactly this box (when a snapshot is restored).
   void put(int shape, const Aabb<Real>& box);
 
-  /// Whether the shape has been placed at all.
+  /// Returns true if the shape has been placed.
   bool holds(int shape) const { return tree_.holds(shape); }
   const Aabb<Real>& box(int shape) const { return tree_.box(shape); }
   bool overlap(PairKey pair) const { return box(first_of(pair)).overlaps(box(second_of(pair))); }
 
-  /// Appends each pair of a shape placed anew since the last search with one that its box overlaps, where
-  /// `may_pair(shape, shape)`. Sorted, without repetition; pairs that were there before are among them.
+  /// Appends each overlapping pair of a shape placed since the last search with any other, if
+  /// `may_pair(shape, shape)`. Sorted, without repetition; includes pairs found earlier.
   template <class MayPair>
   void search(MayPair&& may_pair, std::vector<PairKey>& out);
 
@@ -55,7 +55,7 @@ template <class MayPair>
 void BroadPhase<Real>::search(MayPair&& may_pair, std::vector<PairKey>& out) {
   for (const int shape : moved_) {
     tree_.query(tree_.box(shape), [&](int other) {
-      if (other == shape || (moved_flag_[other] && other < shape)) return;  // found from the other side
+      if (other == shape || (moved_flag_[other] && other < shape)) return;  // found from the other shape
       if (may_pair(shape, other)) out.push_back(pair_key(shape, other));
     });
   }

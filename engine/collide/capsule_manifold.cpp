@@ -7,11 +7,11 @@ namespace {
 template <class Real>
 struct Axis {
   Vec2<Real> ends[2];
-  Vec2<Real> normal;  // to the right of the way from the first end to the second
+  Vec2<Real> normal;  // to the right of the direction from the first end to the second
   Real length;
 };
 
-/// An end of one axis, seen from the other one.
+/// An end of one axis relative to the other one.
 template <class Real>
 struct End {
   Real along, height;  // m, from the other's first end: along the axis, and along its normal
@@ -31,7 +31,7 @@ bool beside(const Axis<Real>& axis, const End<Real>& end) {
   return end.along >= 0 && end.along <= axis.length;
 }
 
-/// The side of an axis on which two ends are less deep, and how deep the deeper is there.
+/// The side of an axis on which two ends are less deep, and the separation of the deeper one there.
 template <class Real>
 struct Side {
   bool right;       // of the axis: along its normal
@@ -52,7 +52,7 @@ ContactManifold<Real> clip_axes(const Axis<Real>& reference, bool right, const A
   const int r = right ? 0 : 1;
   FacingEdges<Real> edges;
   edges.normal = right ? reference.normal : -reference.normal;
-  // The other's edge that looks back: on its right when its normal points against the reference's.
+  // The other's edge that faces the reference: its right side when its normal points against the reference's.
   const int i = dot(edges.normal, other.normal) <= 0 ? 0 : 1;
   for (int end = 0; end < 2; ++end) {
     edges.reference_id[end] = end ^ r, edges.incident_id[end] = end ^ i;
@@ -115,7 +115,7 @@ ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>
   const ContactManifold<Real> out = use_b ? clip_axes(s, right, p, true, b.radius, a.radius, reach, origin)
                                           : clip_axes(p, right, s, false, a.radius, b.radius, reach, origin);
   if (out.count > 0 || square > rounding * rounding) return out;
-  // Ends that meet in one line: the axes miss each other by a rounding.
+  // Collinear axes end to end: the clipped axes miss each other by a rounding.
   const int end_a = of_b[nearest_b].along < p.length / 2 ? 0 : 1;
   return single_point(origin + p.ends[end_a], right ? p.normal : -p.normal, Real(0), a.radius, b.radius,
                       reach, corner_pair(end_a, nearest_b));

@@ -4,22 +4,22 @@ namespace plumb {
 namespace narrow {
 namespace {
 
-/// Bends below this, in rad, do not count: a curve of short segments is as smooth as a line.
+/// Bends below this, in rad, are ignored: a curve of short segments is as smooth as a line.
 constexpr double kFlat = 0.01;
 
-/// Minus the sine of the slope, 45 degrees, from which a normal points into the ground.
+/// Minus the sine of 45 degrees: steeper normals point into the ground.
 template <class Real>
 constexpr Real kInto = Real(0.70710678118654752);
 
-/// How the chain goes on at one end of a segment.
+/// The chain's continuation at one end of a segment.
 template <class Real>
 struct Neighbour {
-  bool open;            // it does not: the end is a corner
+  bool open;            // no neighbour: the end is a corner
   bool convex;          // it bends away from the front
   Vec2<Real> normal{};  // the neighbour's
 };
 
-/// `corner` is the shared vertex and `other` the neighbour's far one; `first` says at which end.
+/// `corner` is the shared vertex and `other` the neighbour's far one; `first`: at the segment's first end.
 template <class Real>
 Neighbour<Real> neighbour(Vec2<Real> corner, Vec2<Real> other, Vec2<Real> normal, bool first) {
   const Vec2<Real> way = first ? corner - other : other - corner;
@@ -30,14 +30,14 @@ Neighbour<Real> neighbour(Vec2<Real> corner, Vec2<Real> other, Vec2<Real> normal
   return {false, bend > Real(kFlat), own};
 }
 
-/// Which normals belong to a segment: its own, and at an end that bends away from the front those between its
-/// own and the neighbour's.
+/// Admits the normals that belong to a segment: its own, and at an end that bends away from the front those
+/// between its own and the neighbour's.
 template <class Real>
 struct AdmitOwn {
   static constexpr bool kOpen = false;
   Vec2<Real> tangent;
   Neighbour<Real> before, after;
-  Real slack;  // m, for rounding: no gap between segments that touch nothing else
+  Real slack;  // m, against rounding: no gap between segments
 
   Normal operator()(Vec2<Real> normal) const {
     const bool at_first = dot(normal, tangent) < 0;
@@ -46,7 +46,7 @@ struct AdmitOwn {
     if (!end.convex) return Normal::Snap;
     const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
     if (inside >= -Real(kFlat)) return Normal::Admit;
-    // Into the ground rather than along it: what has sunk in so deep is this segment's to lift.
+    // Into the ground rather than along it: this segment must push out so deep a penetration.
     return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
   }
   void widen(FacingEdges<Real>& edges) const {
@@ -60,8 +60,8 @@ Real taxicab(Vec2<Real> v) {
   return std::fabs(v.x) + std::fabs(v.y);
 }
 
-/// A disc touches the segment that its centre is beside, or a corner between its two segments. The same
-/// products are compared for both segments of a corner, so that none falls between.
+/// A disc touches the segment beside its centre, or a corner between two segments. Both segments of a corner
+/// compare the same products, so that no disc falls between.
 template <class Real>
 ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
                                            Vec2<Real> center, Real radius, Real reach) {
@@ -76,7 +76,7 @@ ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Rea
     return single_point(foot, normal, height, segment.radius, radius, reach, 0);
   }
   const Vec2<Real> corner = short_of ? first : second, offset = center - corner;
-  // Beside the neighbour: its touching.
+  // The centre is beside the neighbour, which has the contact.
   if (short_of && before != first && dot(offset, first - before) <= 0) return {};
   if (beyond && after != second && dot(offset, after - second) >= 0) return {};
   const Real distance = std::sqrt(length_squared(offset));
@@ -104,7 +104,7 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
   hull_a.edges = 1;
   place<0>(hull_b, b, b_in_a.rotation, b_in_a.position - first);
 
-  // Only what stands in front is touched.
+  // Only shapes in front are touched.
   Vec2<Real> sum{};
   for (int i = 0; i < hull_b.count; ++i) sum += hull_b.point(i);
   if (dot(normal, sum) < 0) return {};

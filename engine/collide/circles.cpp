@@ -10,7 +10,7 @@ Manifold<Real> collide_circles(const SolidShape<Real>& a, const Placement<Real>&
   const Vec2<Real> between = at_b.center - at_a.center;
   const Real distance = std::sqrt(length_squared(between));
   Manifold<Real> out;
-  // Centres that coincide leave the direction open: up.
+  // Coinciding centres give no direction: use up.
   out.normal = distance > 0 ? Vec2<Real>{between.x / distance, between.y / distance} : Vec2<Real>{0, 1};
   out.count = 1;
   out.points[0] = {at_a.center + a.radius * out.normal, at_b.center - b.radius * out.normal,

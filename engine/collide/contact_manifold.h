@@ -7,12 +7,12 @@
 
 namespace plumb {
 
-/// Where shape b touches shape a, or will touch it first, in the frame of a's body.
+/// A contact point of shapes a and b, or the place of their first contact, in the frame of a's body.
 template <class Real>
 struct ContactManifoldPoint {
   Vec2<Real> point{};         ///< m, half-way between the two surfaces
   Real separation = 0;        ///< m, negative where they overlap
-  std::uint16_t feature = 0;  ///< which corner or edge met which: the same while the touching goes on
+  std::uint16_t feature = 0;  ///< the corners or edges in contact: the same while the contact persists
 };
 
 /// Up to two points with one normal.
@@ -23,16 +23,16 @@ struct ContactManifold {
   ContactManifoldPoint<Real> points[2];
 };
 
-/// The manifold of two rounded convex shapes. The corners of `a` stand in the frame of a's body, those of `b`
-/// in the frame of b's body, which lies at `b_in_a`. Points farther apart than `reach` (m, >= 0) are left
-/// out.
+/// Computes the manifold of two rounded convex shapes. The corners of `a` are in the frame of a's body, those
+/// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `reach` (m, >= 0)
+/// are left out.
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                      Real reach);
 
-/// The same for one segment of a chain, which has a front only: to the right of the way from its first
-/// corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame. What
-/// slides along the chain meets no seam: normals that belong to a neighbour are left to it.
+/// The same for one chain segment, which has a front only: the right side of the direction from its first
+/// corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame.
+/// Sliding along the chain has no internal edges: normals that belong to a neighbour are left to it.
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
                                             const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach);

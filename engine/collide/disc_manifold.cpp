@@ -3,7 +3,7 @@
 namespace plumb::narrow {
 namespace {
 
-/// From a point of a's hull to the disc's centre `offset` away; `fallback` is the direction when they
+/// Manifold from a point of a's hull to the disc's centre, `offset` away; `fallback` is the direction if they
 /// coincide.
 template <class Real>
 ContactManifold<Real> toward_disc(Vec2<Real> on_a, Vec2<Real> offset, Vec2<Real> fallback, Real radius_a,
@@ -26,7 +26,7 @@ ContactManifold<Real> collide_capsule_disc(const Convex<Real>& a, Vec2<Real> cen
   if (x < 0) return toward_disc(first, offset, normal, a.radius, radius, reach);
   if (x > length)
     return toward_disc(a.corners[1].point, center - a.corners[1].point, normal, a.radius, radius, reach);
-  // Beside the axis the direction is the edge's own, without the rounding of a division.
+  // Beside the axis the normal is the edge's own, without the rounding of a division.
   const Real height = dot(normal, offset);
   const Vec2<Real> side = height < 0 ? -normal : normal;
   return single_point(first + x * tangent, side, std::fabs(height), a.radius, radius, reach, 0);
@@ -35,8 +35,8 @@ ContactManifold<Real> collide_capsule_disc(const Convex<Real>& a, Vec2<Real> cen
 template <class Real>
 ContactManifold<Real> collide_polygon_disc(const Convex<Real>& a, Vec2<Real> center, Real radius,
                                            Real reach) {
-  // The edge that the centre is farthest out of: nearest of all when the centre is inside, and next to the
-  // nearest corner when that is nearer than any edge.
+  // The edge of greatest separation from the centre: the nearest of all if the centre is inside, and
+  // otherwise next to the nearest corner if that is nearer than any edge.
   const Real limit = reach + a.radius + radius;
   Real height = -std::numeric_limits<Real>::max();
   int edge = 0;

@@ -13,7 +13,7 @@ Real joint_half_perimeter(const Aabb<Real>& a, const Aabb<Real>& b) {
   return merged(a, b).half_perimeter();
 }
 
-/// Four times the squared distance between the centres.
+/// Returns four times the squared distance between the centres.
 template <class Real>
 Real distance_squared(const Aabb<Real>& a, const Aabb<Real>& b) {
   return length_squared((a.lower + a.upper) - (b.lower + b.upper));
@@ -46,7 +46,7 @@ void DynamicTree<Real>::remove(int proxy) {
 
 template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
-  const Aabb<Real> wanted = box;  // which may be another leaf's, that moves when this one is taken out
+  const Aabb<Real> wanted = box;  // a copy: `box` may be another leaf's, which moves when this one is removed
   Node leaf = take_leaf(proxy);
   leaf.box = boxes_[proxy] = wanted;
   insert_leaf(leaf);
@@ -67,7 +67,7 @@ void DynamicTree<Real>::enlarge(int proxy, const Aabb<Real>& box) {
       above.tag = 1;
       ++marks_;
     } else if (above.box.contains(box)) {
-      // What is above a marked node is marked, and contains it.
+      // All nodes above a marked node are marked, and contain it.
       return;
     }
     above.box = merged(above.box, box);
@@ -102,7 +102,7 @@ void DynamicTree<Real>::clear() {
 
 template <class Real>
 void DynamicTree<Real>::reserve(int leaves) {
-  const std::size_t count = static_cast<std::size_t>(std::max(leaves, 0)) + 1;  // pair 0 holds none
+  const std::size_t count = static_cast<std::size_t>(std::max(leaves, 0)) + 1;  // pair 0 holds the root alone
   pairs_.reserve(count);
   slots_.reserve(count);
   boxes_.reserve(count);
@@ -119,11 +119,11 @@ void DynamicTree<Real>::make_room(std::size_t more) {
   const std::size_t proxies = slots_.size() + more - std::min(more, free_proxies_.size());
   ensure_room(slots_, proxies), ensure_room(boxes_, proxies), ensure_room(free_proxies_, proxies);
   const std::size_t pairs =
-      pairs_.size() + 1 + more - std::min(more, free_pairs_.size());  // pair 0 holds none
+      pairs_.size() + 1 + more - std::min(more, free_pairs_.size());  // pair 0 holds the root alone
   ensure_room(pairs_, pairs), ensure_room(free_pairs_, pairs);
 }
 
-/// Tells a node's children, or its proxy, where it is.
+/// Updates the links of a node's children, or of its proxy, to its slot.
 template <class Real>
 void DynamicTree<Real>::adopt(int slot) {
   const Node& here = node(slot);
@@ -152,7 +152,7 @@ template <class Real>
 int DynamicTree<Real>::new_pair() {
   if (free_pairs_.empty()) {
     append(pairs_, Pair{});
-    ensure_room(free_pairs_, pairs_.size());  // so that taking a leaf out allocates nothing
+    ensure_room(free_pairs_, pairs_.size());  // so that removing a leaf allocates nothing
     return static_cast<int>(pairs_.size()) - 1;
   }
   const int pair = free_pairs_.back();
@@ -166,7 +166,7 @@ void DynamicTree<Real>::free_pair(int pair) {
   free_pairs_.push_back(pair);
 }
 
-/// An inner node's box, categories and mark from its children's. Whether that changed any of them.
+/// Updates an inner node's box, categories and mark from its children's. Returns true if any of them changed.
 template <class Real>
 bool DynamicTree<Real>::update(int slot) {
   Node& here = node(slot);
@@ -182,9 +182,9 @@ bool DynamicTree<Real>::update(int slot) {
   return !same;
 }
 
-/// The node that costs least to pair with a leaf of `box`: the half perimeter of the new parent, and what the
-/// nodes above it grow. Goes down one way, as long as something below may still be cheaper (branch and bound
-/// after Bittner, Hapala and Havran 2013, without going back).
+/// Finds the node that is cheapest to pair with a leaf of `box`: the cost is the half perimeter of the new
+/// parent plus the growth of the nodes above it. Descends one path, as long as a node below may still be
+/// cheaper (branch and bound after Bittner, Hapala and Havran 2013, without backtracking).
 template <class Real>
 int DynamicTree<Real>::best_sibling(const Aabb<Real>& box, std::uint32_t ties) const {
   const Real least = box.half_perimeter();
@@ -206,7 +206,7 @@ int DynamicTree<Real>::best_sibling(const Aabb<Real>& box, std::uint32_t ties) c
     if (bound[0] == bound[1]) {
       const Real to_first = distance_squared(children[0].box, box);
       const Real to_second = distance_squared(children[1].box, box);
-      // Equal boxes would grow a chain: the side is drawn, so that the height stays logarithmic.
+      // Equal boxes would grow a chain: a pseudo-random side keeps the height logarithmic.
       ties = ties * 1664525u + 1013904223u;
       next = to_first == to_second ? static_cast<int>(ties >> 31) : static_cast<int>(to_second < to_first);
     }
@@ -240,7 +240,7 @@ void DynamicTree<Real>::insert_leaf(const Node& leaf) {
   joint.link = pair;
   joint.tag = 0;
   adopt(top);
-  // A rotation looks at three levels of boxes: where none of them changed, there is none, nor further up.
+  // A rotation involves three levels of boxes: once three in a row are unchanged, none above can rotate.
   for (int slot = top, unchanged = 0; slot != kNone && unchanged < 3; slot = node(slot).parent) {
     unchanged = update(slot) ? 0 : unchanged + 1;
     if (rotate(slot)) unchanged = 0;
@@ -263,7 +263,8 @@ typename DynamicTree<Real>::Node DynamicTree<Real>::take_leaf(int proxy) {
   return leaf;
 }
 
-/// Exchanges a child with a child of its sibling where that makes the sibling smallest.
+/// Exchanges a child with a child of its sibling if that shrinks the sibling; picks the exchange that saves
+/// most.
 template <class Real>
 bool DynamicTree<Real>::rotate(int slot) {
   const int pair = first(node(slot).link);

@@ -5,13 +5,13 @@
 #include "engine/collide/dynamic_tree.h"
 #include "engine/scene/bytes.h"
 
-// What looks at every node: measures, the check of all links, and snapshots, which rely on that check.
+// Functions that visit every node: measures, the check of all links, and snapshots, which rely on it.
 
 namespace plumb {
 
 namespace {
 
-/// Whether `free` lists each number that is not in use once, and nothing else.
+/// Returns true if `free` lists each unused number once, and nothing else.
 bool lists_the_rest(const std::vector<int>& free, std::vector<bool>& used) {
   for (const int each : free) {
     if (each < 0 || static_cast<std::size_t>(each) >= used.size() || used[each]) return false;
@@ -20,7 +20,8 @@ bool lists_the_rest(const std::vector<int>& free, std::vector<bool>& used) {
   return std::find(used.begin(), used.end(), false) == used.end();
 }
 
-/// Whether it may have been counted: no run gets further, and there is room to double it.
+/// Returns true if the number is a plausible count: no run reaches a quarter of the range, and doubling it
+/// cannot overflow.
 bool is_count(std::int64_t count) {
   return count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 4;
 }
@@ -61,7 +62,7 @@ double DynamicTree<Real>::cost() const {
   return sum / static_cast<double>(node(kRoot).box.half_perimeter());
 }
 
-/// Of an inner node: whether it is what its children make of it, and they know where it is.
+/// Returns true if an inner node agrees with its children, and they link back to it.
 template <class Real>
 bool DynamicTree<Real>::inner_is_sound(int slot) const {
   const Node& here = node(slot);
@@ -106,7 +107,7 @@ bool DynamicTree<Real>::valid() const {
       ++leaves;
       continue;
     }
-    // No pair is reached twice: so this comes to an end whatever the links are.
+    // No pair is visited twice: the loop ends whatever the links are.
     if (!inner_is_sound(slot) || pair_used[here.link]) return false;
     pair_used[here.link] = true;
     open.push_back(first(here.link));
@@ -148,7 +149,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
     copy.boxes_.push_back(known ? copy.node(slot).box : Aabb<Real>{});
   }
   ByteReader::require(copy.valid(), "tree of boxes", "is damaged");
-  // Copies, so that the room of this tree stays and later steps allocate nothing.
+  // Copies, so that this tree keeps its capacity and later steps allocate nothing.
   size_ = copy.size_;
   enlargements_ = copy.enlargements_;
   marks_ = copy.marks_;

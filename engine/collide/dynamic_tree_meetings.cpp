@@ -5,16 +5,16 @@ namespace plumb {
 template <class Real>
 bool DynamicTree<Real>::mark_meetings(std::vector<char>& meets, int most) const {
   meets.assign(slots_.size(), 0);
-  // Two subtrees that may have leaves that meet.
+  // Two subtrees whose leaves may overlap.
   struct Both {
     int a, b;
   };
   Both stack[kStack];
   int left = most;
-  // Any two leaves part ways at one pair of siblings.
+  // The paths from the root to any two leaves diverge at one pair of siblings.
   for (const Pair& pair : pairs_) {
     const auto& [one, two] = pair.children;
-    // The root's pair and those that are free have none.
+    // The root's pair and free pairs have no siblings.
     if (two.parent == kNone || !OverlapTest<Real>(one.box, kAll)(two)) continue;
     const int place = first(static_cast<int>(&pair - pairs_.data()));
     stack[0] = {place, place + 1};

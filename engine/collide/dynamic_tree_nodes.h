@@ -20,7 +20,7 @@ struct TreeNode {
   Aabb<Real> box{};
   std::uint32_t category = 0;  ///< inner: all categories below
   std::int32_t link = 0;       ///< inner: the pair of its children; leaf: ~proxy
-  std::int32_t tag = 0;        ///< inner: 1 when it may be too large; leaf: the user's number
+  std::int32_t tag = 0;        ///< inner: 1 when its box may be too large; leaf: the user's number
   std::int32_t parent = -1;    ///< slot of the node above; -1 at the root
 
   bool is_leaf() const { return link < 0; }
@@ -37,13 +37,13 @@ struct alignas(sizeof(Real) == 4 ? 64 : 32) TreePair {
 static_assert(sizeof(TreeNode<float>) == 32 && sizeof(TreePair<float>) == 64);
 static_assert(sizeof(TreeNode<double>) == 48 && sizeof(TreePair<double>) == 96);
 
-/// Which nodes a query for overlapping boxes enters.
+/// Selects the nodes that a query for overlapping boxes enters.
 template <class Real>
 class OverlapTest {
  public:
   OverlapTest(const Aabb<Real>& box, std::uint32_t mask) : box_(box), mask_(mask) {}
 
-  // Without branches between the comparisons: whether a box is met can hardly be predicted.
+  // Free of branches between the comparisons: their results can hardly be predicted.
   bool operator()(const TreeNode<Real>& node) const {
     const Aabb<Real>& other = node.box;
     return static_cast<int>(other.lower.x <= box_.upper.x) & static_cast<int>(other.lower.y <= box_.upper.y) &
@@ -57,8 +57,8 @@ class OverlapTest {
 };
 
 #ifdef PLUMB_TREE_SSE2
-/// The same in one comparison: with the upper sides negated, a node's box must not exceed this one's in any
-/// of (lower x, lower y, -upper x, -upper y).
+/// SSE version with one comparison: with the upper sides negated, a node's box must not exceed this one's in
+/// any of (lower x, lower y, -upper x, -upper y).
 template <>
 class OverlapTest<float> {
  public:
@@ -78,9 +78,9 @@ class OverlapTest<float> {
 };
 #endif
 
-/// Where a swept box enters nodes: the slab test (Kay and Kajiya 1986) for nodes grown by half the swept box.
-/// Rounding is on the safe side: with unit roundoff u = epsilon/2, the distances to a slab have errors below
-/// 2u of themselves and u of the half extent, the fractions below 5u of themselves; both are widened by more.
+/// Slab test of a swept box against nodes (Kay and Kajiya 1986), the nodes grown by half the swept box.
+/// Conservative in rounding: with unit roundoff u = epsilon/2, the distances to a slab have errors below 2u
+/// of themselves and u of the half extent, the fractions below 5u of themselves; both are widened by more.
 template <class Real>
 class SweepTest {
  public:
@@ -89,7 +89,7 @@ class SweepTest {
   SweepTest(Vec2<Real> origin, Vec2<Real> translation, Vec2<Real> half_extent, std::uint32_t mask)
       : x_(origin.x, translation.x, half_extent.x), y_(origin.y, translation.y, half_extent.y), mask_(mask) {}
 
-  /// A lower bound, near to the fraction of the translation at which the node is met, or kMiss.
+  /// Returns a close lower bound of the fraction of the translation at which the node is hit, or kMiss.
   Real operator()(const TreeNode<Real>& node) const {
     Real enter = 0, leave = kMiss;
     x_.clip(node.box.lower.x, node.box.upper.x, enter, leave);
@@ -101,7 +101,7 @@ class SweepTest {
  private:
   static constexpr Real kSlack = 4 * std::numeric_limits<Real>::epsilon();
 
-  // One axis. A component of the translation whose reciprocal overflows counts as none.
+  // One axis. A component of the translation whose reciprocal would overflow counts as zero.
   struct Slab {
     Slab(Real origin_, Real translation, Real half_extent)
         : origin(origin_),
@@ -144,8 +144,8 @@ class DistanceTest {
         Vec2<Real>{std::max({lower.x, upper.x, Real{0}}), std::max({lower.y, upper.y, Real{0}})});
   }
 
-  /// What is within `distance` has squares up to this: the sum of two rounded squares of rounded differences
-  /// is off by less than 5u of itself, or by what underflow takes.
+  /// Upper bound of the squares computed for nodes within `distance`: the sum of two rounded squares of
+  /// rounded differences is off by less than 5u of itself, or by underflow.
   static Real limit(Real distance) {
     return distance * distance * (1 + 4 * std::numeric_limits<Real>::epsilon()) +
            std::numeric_limits<Real>::min();

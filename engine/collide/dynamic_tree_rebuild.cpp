@@ -5,16 +5,16 @@
 namespace plumb {
 namespace {
 
-/// Inner boxes whose perimeters are on average this much larger than after building are not worth a query's
-/// time.
+/// Refitted boxes are kept while their mean half perimeter is below this multiple of that after the last
+/// build; above it they would cost queries more than a rebuild saves.
 constexpr double kWorn = 1.1;
-/// So many pairs, 1 MB in float, are near enough wherever they lie.
+/// Pairs (1 MB in float) that fit into a cache, so that their order in memory does not matter.
 constexpr std::size_t kCachedPairs = 1 << 14;
-/// Where pairs and nodes lie anywhere in memory, so many are asked for ahead.
+/// Prefetch distance, in nodes: nodes are scattered in memory.
 constexpr int kAhead = 16;
 
-/// Half the centre: it does not overflow, and neither do differences of two. 0 where there is none, between
-/// infinite sides: everything here can be put in order.
+/// Half the centre: it does not overflow, and neither do differences of two. 0 where it is NaN (between
+/// infinite sides), so that all items can be sorted.
 template <class Real>
 Vec2<Real> half_center(const Aabb<Real>& box) {
   const auto half_middle = [](Real lower, Real upper) {
@@ -24,8 +24,8 @@ Vec2<Real> half_center(const Aabb<Real>& box) {
   return {half_middle(box.lower.x, box.upper.x), half_middle(box.lower.y, box.upper.y)};
 }
 
-/// Puts the items that lie below `middle` first, without a branch on where they lie, which nobody can
-/// predict. Returns how many.
+/// Moves the items below `middle` to the front and returns their number. Free of branches on their position,
+/// which no processor can predict.
 template <class Item, class Coordinate, class Real>
 int partition(Item* items, int count, const Coordinate& coordinate, Real middle) {
   int low = 0;
@@ -38,7 +38,7 @@ int partition(Item* items, int count, const Coordinate& coordinate, Real middle)
   return low;
 }
 
-/// Half of the items each, in the order of their centres; their places tell equal ones apart.
+/// Sorts the items by their centres, equal ones by place, and returns half of their number.
 template <class Item, class Coordinate>
 int halve(Item* items, int count, const Coordinate& coordinate) {
   std::sort(items, items + count, [&](const Item& a, const Item& b) {
@@ -48,9 +48,8 @@ int halve(Item* items, int count, const Coordinate& coordinate) {
   return count / 2;
 }
 
-/// Divides the items between two children, at the middle of their centres along the longer side. Returns how
-/// many come first; neither side is empty. Unequal halves cost height: when the budget for it is spent,
-/// halves are equal.
+/// Splits the items at the middle of their centres along the longer side. Returns how many belong to the
+/// first child; neither side is empty. Unequal parts cost height: once `budget` is spent, parts are equal.
 template <class Item>
 int split(Item* items, int count, int budget) {
   if (count == 2) return 1;
@@ -74,14 +73,14 @@ int split(Item* items, int count, int budget) {
 
 }  // namespace
 
-/// Makes the boxes of the marked inner nodes exact, from below. False when that is not enough.
+/// Refits the boxes of the marked inner nodes, from below. Returns false when that is not enough.
 template <class Real>
 bool DynamicTree<Real>::refit() {
   if (2 * marks_ < size_ || !(usual_ > 0)) return false;
-  std::vector<int>& marked = loose_pairs_;  // slots, those above first, in the order in which nodes lie
+  std::vector<int>& marked = loose_pairs_;  // slots, parents first, in memory order
   marked.clear();
   marked.reserve(pairs_.capacity());
-  // Down the marked nodes, the first child first, along the parents.
+  // Visits the marked nodes depth first, the first child first, along the parents.
   for (int slot = kRoot; slot != kNone;) {
     if (node(slot).marked()) {
       marked.push_back(slot);
@@ -102,8 +101,8 @@ bool DynamicTree<Real>::refit() {
   return true;
 }
 
-/// Puts the loose pairs in order. There are many, among few others: marking them takes a tenth of what
-/// sorting does.
+/// Sorts the loose pairs. Marking them in a list of all pairs takes a tenth of the time of sorting, as most
+/// pairs are loose.
 template <class Real>
 void DynamicTree<Real>::order_loose_pairs() {
   is_loose_.reserve(pairs_.capacity());
@@ -114,12 +113,12 @@ void DynamicTree<Real>::order_loose_pairs() {
     if (is_loose_[pair] != 0) loose_pairs_[next++] = static_cast<int>(pair);
 }
 
-/// Takes the marked inner nodes apart (or all): their pairs become loose, what hangs below is held.
+/// Dissolves the marked inner nodes (or all): their pairs become loose, and the subtrees below are held.
 template <class Real>
 void DynamicTree<Real>::gather(bool everything) {
   loose_pairs_.clear();
   held_.clear();
-  // Room for all of the tree at once: how much of it is marked varies from step to step.
+  // Capacity for the whole tree at once: the marked part varies from step to step.
   loose_pairs_.reserve(pairs_.capacity());
   held_.reserve(pairs_.capacity());
   items_.reserve(pairs_.capacity());
@@ -134,7 +133,7 @@ void DynamicTree<Real>::gather(bool everything) {
     if (i + kAhead < loose_pairs_.size()) __builtin_prefetch(&pairs_[loose_pairs_[i + kAhead]]);
     for (const Node& child : pairs_[loose_pairs_[i]].children) take(child);
   }
-  // Nodes that no cache holds are to lie in the order in which they are built: that of a query.
+  // Nodes that do not fit into a cache are to lie in the order in which they are built: that of a query.
   if (loose_pairs_.size() > kCachedPairs) order_loose_pairs();
 }
 

@@ -8,29 +8,30 @@
 #include "engine/collide/contact_manifold.h"
 #include "engine/math/four.h"
 
-/// What the collision routines of single pairs of shapes share. Not for use outside engine/collide/.
+/// Shared parts of the collision routines for single pairs of shapes. Not for use outside engine/collide/.
 namespace plumb::narrow {
 
-/// Edges turned by less than this against each other, in rad, count as parallel: whose normal is taken makes
-/// no difference of weight, and two points hold better than one.
+/// Edges at a smaller angle to each other, in rad, count as parallel: either normal is accurate enough, and
+/// two points hold better than one.
 inline constexpr double kParallel = 2e-3;
 
-/// How much deeper an axis of b must be before it is preferred over one of a, as a share of the smaller
-/// shape: what rests on a face keeps to that face's normal while rounding or trembling decides ties.
+/// Additional separation for which an axis of b is preferred over one of a, as a fraction of the smaller
+/// shape. A resting face thus keeps its normal while rounding or jitter decides ties.
 inline constexpr double kPreference = 5e-4;
 
-/// Corners nearer than this share of the smaller shape give no direction that rounding leaves alone.
+/// Corners nearer than this fraction of the smaller shape define no direction: it would be dominated by
+/// rounding.
 template <class Real>
 inline constexpr Real kDirection = std::is_same_v<Real, float> ? Real(1e-4) : Real(1e-9);
 
-/// The name of the touching of two corners, or of the ends of two edges. It does not depend on whose face
-/// gave the normal, nor on which of the edges is longer.
+/// Feature id of a pair of corners, or of the ends of two edges. It does not depend on the reference face,
+/// nor on which of the edges is longer.
 constexpr std::uint16_t corner_pair(int of_a, int of_b) {
   return static_cast<std::uint16_t>(of_a << 6 | of_b);
 }
 static_assert(kMaxCorners <= 64);
 
-/// A length that stands for the shape's size: the same in every pose.
+/// Returns a length that stands for the shape's size: the same in every pose.
 template <class Real>
 Real size_of(const Convex<Real>& shape) {
   const Vec2<Real> across = shape.corners[shape.count / 2].point - shape.corners[0].point;
@@ -52,13 +53,13 @@ Real smaller_size(const Convex<Real>& a, const Convex<Real>& b) {
 }
 
 /// Corners in a common frame whose origin lies near them, so that a shape far from its body's origin loses no
-/// digits. Written up to the next multiple of four, where the last corner is repeated.
+/// digits. Padded to a multiple of four by repeating the last corner.
 template <class Real>
 struct Hull {
   alignas(16) Real x[kMaxCorners], y[kMaxCorners];    // m
   alignas(16) Real nx[kMaxCorners], ny[kMaxCorners];  // outward normals of the edges that start there
   int count;
-  int edges;  // the first so many edges can be touched: all of them, or the front of a chain's segment
+  int edges;  // number of edges that can be touched: all of them, or 1 for a chain segment
   Real radius;
 
   Vec2<Real> point(int i) const { return {x[i], y[i]}; }
@@ -67,8 +68,8 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
-/// Four corners from the `first` on, as x and y of their points and of their normals. `kFull`: there are
-/// four.
+/// Loads four corners from `first` on, as x and y of their points and of their normals. `kFull`: all four
+/// exist.
 template <bool kFull, class Real>
 inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)[4]) {
   static_assert(sizeof(Corner<Real>) == 4 * sizeof(Real));
@@ -80,7 +81,7 @@ inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)
   transpose(rows, out);
 }
 
-/// For shapes with `kCount` corners; 0: with any number.
+/// Places a shape with `kCount` corners, or any number if 0.
 template <int kCount, class Real>
 inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
   const int count = kCount ? kCount : shape.count;
@@ -116,7 +117,7 @@ inline void place(Hull<Real>& out, const Convex<Real>& shape, Vec2<Real> origin)
   }
 }
 
-/// Two edges that look at each other. The reference gives the normal, the incident edge the points.
+/// Two edges that face each other. The reference gives the normal, the incident edge the points.
 template <class Real>
 struct FacingEdges {
   Vec2<Real> normal{};                     // out of the reference
@@ -124,11 +125,11 @@ struct FacingEdges {
   int reference_id[2], incident_id[2];     // indices of those corners
   Real reference_radius, incident_radius;  // m
   bool reference_is_b;
-  Real slack_before = 0, slack_after = 0;  // how far beyond its ends the reference edge still counts, m
+  Real slack_before = 0, slack_after = 0;  // m, by which the reference edge is extended beyond its ends
 };
 
-/// One point, on the way from corner `on_a` (or a point of an edge) along `normal` to the other shape, which
-/// begins `distance` away, radii not counted.
+/// Manifold of one point, halfway from corner `on_a` (or a point of an edge) along `normal` to the other
+/// shape, `distance` away, radii not counted.
 template <class Real>
 ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real distance, Real radius_a,
                                    Real radius_b, Real reach, std::uint16_t feature) {
@@ -141,8 +142,8 @@ ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real dist
   return out;
 }
 
-/// The part of the incident edge that lies over the reference edge: its two ends, if near enough. `origin` is
-/// where the edges' frame begins in a's frame.
+/// Clips the incident edge to the reference edge: its two ends, if near enough. `origin` is the origin of the
+/// edges' frame in a's frame.
 template <class Real>
 inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
   ContactManifold<Real> out;
@@ -157,7 +158,7 @@ inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Ve
 
   const Real low = start_x < before ? before : start_x, high = end_x > after ? after : end_x;
   const Real width = end_x - start_x;
-  // An incident edge that stands upright has both ends over the same place: nothing to cut.
+  // An upright incident edge has both ends over the same place: nothing to clip.
   const Real slope = width > Real(1e-6) * length ? (end_y - start_y) / width : 0;
   const Real x[2] = {low, high};
   const Real y[2] = {start_y + slope * (low - start_x), end_y - slope * (end_x - high)};
@@ -177,7 +178,7 @@ inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Ve
   return out;
 }
 
-/// A manifold found with the shapes in each other's place, in the frame of `b`, as seen by a.
+/// Converts a manifold found with the shapes swapped, in the frame of `b`, to a's frame.
 template <class Real>
 ContactManifold<Real> swapped(const ContactManifold<Real>& found, const Pose<Real>& b_in_a) {
   ContactManifold<Real> out;
@@ -191,7 +192,7 @@ ContactManifold<Real> swapped(const ContactManifold<Real>& found, const Pose<Rea
   return out;
 }
 
-/// Two discs: along the line of centres. Centres that coincide leave the direction open: a's y axis.
+/// Two discs: along the line of centres. Coinciding centres give no direction: use a's y axis.
 template <class Real>
 ContactManifold<Real> collide_discs(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                     Real reach);

@@ -27,19 +27,20 @@ struct Hulls {
   Vec2d corner_b(int j) const { return b_in_a.position + b_in_a.rotation * local_b(j); }
   Vertex vertex(int i, int j) const { return {corner_b(j) - corner_a(i), i, j}; }
 
-  /// The vertex farthest along -direction.
+  /// Returns the vertex farthest along -direction.
   Vertex lowest(Vec2d direction) const {
     return vertex(farthest_corner(a, direction),
                   farthest_corner(b, -(b_in_a.rotation.inverse() * direction)));
   }
 
-  /// vertex q - vertex p, without the rounding that the distance of the shapes would add.
+  /// Returns vertex q - vertex p, without the rounding that the distance of the shapes would add.
   Vec2d edge(const Vertex& p, const Vertex& q) const {
     return b_in_a.rotation * (local_b(q.b) - local_b(p.b)) - (corner_a(q.a) - corner_a(p.a));
   }
 };
 
-/// One or two vertices, and what of their segment is nearest to the origin; three when it is inside.
+/// One or two vertices and the point of their segment nearest to the origin; count is 3 when the origin is
+/// inside.
 struct Simplex {
   Vertex vertices[2];
   int count = 0;
@@ -49,7 +50,7 @@ struct Simplex {
 
 Simplex point_simplex(const Vertex& p) { return {{p, {}}, 1, p.w, length_squared(p.w)}; }
 
-/// What of the segment p q is nearest to the origin.
+/// Finds the point of the segment p q nearest to the origin.
 Simplex segment_simplex(const Vertex& p, const Vertex& q) {
   const Vec2d e = q.w - p.w;
   const double before = -dot(p.w, e), after = dot(q.w, e);
@@ -62,8 +63,8 @@ Simplex segment_simplex(const Vertex& p, const Vertex& q) {
   return {{p, q}, 2, height < 0 ? -m : m, height * height / size};
 }
 
-/// The triangle of a segment and the vertex r beyond it. Its nearest part contains r, unless the origin is
-/// inside (count 3): the segment's own nearest point was left behind.
+/// Reduces the triangle of a segment and the vertex r beyond it. Its nearest part contains r, unless the
+/// origin is inside (count 3), because r is nearer than the segment.
 Simplex triangle_simplex(const Simplex& segment, const Vertex& r) {
   const Vertex &p = segment.vertices[0], &q = segment.vertices[1];
   const double pq = cross(p.w, q.w), qr = cross(q.w, r.w), rp = cross(r.w, p.w);
@@ -89,14 +90,14 @@ Simplex first_simplex(const Hulls<Real>& hulls, const SimplexCache* cache) {
   return point_simplex(hulls.lowest(hulls.b_in_a.position));
 }
 
-/// The signed distance along one edge's normal.
+/// A separating axis: an edge's normal with the signed distance along it.
 struct Axis {
   double separation = -std::numeric_limits<double>::infinity();
   Vec2d normal;   ///< outward
   Vec2d on_edge;  ///< below the deepest corner of the other shape
 };
 
-/// The edge of `shape` beyond which `other` lies farthest, or least deep.
+/// Returns the edge normal of `shape` with the greatest separation from `other`.
 template <class Real>
 Axis best_axis(const Convex<Real>& shape, const Pose<double>& at, const Convex<Real>& other,
                const Pose<double>& other_at) {
@@ -113,7 +114,7 @@ Axis best_axis(const Convex<Real>& shape, const Pose<double>& at, const Convex<R
         other_at.position + other_at.rotation * other.corners[j].point.template as<double>() - p;
     const double separation = dot(normal, from_p);
     if (!(separation > best.separation)) continue;
-    // The corner is above the edge, unless it belongs to a parallel edge: then what they share will do.
+    // The corner is above the edge, unless it belongs to a parallel edge: then any common point will do.
     const double along = std::clamp(dot(from_p, e) / (length * length), 0.0, 1.0);
     best = {separation, normal, p + along * e};
   }
@@ -153,15 +154,15 @@ void store(const Simplex& simplex, SimplexCache* cache) {
 
 }  // namespace
 
-// The least translation that parts two hulls is along an edge's normal, because their Minkowski difference
-// has no other edges.
+// The least translation that separates two overlapping hulls is along an edge's normal, because their
+// Minkowski difference has no other edges.
 template <class Real>
 HullDistance edge_separation(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a) {
   const Axis of_a = best_axis(a, {}, b, b_in_a), of_b = best_axis(b, b_in_a, a, {});
   HullDistance out;
   if (std::max(of_a.separation, of_b.separation) == -std::numeric_limits<double>::infinity()) {
     const Hulls<Real> hulls{a, b, b_in_a};
-    out.normal = {0, 1};  // two points in one place leave the direction open: up
+    out.normal = {0, 1};  // two coinciding points give no direction: use up
     out.point_a = hulls.corner_a(0);
     out.point_b = hulls.corner_b(0);
   } else if (of_a.separation >= of_b.separation) {
@@ -190,7 +191,7 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
   constexpr double kGrowth = 1 + 1e-12;  // more than roundings of a square
   constexpr double kSmallest = std::numeric_limits<double>::min();
   constexpr int kMaxIterations =
-      2 * kMaxCorners;  // seen: below 15. Roundings may cycle; the answer is good then
+      2 * kMaxCorners;  // below 15 in tests; roundings may cycle, but the result is accurate then
   const Hulls<Real> hulls{a, b, b_in_a};
   Simplex simplex = first_simplex(hulls, cache);
   int iteration = 0;
@@ -198,7 +199,7 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
   while (!touching && iteration < kMaxIterations) {
     ++iteration;
     const Vertex next = hulls.lowest(simplex.outward);
-    // No vertex lies nearer to the origin along the normal, but for roundings. One of the simplex itself
+    // No vertex lies nearer to the origin along the normal, but for roundings. A vertex of the simplex itself
     // never gains more than them: |m . (p - q)| with m = fl(p - q) turned stays below 2 epsilon |m| (|p| +
     // |q|).
     const Vec2d reference = simplex.vertices[0].w;
@@ -206,8 +207,8 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
     if (!(gain > kRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w)))) break;
     const Simplex nearer =
         simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
-    // With something to gain, what is nearest now is nearer than before, unless before was nothing but
-    // rounding: the origin is on the segment, and the difference lies on both sides of it.
+    // After a gain the new distance is smaller, unless the old one was only rounding: the origin is on the
+    // segment, and the difference lies on both sides of it.
     touching = nearer.count == 3 || !(nearer.square > kSmallest) || nearer.square > kGrowth * simplex.square;
     simplex = nearer;
   }

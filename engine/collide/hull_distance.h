@@ -9,19 +9,19 @@
 
 namespace plumb {
 
-/// Which corners of two shapes are nearest to each other: where the next search may start, when the shapes
-/// have moved a little. Empty (count 0) to begin with. Belongs to one pair of shapes in one order.
+/// The nearest corners of two shapes, from which the next search starts when the shapes have moved little.
+/// Empty (count 0) at first. Belongs to one pair of shapes in one order.
 struct SimplexCache {
   std::uint8_t count = 0;  ///< 0, 1: corner against corner, 2: at least one edge takes part
   std::uint8_t corner_a[2] = {0, 0};
   std::uint8_t corner_b[2] = {0, 0};
 
-  /// Whether an edge of a (of b) takes part, not a corner alone.
+  /// Returns true if an edge of a (of b) takes part, not a corner alone.
   bool edge_of_a() const { return count == 2 && corner_a[0] != corner_a[1]; }
   bool edge_of_b() const { return count == 2 && corner_b[0] != corner_b[1]; }
 };
 
-/// The corner farthest along `direction`, in the shape's frame.
+/// Returns the corner farthest along `direction`, in the shape's frame.
 template <class Real>
 int farthest_corner(const Convex<Real>& shape, Vec2d direction) {
   int best = 0;
@@ -33,7 +33,7 @@ int farthest_corner(const Convex<Real>& shape, Vec2d direction) {
   return best;
 }
 
-/// m: from the origin of the shape's frame to its farthest corner.
+/// Returns the distance (m) from the origin of the shape's frame to its farthest corner.
 template <class Real>
 double reach_of(const Convex<Real>& shape) {
   double square = 0;
@@ -42,26 +42,28 @@ double reach_of(const Convex<Real>& shape) {
   return std::sqrt(square);
 }
 
-/// The distance of two hulls without their rounding, in a's frame and in double precision.
+/// Distance of two hulls without their radii, in a's frame and in double precision.
 struct HullDistance {
   Vec2d point_a{}, point_b{};  ///< m, on the hulls
-  Vec2d normal{};              ///< unit, from a to b; parts them by the separation, to rounding
-  double separation = 0;       ///< m, negative where they overlap: then the least way out
+  Vec2d normal{};              ///< unit, from a to b; the hulls' separation along it is `separation`, to
+                               ///< rounding
+  double separation = 0;       ///< m, negative where they overlap: minus the penetration depth
   int iterations = 0;
 };
 
-/// Gilbert, Johnson and Keerthi's algorithm (1988) on the corners; on overlap the separating axis of least
-/// depth. Always ends, and gives numbers for finite input. The error is a few roundings of a double,
-/// relative to the distance and the sizes. `cache` may be null.
+/// Algorithm of Gilbert, Johnson and Keerthi (GJK, 1988) on the corners; on overlap the separating axis of
+/// least depth. Always terminates, with finite results for finite input. The error is a few roundings of a
+/// double, relative to the distance and the sizes. `cache` may be null.
 template <class Real>
 HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                            SimplexCache* cache);
 
-/// The largest separation along the normal of an edge of either: the least way out of an overlap.
+/// Finds the largest separation along an edge normal of either hull: for overlapping hulls the direction of
+/// least penetration.
 template <class Real>
 HullDistance edge_separation(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a);
 
-/// How far b lies beyond a along `normal` (unit, in a's frame), m: the distance is no less for any normal.
+/// Returns how far b lies beyond a along `normal` (unit, in a's frame), m: a lower bound of the distance.
 template <class Real>
 double separation_along(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                         Vec2d normal);

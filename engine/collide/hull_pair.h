@@ -6,29 +6,29 @@
 
 namespace plumb::narrow {
 
-/// What a segment of a chain does with a normal.
+/// How a chain segment treats a contact normal.
 enum class Normal : std::uint8_t {
-  Admit,  ///< it is one of the segment's own
-  Snap,   ///< the surface goes on smoothly or hollow there: the segment's own normal instead
-  Skip,   ///< it belongs to a neighbour
+  Admit,  ///< the normal is one of the segment's own
+  Snap,   ///< the surface is smooth or concave there: use the segment's own normal instead
+  Skip,   ///< the normal belongs to a neighbour
 };
 
-/// For shapes without neighbours.
+/// Accepts every normal: for shapes without neighbours.
 template <class Real>
 struct AdmitAll {
-  static constexpr bool kOpen = true;  // a touching that no two edges share is one nevertheless
+  static constexpr bool kOpen = true;  // a contact at a corner alone counts
   Normal operator()(Vec2<Real>) const { return Normal::Admit; }
   void widen(FacingEdges<Real>&) const {}
 };
 
-/// The edge of one hull that another is farthest out of.
+/// The edge of one hull that is farthest from another.
 template <class Real>
 struct Face {
   Real separation;  // m, radii not counted
   int edge;
 };
 
-/// Four edges at once, and two by two which of them is farthest: the first of equals.
+/// Evaluates four edges at once, and reduces them in pairs to the farthest: the first of equals.
 template <class Real>
 inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull<Real>& other, int count) {
   using Lanes = Four<Real>;
@@ -43,8 +43,8 @@ inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull
   return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
 }
 
-/// Over all edges that can be touched; stops at one beyond `limit`. The numbers of corners are those of the
-/// hulls, and known when compiling, or 0. The last corner's repetitions never win over itself.
+/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are the hulls'
+/// numbers of corners if known at compile time, or 0. Repetitions of the last corner never win over itself.
 template <int kCount, int kOther, class Real>
 inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
   const int count = kOther ? kOther : other.count;
@@ -62,7 +62,7 @@ inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other,
   return best;
 }
 
-/// The corner that lies least far along a direction: the first of equals.
+/// Returns the corner least far along a direction: the first of equals.
 template <int kCount, class Real>
 inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
   if (kCount == 4) {
@@ -80,7 +80,7 @@ inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
   return corner;
 }
 
-/// Where a point lies along an edge: -1 before its first corner, 1 beyond its second, 0 between.
+/// Classifies a point along an edge: -1 before its first corner, 1 beyond its second, 0 between.
 template <class Real>
 int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
   const Vec2<Real> tangent = perpendicular(hull.normal(edge));
@@ -88,7 +88,7 @@ int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
   return dot(tangent, point - hull.point(hull.next(edge))) > 0 ? 1 : 0;
 }
 
-/// The edge of `other` at `corner` that looks most directly against `normal`.
+/// Returns the edge of `other` at `corner` that faces most directly against `normal`.
 template <class Real>
 int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   const int before = other.previous(corner);
@@ -113,8 +113,8 @@ inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, con
   return out;
 }
 
-/// Whether the reference edge's normal is right for hulls that are apart: the nearest corner lies over the
-/// edge, or the edges are parallel and touch along their length.
+/// Returns true if the reference edge's normal is right for separated hulls: the nearest corner lies over the
+/// edge, or the edges are parallel and overlap along their length.
 template <class Real>
 inline bool over_edge(const FacingEdges<Real>& edges) {
   const Vec2<Real> tangent = perpendicular(edges.normal);
@@ -127,8 +127,8 @@ inline bool over_edge(const FacingEdges<Real>& edges) {
   return nearest_x >= 0 && nearest_x <= length;
 }
 
-/// Of two parallel edges beside each other: the incident edge's end that is nearer to the reference.
-/// Otherwise the `deepest` corner.
+/// Returns, for parallel edges beside each other, the incident edge's end nearer to the reference; otherwise
+/// the `deepest` corner.
 template <class Real>
 int nearest_end(const FacingEdges<Real>& edges, int deepest) {
   const Vec2<Real> tangent = perpendicular(edges.normal);
@@ -140,14 +140,14 @@ int nearest_end(const FacingEdges<Real>& edges, int deepest) {
   return start_x >= dot(tangent, edges.reference[1] - edges.reference[0]) ? edges.incident_id[1] : deepest;
 }
 
-/// The faces of two hulls that are farthest out of each other.
+/// The faces of both hulls of greatest separation.
 template <class Real>
 struct Faces {
   Face<Real> a, b;
 };
 
-/// Two hulls that meet at the deepest corner of one alone: their edges miss each other by a rounding or by
-/// the preference.
+/// Manifold of two hulls that touch at the deepest corner of one alone, because their edges miss each other
+/// by a rounding or by the preference.
 template <class Real>
 ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
                                    const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
@@ -174,7 +174,7 @@ inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real
   return out;
 }
 
-/// Two hulls that meet at a face of one.
+/// Manifold of two hulls that touch at a face of one.
 template <class Real, class Admit>
 inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                         FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
@@ -188,9 +188,9 @@ inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b
   return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
 }
 
-/// Two hulls that are apart, whose nearest features are no two faces. The separation along a normal is the
-/// distance times the cosine of the angle to the nearest direction, while the same corners stay in support:
-/// so the face with the greatest separation ends at, or is, the nearest feature of its hull.
+/// Manifold of separated hulls whose nearest features are not two faces. The separation along a normal is the
+/// distance times the cosine of the angle to the nearest direction, while the same corners stay in support.
+/// So the face of greatest separation ends at, or is, the nearest feature of its hull.
 template <class Real, class Admit>
 ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                   bool prefer_b, Real size, Real reach, Vec2<Real> origin,
@@ -198,7 +198,7 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
-  // A line has no thickness that would keep its far end apart: of two that are equally deep the nearer one.
+  // A line has no thickness that would separate its far end: of two equally deep ends take the nearer one.
   const bool line = a.count == 2 || b.count == 2;
   const int deepest = support<0>(other, reference.normal(edge));
   const int corner = line ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
@@ -225,9 +225,9 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
-/// The manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size` gives that of
-/// the smaller one. `admit` says which normals may be used; what it snaps gets that of a's first edge. `kA`
-/// and `kB` are their numbers of corners, or 0.
+/// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size`
+/// returns the size of the smaller one. `admit` selects the normals allowed; a snapped one becomes that of
+/// a's first edge. `kA` and `kB` are the numbers of corners, or 0.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
                                            Real reach, Vec2<Real> origin, const Admit& admit) {
@@ -240,7 +240,7 @@ inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>
 
   const bool prefer_b = faces.b.separation > faces.a.separation &&
                         faces.b.separation > faces.a.separation + Real(kPreference) * size();
-  // One way for both: a branch here would be guessed wrong half the time.
+  // One path for both: a branch here would be mispredicted half the time.
   const Hull<Real>&reference = prefer_b ? b : a, &other = prefer_b ? a : b;
   FacingEdges<Real> edges =
       facing_edges < kA == kB ? kA : 0 > (reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);

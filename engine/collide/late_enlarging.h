@@ -6,15 +6,14 @@
 
 namespace plumb {
 
-/// Enlarges boxes of a tree in the order in which they are given, each some boxes later. Leaves lie in the
-/// order of queries: who goes from body to body would wait for each of a million, and for the node above it;
-/// here they are asked for ahead. Until finish() the tree may lack the boxes given last. Proxies stay leaves
-/// until then.
+/// Enlarges boxes of a tree in the given order, each delayed by 16 boxes, and prefetches its leaf and the
+/// node above meanwhile. Leaves lie in the order of queries, not of bodies, so that each would be a cache
+/// miss. The tree is not up to date before finish(). Proxies must stay leaves until then.
 template <class Real>
 class LateEnlarging {
  public:
   explicit LateEnlarging(DynamicTree<Real>& tree) : tree_(tree) {}
-  ~LateEnlarging() { finish(); }  // also when what came between has thrown
+  ~LateEnlarging() { finish(); }  // also if an exception was thrown
   LateEnlarging(const LateEnlarging&) = delete;
   LateEnlarging& operator=(const LateEnlarging&) = delete;
 

@@ -62,7 +62,7 @@ bool PairSet::sound(const std::vector<Key>& keys, int size) {
   const auto filled = std::count_if(keys.begin(), keys.end(), [](Key each) { return each != kEmpty; });
   if (filled != size || 2 * static_cast<std::size_t>(filled) > keys.size()) return false;
   const std::size_t mask = keys.size() - 1;
-  // Every key must be where a probe for it ends: no gap and no second copy before it.
+  // Every key must be in the slot at which a probe for it ends: no gap and no second copy before it.
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (keys[i] == kEmpty) continue;
     const Key low = keys[i] & 0xffffffff, high = (keys[i] >> 32) - 1;

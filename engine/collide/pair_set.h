@@ -8,35 +8,35 @@
 
 namespace plumb {
 
-/// A set of unordered pairs of non-negative integers. Open addressing with linear probing, at most half
-/// full; erasing shifts later keys back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R), so that
-/// no tombstones pile up. There is no way to iterate it: the order of a hash table cannot reach a result.
+/// A set of unordered pairs of non-negative integers. Open addressing with linear probing, at most half full;
+/// erasing shifts later keys back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R), so that no
+/// tombstones accumulate. It cannot be iterated, so that the order of a hash table never affects a result.
 class PairSet {
  public:
-  /// Whether the pair was not in the set before.
+  /// Inserts the pair; returns false if it was in the set already.
   bool insert(int a, int b);
-  /// Whether the pair was in the set.
+  /// Erases the pair; returns false if it was not in the set.
   bool erase(int a, int b);
   bool contains(int a, int b) const { return !keys_.empty() && keys_[find(key(a, b))] != kEmpty; }
-  /// Has the memory fetched that contains(a, b) is going to read. (GCC 12 drops calls of a function that does
-  /// nothing else, unless they are expanded first.)
+  /// Prefetches the memory that contains(a, b) will read. (GCC 12 drops calls of a function that does nothing
+  /// else, unless they are inlined first.)
   [[gnu::always_inline]] void ask_for(int a, int b) const {
     if (!keys_.empty()) __builtin_prefetch(&keys_[hash(key(a, b)) & (keys_.size() - 1)]);
   }
 
   int size() const { return size_; }
-  /// Empties the set; its room stays.
+  /// Empties the set; its capacity stays.
   void clear();
-  /// Makes room for `pairs` pairs, so that inserting them allocates nothing.
+  /// Reserves capacity for `pairs` pairs, so that inserting them allocates nothing.
   void reserve(int pairs);
 
-  /// Appends all that decides what the set does next.
+  /// Appends the complete state.
   void save(std::vector<std::byte>& out) const;
-  /// Takes it from the front of `in`. Throws Error (Value) and leaves the set as it was when the bytes are
-  /// damaged.
+  /// Restores the state from the front of `in`. Throws Error (Value) and leaves the set as it was when the
+  /// bytes are damaged.
   void restore(std::span<const std::byte>& in);
 
-  /// Slots that have to be looked at, on average, to find a pair that is in the set.
+  /// Returns the mean number of slots probed to find a pair that is in the set.
   double mean_probes() const;
 
  private:
@@ -44,7 +44,7 @@ class PairSet {
   static constexpr Key kEmpty = 0;
   static constexpr std::size_t kSmallest = 16;
 
-  // The larger one, plus one so that no pair is kEmpty, in the upper half.
+  // The larger number in the upper half, plus one so that no pair is kEmpty.
   static Key key(int a, int b) {
     const auto low = static_cast<std::uint32_t>(a < b ? a : b);
     const auto high = static_cast<std::uint32_t>(a < b ? b : a);
@@ -62,7 +62,7 @@ class PairSet {
     return static_cast<std::size_t>(key);
   }
 
-  // The slot that holds `key`, or the empty one where it belongs.
+  // Returns the slot that holds `key`, or the empty one for it.
   std::size_t find(Key key) const {
     const std::size_t mask = keys_.size() - 1;
     std::size_t slot = hash(key) & mask;
@@ -73,7 +73,7 @@ class PairSet {
   void resize(std::size_t capacity);
   static bool sound(const std::vector<Key>& keys, int size);
 
-  std::vector<Key> keys_;  // a power of two, or none
+  std::vector<Key> keys_;  // size is a power of two, or 0
   int size_ = 0;
 };
 

@@ -4,7 +4,7 @@ namespace plumb::narrow {
 
 namespace {
 
-/// `kA` and `kB` are the numbers of corners where they are known when compiling, or 0.
+/// `kA` and `kB` are the numbers of corners if known at compile time, or 0.
 template <int kA, int kB, class Real>
 ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                       Real reach) {
@@ -21,7 +21,7 @@ ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>&
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach) {
-  // Boxes are most of what there is.
+  // Boxes are the most common shapes.
   if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach);
   return collide_counted<0, 0>(a, b, b_in_a, reach);
 }

@@ -13,22 +13,22 @@ Vec2d corner(const Convex<Real>& shape, int i) {
   return shape.corners[i < shape.count ? i : 0].point.template as<double>();
 }
 
-/// e turned a quarter turn clockwise: outward for an edge of a counter-clockwise polygon.
+/// Rotates e by a quarter turn clockwise: outward for an edge of a counter-clockwise polygon.
 constexpr Vec2d outward(Vec2d e) { return {e.y, -e.x}; }
 
-/// `v` at unit length; up where it has none.
+/// Normalises `v`; returns up for a zero vector.
 Vec2d unit(Vec2d v) {
   const double length = std::sqrt(length_squared(v));
   return length > 0 ? Vec2d{v.x / length, v.y / length} : Vec2d{0, 1};
 }
 
-/// Where on the hull's edges a point is nearest, and whether it lies inside.
+/// The nearest point on the hull's edges, with a distance negative inside.
 struct Nearest {
   Vec2d point, normal;
   double distance = kInfinity;  ///< from the hull, negative inside
 };
 
-/// The hull's distance from outside: the nearest of all edges.
+/// Distance of the hull from outside: the nearest of all edges.
 template <class Real>
 Nearest nearest_from_outside(const Convex<Real>& shape, Vec2d x) {
   Nearest best;
@@ -48,7 +48,7 @@ Nearest nearest_from_outside(const Convex<Real>& shape, Vec2d x) {
     const double square = length_squared(normal);
     if (square < least) {
       least = square;
-      // On the line of an edge the difference has no direction of its own.
+      // On the line of an edge the difference is zero and has no direction: use the edge's.
       best = {at, square > 0 ? unit(normal) : unit(outward(e)), std::sqrt(square)};
     }
   }
@@ -75,7 +75,7 @@ struct Entry {
   Vec2d normal;
 };
 
-/// Where the ray enters the disc of `radius` around `center`, when it starts outside.
+/// Entry of the ray into the disc of `radius` around `center`, when it starts outside.
 Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
   const Vec2d from = origin - center;
   const double size = length_squared(way), along = -dot(from, way), across = cross(way, from);
@@ -87,7 +87,7 @@ Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
   return {fraction, radius > 0 ? unit(from + fraction * way) : unit(-way)};
 }
 
-/// Where it crosses, inwards, the edge p .. p + e moved out by `radius`.
+/// Inward crossing of the edge p .. p + e moved out by `radius`.
 Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d way) {
   const double length = std::sqrt(length_squared(e));
   if (!(length > 0)) return {};
@@ -100,8 +100,8 @@ Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d way) {
   return {fraction, normal};
 }
 
-/// A polygon without rounding, as the part of the ray in front of no edge (Cyrus and Beck, 1978): no crack
-/// between two edges.
+/// Clips the ray against the edges of a polygon without radius (Cyrus and Beck, 1978): no crack between two
+/// edges.
 template <class Real>
 Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   Entry enter{0, {}};
@@ -122,8 +122,8 @@ Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   return enter;
 }
 
-/// A rounded hull is the union of discs at its corners and its edges moved out (and what they surround): the
-/// first of their points is its first one.
+/// A rounded hull is the union of discs at its corners and its edges moved out (and the area within): the
+/// first hit is the first of theirs.
 template <class Real>
 Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   const double radius = static_cast<double>(shape.radius);

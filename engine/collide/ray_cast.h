@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-/// Where a ray first meets a shape, in the shape's frame.
+/// First hit of a ray on a shape, in the shape's frame.
 template <class Real>
 struct RayHit {
   bool hit = false;
@@ -21,22 +21,23 @@ struct SurfacePoint {
   Real distance = 0;    ///< m, negative inside the shape
 };
 
-/// The first point of `shape` on the way from `origin` to `origin + translation` (m, in the shape's frame).
-/// A ray that starts inside or on the surface hits nothing: it has no first point of entry. Exact but for
+/// Finds the first point of `shape` on the ray from `origin` to `origin + translation` (m, in the shape's
+/// frame). A ray that starts inside or on the surface hits nothing: it has no point of entry. Exact but for
 /// roundings: edges and arcs, no iteration. Computed in double precision for both types of Real.
 template <class Real>
 RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation);
 
-/// The same for a segment of a chain, which is there only for what comes from its front: the right of the
-/// way from its first corner to its second.
+/// The same for a chain segment, which is hit only from its front: the right side of the direction from its
+/// first corner to its second.
 template <class Real>
 RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation);
 
-/// Whether `point` (m, in the shape's frame) is in the shape or on its surface.
+/// Returns true if `point` (m, in the shape's frame) is in the shape or on its surface.
 template <class Real>
 bool contains(const Convex<Real>& shape, Vec2<Real> point);
 
-/// The point of the surface nearest to `point` (m, in the shape's frame), on either side of it.
+/// Returns the point of the surface nearest to `point` (m, in the shape's frame), which may lie inside or
+/// outside.
 template <class Real>
 SurfacePoint<Real> nearest_point(const Convex<Real>& shape, Vec2<Real> point);
 

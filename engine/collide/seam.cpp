@@ -7,17 +7,17 @@
 namespace plumb {
 namespace {
 
-/// Cosine of the bend, 60 degrees, from which two faces that meet are no longer one surface but a corner.
+/// Cosine of the angle (60 degrees) from which two adjoining faces form a corner instead of one surface.
 template <class Real>
 constexpr Real kSameSurface = Real(0.5);
 
-/// Gaps that count as none, and how far a face reaches over them, in tolerances.
+/// In tolerances: the widest gap that counts as closed, and how far a face extends across it.
 template <class Real>
 constexpr Real kGap = 3;
 template <class Real>
 constexpr Real kReachOver = 4;
 
-/// Sine of the angle within which two normals are one.
+/// Sine of the largest angle between normals that count as equal.
 template <class Real>
 constexpr Real kAligned = 16 * std::numeric_limits<Real>::epsilon();
 
@@ -30,14 +30,14 @@ int previous_of(const Convex<Real>& shape, int i) {
   return i > 0 ? i - 1 : shape.count - 1;
 }
 
-/// The neighbour's face that goes on beyond a corner, if there is one.
+/// The neighbour's face that continues the surface beyond a corner, if there is one.
 template <class Real>
 struct Continuation {
   bool found = false;
   Vec2<Real> normal{};
 };
 
-/// Looks for it at the end of `face`.
+/// Looks for it at one end of `face`.
 template <class Real>
 Continuation<Real> beyond(const TouchedSurface<Real>& touched, int face, bool at_start,
                           const Convex<Real>& other, int other_edges, const Pose<Real>& pose) {
@@ -61,7 +61,7 @@ Continuation<Real> beyond(const TouchedSurface<Real>& touched, int face, bool at
   return {};
 }
 
-/// Whether a point lies in the other shape, grown by `margin`.
+/// Returns true if a point lies in the other shape, grown by `margin`.
 template <class Real>
 bool inside(Vec2<Real> point, const Convex<Real>& other, int other_edges, const Pose<Real>& pose,
             Real margin) {
@@ -73,7 +73,8 @@ bool inside(Vec2<Real> point, const Convex<Real>& other, int other_edges, const 
   return true;
 }
 
-/// Whether what lies before a contact that is apart is in the other shape.
+/// Returns true if a step of two tolerances along the normal leads from every point of a separated contact
+/// into the other shape.
 template <class Real>
 bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int other_edges,
             const Pose<Real>& pose) {
@@ -83,8 +84,8 @@ bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int 
   return true;
 }
 
-/// Whether the other shape lies before an edge wherever the contact has a point on it. At the edge's nearer
-/// end, where the surface goes on, there is nothing to be said: points are looked at a little way from it.
+/// Returns true if the other shape covers an edge at every point of the contact. Near the end at which the
+/// surface continues the test is inconclusive: points are tested a small distance away from it.
 template <class Real>
 bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const Convex<Real>& other,
              int other_edges, const Pose<Real>& pose) {
@@ -102,7 +103,8 @@ bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const
   return true;
 }
 
-/// Whether a normal lies between a face's and that of its continuation, around the corner between them.
+/// Returns true if a normal lies between those of a face and its continuation, around the corner between
+/// them.
 template <class Real>
 bool between(Vec2<Real> face, Vec2<Real> normal, Vec2<Real> continuation, bool at_start) {
   const Real side = at_start ? Real(-1) : Real(1);
@@ -130,12 +132,12 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     const Corner<Real>& corner = shape.corners[face];
     return Answer{Answer::Kind::Face, face, at_start, dot(corner.normal, touched.mover - corner.point)};
   };
-  // The face at the other side of the edge's corner: it ends there if the edge starts there.
+  // The face at the other side of the edge's corner; its seam is at its end if the edge's is at the start.
   const auto across = [&](bool at_start) {
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
   };
 
-  // Around a corner, unless the normal is the edge's own.
+  // Around a corner, unless the normal is that of the edge.
   const Real tilt = dot(n, tangent);
   if (std::fabs(tilt) > kAligned<Real>) {
     const bool at_start = tilt < 0;
@@ -157,7 +159,7 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     if (answer.kind != Answer::Kind::Own) return answer;
   }
 
-  // The edge itself, where the neighbour covers it: the surface goes on at its nearer end.
+  // The edge itself, if the neighbour covers it: the surface continues at its nearer end.
   Real middle = 0;
   for (int i = 0; i < touched.count; ++i) middle += dot(tangent, touched.points[i] - first);
   const bool at_start = 2 * middle < static_cast<Real>(touched.count) * dot(tangent, second - first);

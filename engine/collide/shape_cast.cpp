@@ -17,14 +17,15 @@ CastResult<Real> hit_at(double fraction, bool overlapped, const HullDistance& hu
 
 }  // namespace
 
-// Whatever lies beyond a along some normal stays clear of it at least until the motion along that normal has
-// used up the separation. Along the line of nearest points this is Newton's method on the distance, a convex
-// function of the way, from the near side.
+// Shapes separated along a normal stay apart at least until the motion along that normal has used up the
+// separation. Along the line of nearest points this is Newton's method on the distance, a convex function of
+// the displacement, from the near side.
 template <class Real>
 CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                             Vec2<Real> translation) {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
-  // The gap falls to a quarter each time even where they graze: 64 of them reach any rounding.
+  // The gap falls to a quarter in each iteration even when the shapes graze: 64 iterations reach any
+  // rounding.
   constexpr int kMaxIterations = 64;
   const double radius_a = static_cast<double>(a.radius), radius = radius_a + static_cast<double>(b.radius);
   const Vec2d start = b_in_a.position.template as<double>(), way = translation.template as<double>();
@@ -40,7 +41,7 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
     const bool touching = hulls.separation - radius <= rounding;
     const double gap = touching ? 0 : separation_along(a, b, pose, hulls.normal) - radius;
     const double approach = -dot(hulls.normal, way);
-    // Once it keeps them apart, it does so for good.
+    // A normal along which the shapes do not approach keeps them apart for the rest of the motion.
     if (!(approach > 0) && (gap > 0 || !(fraction > 0))) return {};
     if (!(gap > 0) || iteration == kMaxIterations) break;
     const double next = fraction + gap / approach;

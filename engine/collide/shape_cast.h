@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-/// Where a shape that is moved first touches another one, in the frame of the shape that stands.
+/// First hit of a moved shape on another one, in the frame of the shape at rest.
 template <class Real>
 struct CastResult {
   bool hit = false;
@@ -15,9 +15,10 @@ struct CastResult {
   Vec2<Real> normal{};      ///< unit, from a to b
 };
 
-/// Moves b from `b_in_a` by `translation` (m, in a's frame) without turning it. Shapes that touch and part,
-/// or slide along each other, do not hit. Computed in double precision for both types of Real: the gap left
-/// is a few roundings of a double, relative to sizes and translation, before the fraction is rounded to Real.
+/// Moves b from `b_in_a` by `translation` (m, in a's frame) without rotation. Shapes that touch and separate,
+/// or slide along each other, do not hit. Computed in double precision for both types of Real: the remaining
+/// gap is a few roundings of a double, relative to sizes and translation, before the fraction is rounded to
+/// Real.
 template <class Real>
 CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                             Vec2<Real> translation);

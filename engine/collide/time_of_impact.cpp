@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
-/// q r: the rotation by both angles.
+/// Returns q r: the rotation by both angles.
 constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
   return {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};
 }
@@ -21,14 +21,14 @@ Rotation<double> turned_by(double angle, Rotation<double> start) {
   return angle != 0 ? turned(rotation_of(angle), start) : start;
 }
 
-/// In double precision and at unit length: a rotation in float has lost some of it.
+/// Normalises in double precision: a rotation in float is of unit length only to a float's rounding.
 template <class Real>
 Rotation<double> unit(Rotation<Real> q) {
   const double c = static_cast<double>(q.c), s = static_cast<double>(q.s), length = std::sqrt(c * c + s * s);
   return {c / length, s / length};
 }
 
-/// One shape while it turns.
+/// A shape that rotates during the interval.
 template <class Real>
 struct Turning {
   const Convex<Real>& shape;
@@ -46,7 +46,7 @@ struct Turning {
   Rotation<double> rotation(double fraction) const { return turned_by(fraction * turn, start); }
 };
 
-/// x + v t - c t^2 / 2 with c >= 0: no more than what it stands for, from t = 0 on.
+/// x + v t - c t^2 / 2 with c >= 0: a lower bound of a separation for t >= 0.
 struct Bound {
   double value = 0, slope = 0, curvature = 0;
 
@@ -54,7 +54,7 @@ struct Bound {
   friend Bound operator+(Bound a, Bound b) {
     return {a.value + b.value, a.slope + b.slope, a.curvature + b.curvature};
   }
-  /// How long it stays >= 0, when it starts there.
+  /// Returns how long it stays >= 0, 0 if it is not > 0 at the start.
   double root() const {
     if (!(value > 0)) return 0;
     const double fall = std::sqrt(slope * slope + 2 * curvature * value) - slope;
@@ -62,7 +62,7 @@ struct Bound {
   }
 };
 
-/// The relative motion of two shapes, with a's centre as origin and the world's axes.
+/// Relative motion of two shapes, with a's centre as origin and the world's axes.
 template <class Real>
 class Approach {
  public:
@@ -78,15 +78,15 @@ class Approach {
         bend_(std::sqrt(length_squared(curve_))),
         radius_(static_cast<double>(a.radius) + static_cast<double>(b.radius)) {}
 
-  /// m: what roundings may do to a separation up to a fraction.
+  /// Returns a bound (m) of the rounding error of a separation up to a fraction.
   double rounding(double fraction) const {
     const double way = speed_ + bend_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
     return kRounding *
            (std::abs(start_.x) + std::abs(start_.y) + fraction * way + a_.reach + b_.reach + radius_);
   }
 
-  /// The separation of the surfaces; the points and the normal of the hulls are in the directions of the
-  /// world.
+  /// Computes the separation of the surfaces at a fraction. Points and normal of `hulls()` are in the world's
+  /// directions.
   double measure(double fraction) {
     fraction_ = fraction;
     rotation_a_ = a_.rotation(fraction);
@@ -102,12 +102,13 @@ class Approach {
   }
   const HullDistance& hulls() const { return hulls_; }
 
-  /// The part of 0 .. 1 in which the discs that the shapes turn in are closer than `separation`; false when
-  /// there is none.
+  /// Computes the part of 0 .. 1 in which the circles swept by the rotating shapes are closer than
+  /// `separation`. Returns false when there is none.
   bool window(double separation, double& first, double& last) const;
 
-  /// A time after the last one measured, up to `remaining`, for which the shapes stay at least `separation`
-  /// apart. Near an edge the normal that turns with it serves best: all of the edge keeps its height there.
+  /// Returns a time after the last measured one, up to `remaining`, during which the shapes stay at least
+  /// `separation` apart. Near an edge the normal that rotates with it gives the longest step, as the whole
+  /// edge keeps its height along it.
   double safe_step(double separation, double remaining) const {
     const bool with_a = a_.turn != 0 && cache_.edge_of_a();
     const bool with_b = b_.turn != 0 && cache_.edge_of_b();
@@ -148,10 +149,10 @@ bool Approach<Real>::window(double separation, double& first, double& last) cons
   return first <= last;
 }
 
-/// Below what normal . corner stays for every corner: the least at `t`. The normal turns too; `rate` is how
-/// fast the body turns against it. normal . r = |r| cos(angle + rate t), whose second derivative is never
-/// less than -rate^2 |r|. To first order it is r . (normal + t normal'), so that the least is a farthest
-/// corner.
+/// Lower bound of normal . corner over all corners: the least at `t`. The normal turns too; `rate` is the
+/// body's angular speed relative to it. normal . r = |r| cos(angle + rate t), whose second derivative is
+/// never less than -rate^2 |r|. To first order it is r . (normal + t normal'), so that the least is a
+/// farthest corner.
 template <class Real>
 Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
                              double t) const {
@@ -161,8 +162,8 @@ Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotatio
 }
 
 /// The separation along a normal that turns at `axis_turn` is no more than the distance, and is the least
-/// over pairs of corners. Each pair's is bounded from below by a parabola that opens downwards, so that a
-/// pair which keeps its distance until t kept it before: only the pairs that fail at t matter.
+/// over pairs of corners. Each pair's is bounded from below by a parabola that opens downwards. A pair that
+/// is far enough apart at t was so before: only pairs that fail at t matter.
 template <class Real>
 double Approach<Real>::safe_step(double separation, double remaining, double axis_turn) const {
   constexpr int kMaxRounds = 32;
@@ -184,7 +185,8 @@ double Approach<Real>::safe_step(double separation, double remaining, double axi
     if (!(root < step)) return step;  // at the root already, but for roundings
     step = root;
   }
-  // Many corners in turn: the plain bound, with the speed of the fastest point of either.
+  // Too many corners take turns: fall back to the first-order bound, with the speed of the fastest point of
+  // either.
   const double gap = hulls_.separation - radius_ - separation;
   const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach +
                          std::abs(b_.turn) * b_.reach;
@@ -209,9 +211,9 @@ Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
   return {position.template as<Real>(), {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
 }
 
-// Conservative advancement (Mirtich, 1996): from a time at which the shapes are apart, go on for as long as a
-// bound shows that they stay apart. The bound is of second order, so that near an impact the steps are those
-// of Newton's method.
+// Conservative advancement (Mirtich, 1996): from a time at which the shapes are apart, advance for as long as
+// a bound shows that they stay apart. The bound is of second order, so that near an impact the steps are
+// those of Newton's method.
 template <class Real, class Moving>
 ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
                                   const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance,
@@ -248,7 +250,7 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sw
     }
   }
 
-  // Steps aim a little farther out than the target, because the last one ends with a rounding.
+  // Steps aim slightly farther out than the target, because the last one ends with a rounding.
   const double aim = target + 0.25 * slack;
   while (separation > target + slack) {
     if (result.iterations >= most_iterations) return finish(State::Failed);
@@ -256,7 +258,7 @@ ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sw
     const double step = approach.safe_step(aim, last - fraction);
     const double next = fraction + step;
     if (next >= last) return {State::Separated, 1, 1, {}, {}, result.iterations};
-    if (next <= fraction) break;  // closer together than times can be told apart
+    if (next <= fraction) break;  // the step is below the resolution of time
     fraction = next;
     separation = approach.measure(fraction);
   }

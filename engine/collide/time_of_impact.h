@@ -5,10 +5,9 @@
 
 namespace plumb {
 
-/// Gives a body's motion during an interval, with time as the fraction 0 .. 1 of it: at start + fraction
-/// motion
-/// + fraction^2 curve, turned from its start by fraction turn. Shapes stand in the body's frame, whose origin
-/// is what moves along the parabola: the centre of mass.
+/// Motion of a body during an interval, with time as the fraction 0 .. 1 of it: its position is start +
+/// fraction motion + fraction^2 curve, its rotation is the start's turned by fraction turn. Shapes are given
+/// in the body's frame, whose origin (the centre of mass) moves along the parabola.
 template <class Real>
 struct Sweep {
   Vec2<Real> start{}, motion{};     ///< m
@@ -17,18 +16,17 @@ struct Sweep {
   Vec2<Real> curve{};               ///< m, half of the acceleration times the interval's square
 };
 
-/// Where the body is at a fraction: computed in double precision, then rounded to Real.
+/// Returns the body's pose at a fraction: computed in double precision, then rounded to Real.
 template <class Real>
 Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction);
 
 template <class Real>
 struct ImpactResult {
   enum class State {
-    Separated,   ///< they keep their distance through the whole interval; fraction 1
-    Hit,         ///< they come as close as the target at `fraction`, and never before
+    Separated,   ///< the shapes are never closer than the target; fraction 1
+    Hit,         ///< they reach the target distance at `fraction`, and not before
     Overlapped,  ///< they overlap at the start; fraction 0
-    Failed  ///< the iterations allowed were too few: they keep their distance up to `fraction`; what follows
-            ///< is unknown
+    Failed       ///< iterations ran out: not closer than the target up to `fraction`, unknown after it
   };
   State state = State::Separated;
   Real fraction = 1;          ///< rounded towards 0
@@ -38,20 +36,20 @@ struct ImpactResult {
   int iterations = 0;
 };
 
-/// Iterations that `time_of_impact` may take: the worst seen are two a radian, of rods that pass closely all
-/// the time.
+/// Default limit on the iterations of `time_of_impact`: at worst two per radian were seen, for rods that keep
+/// passing close by.
 inline constexpr int kMostImpactIterations = 4096;
 
-/// When two moving shapes first come as close as `target_separation` (m, >= 0). At the fraction found they
-/// are between the target and the target + tolerance (m, > 0) apart; at no earlier time are they closer than
-/// the target, at any speed or spin. A tolerance below the rounding of a double, relative to positions and
+/// Finds when two moving shapes first come as close as `target_separation` (m, >= 0). At the fraction found
+/// their separation is between the target and the target + tolerance (m, > 0); it is never less than the
+/// target before, at any speed or spin. A tolerance below the rounding of a double, relative to positions and
 /// motions, is raised to it.
 ///
-/// Shapes that already start closer than that (they rest or slide on each other) are stopped only where
-/// they come closer than half of the distance they start with.
+/// Shapes that start closer than that (resting or sliding on each other) hit only when they come closer than
+/// half of their initial distance.
 ///
 /// Computed in double precision for both types of Real. Shapes in float may move in double: at 1e8 m/s the
-/// way of a step is coarser in float than a bullet is large.
+/// displacement of a step is coarser in float than a bullet is large.
 template <class Real, class Moving = Real>
 ImpactResult<Real> time_of_impact(const Convex<Real>& a, const Sweep<Moving>& sweep_a, const Convex<Real>& b,
                                   const Sweep<Moving>& sweep_b, Real target_separation, Real tolerance,

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// x^n for whole n, by repeated multiplication: the same bits everywhere.
+/// x^n for whole n, by repeated multiplication: the same bits on every platform.
 template <class Real>
 constexpr Real whole_power(Real x, int n) {
   Real power = 1;
@@ -24,7 +24,7 @@ struct AttractionForceLaw {
   Real strength = 0;    ///< mu m, N m^n
   int exponent = 2;     ///< n
 
-  /// On a and on b.
+  /// Returns the wrenches on a and on b.
   std::pair<Wrench<Real>, Wrench<Real>> wrenches(const Pose<Real>& pose_a, const Twist<Real>&,
                                                  const Pose<Real>& pose_b, const Twist<Real>&) const {
     const Vec2<Real> arm = pose_b.rotation * centre;
@@ -36,7 +36,7 @@ struct AttractionForceLaw {
     return {{pull, 0}, {-pull, -cross(arm, pull)}};
   }
 
-  /// The potential, J, whose slope is the force: -mu m / ((n - 1) r^(n - 1)), or mu m ln r for n = 1.
+  /// Returns the potential energy, J: -mu m / ((n - 1) r^(n - 1)), or mu m ln r for n = 1.
   double energy(const Pose<double>& pose_a, const Pose<double>& pose_b) const {
     const Vec2d way = (pose_b.position + pose_b.rotation * centre) - pose_a.position;
     const double distance = std::sqrt(length_squared(way));

@@ -6,20 +6,20 @@
 
 namespace plumb {
 
-/// A sudden pressure from a point.
+/// A sudden pressure that spreads from a point.
 struct Blast {
   Vec2d centre{};     ///< m
-  double radius = 5;  ///< m, > 0: where it ends
+  double radius = 5;  ///< m, > 0: range
   double impulse =
       100;  ///< N s for each metre of surface square to it, at the centre; falls linearly to 0 at `radius`
 };
 
-/// Calls `push(impulse, point)` (N s, m) for the parts of a shape's outline that face the blast's centre.
-/// What lies at a surface's distance d gets impulse (1 - d / radius) along the ray for each metre across it;
-/// straight edges are taken in pieces. `shape` is seen from the centre of the blast.
+/// Calls `push(impulse, point)` (N s, m) for the parts of a shape's outline that face the blast's centre. A
+/// surface at distance d gets impulse (1 - d / radius) along the ray per metre across it; straight edges are
+/// divided into pieces. `shape` is relative to the centre of the blast.
 template <class Push>
 void visit_blast(const Blast& blast, const Convex<double>& shape, Push&& push) {
-  constexpr int kPieces = 8;  // of an edge
+  constexpr int kPieces = 8;  // per edge
   const auto strength = [&](double distance) {
     return distance < blast.radius ? blast.impulse * (1 - distance / blast.radius) : 0.0;
   };
@@ -31,7 +31,7 @@ void visit_blast(const Blast& blast, const Convex<double>& shape, Push&& push) {
           const Vec2d point = start + ((i + 0.5) / kPieces) * (end - start);
           const double facing = -dot(point, normal), distance = std::sqrt(length_squared(point));
           if (facing <= 0 || distance >= blast.radius) continue;
-          // length (facing / distance) across the ray, along point / distance.
+          // The width across the ray is length (facing / distance); the direction is point / distance.
           push((strength(distance) * length * facing / (distance * distance)) * point, point);
         }
       },

@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-/// From a scene's laws to the laws that are evaluated, with the bodies' names resolved. The scene is valid.
+/// Converts a scene's laws to the evaluated laws, with the bodies' names resolved. The scene is valid.
 template <class Real>
 class LawCompiler {
  public:
@@ -23,7 +23,7 @@ class LawCompiler {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) index_.emplace(scene.bodies[i].name, i);
   }
 
-  /// The index of a body, or `kFixedFrame`.
+  /// Returns the index of a body, or `kFixedFrame`.
   int end(std::string_view name) const {
     return name == kWorld ? kFixedFrame : static_cast<int>(index_.at(name));
   }

@@ -26,8 +26,8 @@ struct Matrix {
 
 Matrix outer(Vec2d a, Vec2d b) { return {b.x * a, b.y * a}; }
 
-/// A force f on one point, -f on another, that depends on the way d from the one to the other and on its rate
-/// w: how f changes with both.
+/// Derivatives of a force f on one point (-f on another) that depends on the vector d from the one to the
+/// other and on its rate w.
 struct Coupling {
   Vec2d arms[2]{};  ///< m, of the points, from the centres of mass in the world's axes
   Vec2d force{};    ///< N, f
@@ -67,8 +67,8 @@ struct Derivative {
     b.velocity[0][1] = b.velocity[1][0] = -c * v.x * v.y / speed;
   }
 
-  // In the body's frame F turns with the body and its torque stays; in the world's F stays, and r x F changes
-  // by (z x r) x F = -r . F.
+  // In the body's frame F turns with the body and its torque is constant; in the world's F is constant, and r
+  // x F changes by (z x r) x F = -r . F.
   void operator()(const PointForce& law) const {
     ForceBlock& b = block();
     const Rotation<double> turn = ends[0].pose.rotation;
@@ -127,14 +127,14 @@ struct Derivative {
     return ends[end].twist.velocity + cross(ends[end].twist.angular_velocity, arm);
   }
 
-  /// d changes by the ends' moves and by z x r as they turn, w by their velocities and, as they turn, by
-  /// z x (omega z x r) = -omega r. Torques r x f also change with r: by (z x r) x f = -r . f.
+  /// d changes with the ends' positions and by z x r as they turn; w with their velocities and, as they turn,
+  /// by z x (omega z x r) = -omega r. Torques r x f also change with r: by (z x r) x f = -r . f.
   void couple(const Coupling& c) const {
     for (const int on : {0, 1}) {
       for (const int by : {0, 1}) {
         if (ends[on].body == kFixedFrame || ends[by].body == kFixedFrame) continue;
         ForceBlock& b = block(ends[on].body, ends[by].body);
-        const double sign = on == by ? -1 : 1;  // of dd/dx times that of the force
+        const double sign = on == by ? -1 : 1;  // of dd/dx times the sign of the force
         const Vec2d arm = c.arms[by], lever = perpendicular(arm);
         const auto column = [&](double(&block)[3][3], int i, Vec2d change) {
           set_column(block, i, sign * change, sign * cross(c.arms[on], change));

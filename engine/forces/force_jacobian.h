@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// How the wrench on one body changes with the motion of a body (often the same one): derivatives of force x,
-/// y and torque by position x, y and angle, and by velocity x, y and angular velocity.
+/// Derivatives of the wrench on one body (force x, y and torque) by the motion of a body, often the same: by
+/// position x, y and angle, and by velocity x, y and angular velocity.
 struct ForceBlock {
   std::size_t on = 0, by = 0;  // bodies
   double position[3][3] = {};
@@ -23,7 +23,7 @@ class ForceJacobian {
   /// The scene is valid.
   explicit ForceJacobian(const Scene& scene);
 
-  /// The blocks at `time`; which bodies they couple does not depend on the motion.
+  /// Computes the blocks at `time`; the bodies they couple do not depend on the motion.
   void evaluate(double time, std::span<const Pose<double>> poses, std::span<const Twist<double>> twists,
                 std::vector<ForceBlock>& out) const;
 

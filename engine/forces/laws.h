@@ -16,12 +16,11 @@
 
 namespace plumb {
 
-/// The share of [t0, t1] that lies inside [start, start + duration]: a force that is switched within a step
-/// still gives its exact impulse. At a single instant, t0 == t1, it is 1 from `start` until before the end,
-/// else 0.
+/// Returns the fraction of [t0, t1] inside [start, start + duration]: a force switched within a step still
+/// gives its exact impulse. At an instant, t0 == t1, it is 1 from `start` until before the end, else 0.
 double active_share(double start, double duration, double t0, double t1);
 
-/// A scene's force laws by body index, one array a law. Each law's formula stands in a file of its own.
+/// A scene's force laws by body index, one array per law. Each law's formula is in a file of its own.
 template <class Real>
 class Forces {
  public:
@@ -29,15 +28,15 @@ class Forces {
   explicit Forces(const Scene& scene);
 
   bool empty() const;
-  /// Whether any law acts on `body`.
+  /// Returns true if any law acts on `body`.
   bool acts_on(std::size_t body) const;
 
-  /// Adds every law's wrench, averaged over [t0, t1] where a law depends on time and with the given motion
-  /// elsewhere, to `out`. Arrays are indexed by body. Gravity is not among the laws.
+  /// Adds every law's wrench to `out`: averaged over [t0, t1] where a law depends on time, at the given
+  /// motion otherwise. Arrays are indexed by body. Gravity is not among the laws.
   void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
-  /// The same at the instant `time` inside [t0, t1]: laws that change smoothly with time have their value
-  /// there. Switched laws keep their share of [t0, t1], which a caller ends where they are switched.
+  /// The same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated there.
+  /// Switched laws keep their fraction of [t0, t1], which the caller ends at the times of switching.
   void add_at(double time, double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
               Wrench<Real>* out) const;
 

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// A part of a rounding: the points at `radius` from `centre` whose outward normals lie counter-clockwise
-/// from `from` to `to`, at most half a turn.
+/// A circular part of an outline: the points at `radius` from `centre` whose outward normals lie
+/// counter-clockwise from `from` to `to`, at most half a turn.
 struct OutlineArc {
   Vec2d centre{};  ///< m
   double radius = 0;
@@ -31,8 +31,8 @@ void visit_outline(const Convex<double>& shape, Edge&& edge, Arc&& arc) {
   }
 }
 
-/// The part of an arc whose normals n have n . towards > 0, by the sines of its ends' angles from `towards`
-/// (a unit vector) and the cosines that go with them.
+/// The part of an arc whose normals n have n . towards > 0: sines and cosines of its ends' angles from
+/// `towards` (a unit vector).
 struct FacingArc {
   double sine_from = 0, sine_to = 0, cosine_from = 0, cosine_to = 0;
 };
@@ -40,8 +40,8 @@ struct FacingArc {
 inline FacingArc facing_part(const OutlineArc& arc, Vec2d towards) {
   const double c0 = dot(arc.from, towards), s0 = cross(towards, arc.from);
   const double c1 = dot(arc.to, towards), s1 = cross(towards, arc.to);
-  // An arc of at most half a turn enters the facing half at sine -1 and leaves it at sine 1; with both ends
-  // outside it can only be all of that half.
+  // An arc of at most half a turn enters the facing half at sine -1 and leaves it at sine 1. With both ends
+  // outside, its facing part is empty or the whole half.
   if (c0 <= 0 && c1 <= 0 && !(s0 < 0 && s1 > 0)) return {};
   FacingArc part{-1, 1, 0, 0};
   if (c0 > 0) part.sine_from = s0, part.cosine_from = c0;

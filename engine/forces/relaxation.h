@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// (1 - exp(-x)) / x for x >= 0, without a library: the mean of a decaying quantity over the time in which it
-/// decays by exp(-x), as a share of its start.
+/// (1 - exp(-x)) / x for x >= 0, without a library: the mean of a quantity that decays by exp(-x), as a
+/// fraction of its initial value.
 inline double mean_of_decay(double x) {
   if (x <= 0.25) {
     // 1 - x/2! + x^2/3! - ... + x^12/13!: below rounding for x <= 1/4.
@@ -13,9 +13,9 @@ inline double mean_of_decay(double x) {
     for (int n = 13; n >= 2; --n) sum = 1 - x / n * sum;
     return sum;
   }
-  // exp(-x) is nothing beside 1; infinity would be halved for ever.
+  // exp(-x) is negligible; infinity would be halved for ever.
   if (x > 64) return 1 / x;
-  // exp(-x) = exp(-x / 2^k)^(2^k) with the series where it is short.
+  // exp(-x) = exp(-x / 2^k)^(2^k), with a short series for the small argument.
   double small = x;
   int halvings = 0;
   for (; small > 0.125; small *= 0.5) ++halvings;
@@ -25,9 +25,9 @@ inline double mean_of_decay(double x) {
   return (1 - decay) / x;
 }
 
-/// The mean over `dt` of the drag -c v in m v' = -c v + load, from the equation's solution: a constant force
-/// of this size leads to the exact velocity after `dt`, and never past the one at which drag and load are in
-/// balance. `inverse_mass` in 1/kg, `coefficient` c in N s/m, >= 0.
+/// Mean over `dt` of the drag -c v in m v' = -c v + load, from the equation's solution. A constant force of
+/// this size leads to the exact velocity after `dt`, and never past the terminal velocity. `inverse_mass` in
+/// 1/kg, `coefficient` c in N s/m, >= 0.
 inline double mean_linear_drag(double velocity, double coefficient, double inverse_mass, double load,
                                double dt) {
   const double share = mean_of_decay(coefficient * inverse_mass * dt);

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// A force at a point of the body that swings: F = A sin(w t + phase).
+/// A sinusoidal force at a point of the body: F = A sin(w t + phase).
 template <class Real>
 struct SinusoidalForceLaw {
   std::size_t body = 0;
@@ -17,15 +17,15 @@ struct SinusoidalForceLaw {
   double angular_frequency = 0;  ///< rad/s
   double phase = 0;              ///< rad
 
-  /// The mean of sin(w t + phase) over [t0, t1], sin(middle) sin(half) / half with the phase at the middle
-  /// and half the phase's way: a step's impulse is exact. At an instant, t0 == t1, the sine itself.
+  /// Mean of sin(w t + phase) over [t0, t1], sin(middle) sin(half) / half with the phase at the middle and
+  /// half its change: a step's impulse is exact. At an instant, t0 == t1, the sine itself.
   double mean_sine(double t0, double t1) const {
     const double half = 0.5 * angular_frequency * (t1 - t0);
     const double middle = rotation_of(0.5 * angular_frequency * (t0 + t1) + phase).s;
     return half == 0 ? middle : middle * (rotation_of(half).s / half);
   }
 
-  /// With the amplitude as the force.
+  /// Returns the wrench with the amplitude as the force.
   constexpr Wrench<Real> wrench(const Pose<Real>& pose, const Twist<Real>&) const {
     return {amplitude, cross(pose.rotation * point, amplitude)};
   }

@@ -17,13 +17,13 @@ struct SpringForceLaw {
   Real stiffness = 0;                 ///< N/m
   Real damping = 0;                   ///< N s/m
 
-  /// On a and on b.
+  /// Returns the wrenches on a and on b.
   std::pair<Wrench<Real>, Wrench<Real>> wrenches(const Pose<Real>& pose_a, const Twist<Real>& twist_a,
                                                  const Pose<Real>& pose_b, const Twist<Real>& twist_b) const {
     const Vec2<Real> arm_a = pose_a.rotation * anchor_a, arm_b = pose_b.rotation * anchor_b;
     const Vec2<Real> way = (pose_b.position + arm_b) - (pose_a.position + arm_a);
     const Real length = std::sqrt(length_squared(way));
-    if (length == 0) return {};  // it has no direction to pull in
+    if (length == 0) return {};  // no direction to pull in
     const Vec2<Real> axis = (1 / length) * way;
     const Vec2<Real> speed_a = twist_a.velocity + cross(twist_a.angular_velocity, arm_a);
     const Vec2<Real> speed_b = twist_b.velocity + cross(twist_b.angular_velocity, arm_b);

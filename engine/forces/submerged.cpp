@@ -17,7 +17,7 @@ struct Moments {
   double area = 0, x = 0, y = 0;
 };
 
-// -y dx, -x y dx and -y^2/2 dx along the line from p to q, as far as it is below y = 0.
+// Integrates -y dx, -x y dx and -y^2/2 dx along the part below y = 0 of the line from p to q.
 void add_line(Moments& sum, Vec2d p, Vec2d q) {
   if (p.y >= 0 && q.y >= 0) return;
   if (p.y > 0) p = {p.x + (q.x - p.x) * (p.y / (p.y - q.y)), 0};
@@ -28,7 +28,7 @@ void add_line(Moments& sum, Vec2d p, Vec2d q) {
   sum.y -= dx * (p.y * p.y + p.y * q.y + q.y * q.y) / 6;
 }
 
-// The same along an arc that is all below, angles counted from straight down: x = cx + r sin, y = cy - r cos.
+// The same along an arc that is all below, angles from straight down: x = cx + r sin, y = cy - r cos.
 void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
   const Rotation<double> a = rotation_of(from), b = rotation_of(to);
   const double sine = b.s - a.s;                                          // of cos
@@ -46,10 +46,10 @@ void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
 void add_arc(Moments& sum, const OutlineArc& arc) {
   const double r = arc.radius, cy = arc.centre.y;
   if (cy >= r) return;
-  // Below are the angles from -wet to wet.
+  // The angles from -wet to wet are below.
   const double wet = cy <= -r ? kPi : arc_tangent(std::sqrt((r - cy) * (r + cy)), cy);
   const double from = arc_tangent(arc.from.x, -arc.from.y);
-  // Half a turn may come out as minus half a turn.
+  // Rounding may turn half a turn into minus half a turn.
   double sweep = arc_tangent(cross(arc.from, arc.to), dot(arc.from, arc.to));
   if (sweep < 0) sweep = dot(arc.from, arc.to) < 0 ? sweep + 2 * kPi : 0;
   for (int turn = 0; turn < 2; ++turn) {
@@ -68,7 +68,7 @@ Submerged submerged_part(const Convex<double>& shape) {
     bottom = std::min(bottom, shape.corners[i].point.y);
   }
   if (bottom - shape.radius >= 0) return {};
-  // Where all is below, depth would only cost digits: the shape is integrated from its own top.
+  // If all is below, depth would only cost digits: the shape is integrated from its own top.
   const double shift = std::min(top + shape.radius, 0.0);
   const Vec2d origin{shape.corners[0].point.x, shift};
   Moments sum;

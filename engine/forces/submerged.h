@@ -10,8 +10,8 @@ struct Submerged {
   Vec2d centroid{};  ///< m; zero without area
 };
 
-/// Exact, for discs, capsules, polygons and rounded ones: by Green's theorem the area is the integral of
-/// -y dx along the outline's parts below y = 0. The water line itself, which closes them, adds nothing there.
+/// Exact for discs, capsules, polygons and rounded ones. By Green's theorem the area is the integral of -y dx
+/// along the outline's parts below y = 0; the water line that closes them adds nothing.
 Submerged submerged_part(const Convex<double>& shape);
 
 }  // namespace plumb

@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// A box along the axes, m.
+/// An axis-aligned bounding box, m.
 template <class Real>
 struct Aabb {
   Vec2<Real> lower{}, upper{};
@@ -22,11 +22,12 @@ struct Aabb {
   Aabb grown(Real margin) const {
     return {{lower.x - margin, lower.y - margin}, {upper.x + margin, upper.y + margin}};
   }
-  /// Half the perimeter: how likely a query hits it (the surface-area heuristic in the plane).
+  /// Returns half the perimeter, which is proportional to the probability of a hit (surface-area heuristic in
+  /// the plane).
   Real half_perimeter() const { return (upper.x - lower.x) + (upper.y - lower.y); }
 };
 
-/// The smallest box around both.
+/// Returns the smallest box around both.
 template <class Real>
 Aabb<Real> merged(const Aabb<Real>& a, const Aabb<Real>& b) {
   return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y)},

@@ -17,7 +17,7 @@
 namespace plumb {
 
 #ifdef PLUMB_BOUNDS_SSE2
-/// The same bits as below, for shapes of four corners: two corners at a time.
+/// SSE version for shapes of four corners, two corners at a time: the same bits as the general one below.
 inline Aabb<float> bounds_of_four(const Convex<float>& shape, const Pose<float>& pose) {
   const float c = pose.rotation.c, s = pose.rotation.s;
   const __m128 along_x = _mm_setr_ps(c, s, c, s), along_y = _mm_setr_ps(-s, c, -s, c);
@@ -42,7 +42,7 @@ inline Aabb<float> bounds_of_four(const Convex<float>& shape, const Pose<float>&
 }
 #endif
 
-/// The smallest box along the axes around a shape whose frame lies at `pose`.
+/// Returns the axis-aligned bounding box of a shape whose frame lies at `pose`.
 template <class Real>
 inline Aabb<Real> convex_bounds(const Convex<Real>& shape, const Pose<Real>& pose) {
 #ifdef PLUMB_BOUNDS_SSE2
@@ -66,7 +66,7 @@ inline Aabb<Real> convex_bounds(const Convex<Real>& shape, const Pose<Real>& pos
   return {(pose.position + box.lower) - rounding, (pose.position + box.upper) + rounding};
 }
 
-/// The distance from `point` to the farthest point of the shape, m, both in the corners' frame.
+/// Returns the distance (m) from `point` to the farthest point of the shape, both in the corners' frame.
 template <class Real>
 inline Real convex_extent(const Convex<Real>& shape, Vec2<Real> point) {
   Real farthest = 0;
@@ -75,8 +75,8 @@ inline Real convex_extent(const Convex<Real>& shape, Vec2<Real> point) {
   return std::sqrt(farthest) + shape.radius;
 }
 
-/// Half the shape's width in the direction in which it is thinnest, m: what moves farther than this in a
-/// step may pass through something thin. For a segment without radius: 0.
+/// Returns half the shape's least width, m: a body that moves farther than this in a step may tunnel through
+/// something thin. For a segment without radius: 0.
 template <class Real>
 inline Real convex_half_width(const Convex<Real>& shape) {
   if (shape.count < 3) return shape.radius;

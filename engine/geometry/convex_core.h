@@ -9,9 +9,9 @@
 
 namespace plumb {
 
-/// A shape with a margin of even depth taken off all around: all points of it that are deeper than that
-/// below its surface. While the core of a shape has passed nothing, the least way out of an overlap is back
-/// to where it came from. The depth comes off the rounding first, then off the edges.
+/// A shape shrunk by an even depth: all points of it that are deeper than that below its surface. While the
+/// core of a shape has passed nothing, the direction of least penetration leads back to the side it came
+/// from. The depth is taken off the rounding first, then off the edges.
 template <class Real>
 class Core {
  public:
@@ -31,7 +31,7 @@ class Core {
  private:
   void add(const Corner<Real>& corner) { std::construct_at(corners_ + convex_.count++, corner); }
 
-  // Moves each corner in along its bisector. False where an edge would turn over: it is to vanish.
+  // Moves each corner in along its bisector. Returns false if an edge would turn over: it has to vanish.
   bool inset_corners(const Convex<Real>& shape, Real depth) {
     convex_.count = 0;
     for (int i = 0; i < shape.count; ++i) {
@@ -49,7 +49,7 @@ class Core {
     return true;
   }
 
-  // Cuts the shape along each of its edges moved in.
+  // Clips the shape against each of its edges moved in.
   void cut_edges(const Convex<Real>& shape, Real depth) {
     Corner<Real> cut[kMaxCorners + 1];
     convex_.count = 0;
@@ -67,22 +67,21 @@ class Core {
           cut[count++] = {point, here > 0 ? from.normal : normal};
         }
       }
-      if (count == 0 || count > kMaxCorners)
-        break;  // nothing is as deep; what is left is inside all the same
+      if (count == 0 || count > kMaxCorners) break;  // no point is as deep; the rest lies inside all the same
       convex_.count = count;
       std::copy(cut, cut + count, corners_);
     }
   }
 
   union {
-    Corner<Real> corners_[kMaxCorners];  // the first `convex_.count` alone are made
+    Corner<Real> corners_[kMaxCorners];  // only the first `convex_.count` are constructed
   };
   Convex<Real> convex_;
 };
 
-/// Half the width of a shape as passing through goes, m: what moves by no more than this in a step passes
-/// nothing. Half of its width where it is thinnest; less for a shape with a sharp tip, so that a core of half
-/// that depth reaches into the tip to within this share of half the width.
+/// Returns half the width of a shape for tunnelling, m: a shape that moves by no more than this in a step
+/// passes through nothing. It is half of the least width, and less for a shape with a sharp tip. A core of
+/// half that depth thus reaches into the tip to within kTipLoss times half the width.
 template <class Real>
 Real convex_passing_width(const Convex<Real>& shape) {
   constexpr Real kTipLoss = Real(1);

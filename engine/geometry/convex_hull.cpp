@@ -10,14 +10,14 @@
 namespace plumb {
 namespace {
 
-// Share of the extent below which a detail of the outline is dropped: a hundred roundings of a float, so that
-// edges have a direction in either precision.
+// Fraction of the extent below which a detail of the outline is dropped: a hundred roundings of a float, so
+// that edges have a direction in either precision.
 constexpr double kDetail = 1e-5;
 
-// More corners than this are refused before small details are looked for, whose search is quadratic.
+// Limit on corners before small details are dropped, a quadratic search; more are refused.
 constexpr std::size_t kMostExactCorners = 2048;
 
-// m. Beyond, squares of lengths leave a double's range.
+// m. Beyond it, squares of lengths leave a double's range.
 constexpr double kLargestCoordinate = 1e100;
 
 [[noreturn]] void refuse(const std::string& value, const std::string& problem) {
@@ -49,7 +49,7 @@ std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
   return hull;
 }
 
-/// How far the corner sticks out of the line through its neighbours, or how near it is to one of them.
+/// Returns how far the corner lies from the line through its neighbours, or from the nearer of them if less.
 double detail_at(const std::vector<Vec2d>& hull, std::size_t i) {
   const Vec2d before = hull[(i + hull.size() - 1) % hull.size()], at = hull[i];
   const Vec2d after = hull[(i + 1) % hull.size()];
@@ -58,7 +58,7 @@ double detail_at(const std::vector<Vec2d>& hull, std::size_t i) {
   return base > 0 ? std::min(to_neighbour, std::fabs(turn(before, at, after)) / base) : 0;
 }
 
-/// Drops corner after corner, the least first, while one is below `size`.
+/// Drops the corner with the least detail until none is at most `size`.
 void drop_details(std::vector<Vec2d>& hull, double size) {
   while (hull.size() > 2) {
     std::size_t least = 0;

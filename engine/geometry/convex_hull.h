@@ -8,10 +8,10 @@
 
 namespace plumb {
 
-/// The corners of a convex shape while it is built: in double, rounded to the world's precision at the end.
+/// The corners of a convex shape during construction: in double, rounded to the world's precision at the end.
 using Corners = std::vector<Corner<double>>;
 
-/// Corners of the convex hull, counter-clockwise from the leftmost (then lowest) point. Points that are
+/// Returns the corners of the convex hull, counter-clockwise from the leftmost (then lowest) point. Points
 /// nearer than 1e-5 of the hull's extent to another corner, or to the line between their neighbours, are
 /// dropped. Throws Error about "points" of "shape": not finite, no area (three points in a line), or more
 /// than kMaxCorners corners left.
@@ -20,19 +20,19 @@ Corners convex_hull(std::span<const Vec2d> points);
 /// A box of half sizes > 0 about `center`, m. Its opposite normals are exact negatives of each other.
 Corners box_corners(double half_width, double half_height, Vec2d center = {}, Rotation<double> rotation = {});
 
-/// A capsule's two corners: the ends of its axis, m. A single one, a disc's, when both are the same point.
+/// A capsule's two corners: the ends of its axis, m. One corner, a disc's, when both are the same point.
 Corners capsule_corners(Vec2d first, Vec2d second);
 
 /// A disc's only corner.
 Corners disc_corner(Vec2d center);
 
-/// The same corners seen from a frame in which theirs lies at `pose`.
+/// Transforms the corners to a frame in which theirs lies at `pose`.
 Corners transformed(std::span<const Corner<double>> corners, const Pose<double>& pose);
 
-/// The same corners, moved.
+/// Translates the corners by `by`.
 Corners translated(std::span<const Corner<double>> corners, Vec2d by);
 
-/// The corners in the world's precision. Exists for float and double.
+/// Rounds the corners to the world's precision. Exists for float and double.
 template <class Real>
 std::vector<Corner<Real>> rounded_to(std::span<const Corner<double>> corners);
 

@@ -18,14 +18,14 @@ struct Moments {
   void operator+=(const Moments& b) { area += b.area, first += b.first, polar += b.polar; }
 };
 
-/// Of a triangle with one corner at the origin: I = area (u.u + u.v + v.v) / 6.
+/// Returns those of a triangle with one corner at the origin: I = area (u.u + u.v + v.v) / 6.
 Moments triangle(Vec2d u, Vec2d v) {
   const double area = cross(u, v) / 2;
   return {area, (area / 3) * (u + v), area * (dot(u, u) + dot(u, v) + dot(v, v)) / 6};
 }
 
-/// Of the rectangle of width `radius` on the outside of the edge from u to v. About its own centre
-/// I = area (length^2 + radius^2) / 12; then Steiner's theorem.
+/// Returns those of the rectangle of width `radius` on the outside of the edge from u to v. About its own
+/// centre I = area (length^2 + radius^2) / 12; then Steiner's theorem.
 Moments rectangle(Vec2d u, Vec2d v, Vec2d normal, double radius) {
   const double length = std::sqrt(length_squared(v - u));
   const double area = length * radius;
@@ -33,8 +33,9 @@ Moments rectangle(Vec2d u, Vec2d v, Vec2d normal, double radius) {
   return {area, area * center, area * ((length * length + radius * radius) / 12 + length_squared(center))};
 }
 
-/// Of the circular sector about `center` between two unit normals. About its centre the first moment is
-/// radius^3 / 3 times the integral of (cos, sin) over the angle, and the polar one radius^4 angle / 4.
+/// Returns those of the circular sector about `center` between two unit normals. About its centre the first
+/// moment is radius^3 / 3 times the integral of (cos, sin) over the angle, and the polar one radius^4 angle /
+/// 4.
 Moments sector(Vec2d center, Vec2d from, Vec2d to, double radius) {
   const double angle = std::fabs(arc_tangent(cross(from, to), dot(from, to)));
   const double square = radius * radius;
@@ -44,7 +45,7 @@ Moments sector(Vec2d center, Vec2d from, Vec2d to, double radius) {
   return {area, area * center + first, area * length_squared(center) + 2 * dot(center, first) + polar};
 }
 
-/// Moments about `origin`.
+/// Returns the moments of a shape about `origin`.
 Moments moments(const Convex<double>& shape, Vec2d origin) {
   Moments sum;
   for (int i = 0; i < shape.count; ++i) {
@@ -67,7 +68,7 @@ ConvexMass convex_mass(const Convex<double>& shape, double density) {
     const double square = shape.radius * shape.radius, mass = density * (kPi * square);
     return {mass, shape.corners[0].point, mass * square / 2};
   }
-  // Everything about the corners' mean: the centroid is near it, so that little cancels.
+  // Taken about the corners' mean, which is near the centroid, so that little cancels.
   Vec2d mean{};
   for (int i = 0; i < shape.count; ++i) mean += (1.0 / shape.count) * shape.corners[i].point;
   const Moments rough = moments(shape, mean);

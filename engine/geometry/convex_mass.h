@@ -4,15 +4,16 @@
 
 namespace plumb {
 
-/// What a rigid shape weighs and how it resists turning.
+/// Mass properties of a rigid shape.
 struct ConvexMass {
   double mass = 0;     ///< kg
   Vec2d centroid{};    ///< m, in the corners' frame
   double inertia = 0;  ///< kg m^2, about the centroid
 };
 
-/// Of a rounded convex shape of uniform `density`, kg/m^2. Exact but for rounding: the polygon, a rectangle
-/// on each edge and a circular sector at each corner. Shapes without area (a segment, a point) weigh nothing.
+/// Computes those of a rounded convex shape of uniform `density`, kg/m^2. Exact but for rounding: the
+/// polygon, a rectangle on each edge and a circular sector at each corner. Shapes without area (a segment, a
+/// point) have no mass.
 ConvexMass convex_mass(const Convex<double>& shape, double density);
 
 }  // namespace plumb

@@ -12,7 +12,7 @@ namespace plumb {
 
 enum class ShapeKind : std::uint8_t { Circle, Box };
 
-/// A shape as collision sees it, in its body's frame.
+/// A shape for collision, in its body's frame.
 template <class Real>
 struct SolidShape {
   ShapeKind kind = ShapeKind::Circle;
@@ -24,7 +24,7 @@ struct SolidShape {
   Real reach = 0;             ///< m, from the shape's centre to its farthest point
 };
 
-/// Where a shape is in the world.
+/// Pose of a shape in the world.
 template <class Real>
 struct Placement {
   Vec2<Real> center{};
@@ -37,11 +37,11 @@ Placement<Real> place(const SolidShape<Real>& shape, const Pose<Real>& body) {
   return {body.position + q * shape.center, {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s}};
 }
 
-/// The smallest box along the axes around `shape`.
+/// Returns the axis-aligned bounding box of `shape`.
 template <class Real>
 Aabb<Real> bounds_of(const SolidShape<Real>& shape, const Placement<Real>& at);
 
-/// The shapes of a scene, body by body in the scene's order.
+/// Returns the shapes of a scene, body by body in the scene's order.
 template <class Real>
 std::vector<SolidShape<Real>> compile_shapes(const Scene& scene);
 

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <optional>
 
-/// Polynomials on [0, 1] by their Bernstein coefficients. They lie between the least and the largest of them,
-/// so that a root is never overlooked.
+/// Polynomials on [0, 1] by their Bernstein coefficients. Their values lie between the least and the largest
+/// coefficient, so that no root is missed.
 namespace plumb {
 
 template <std::size_t N>
 using Bernstein = std::array<double, N>;  // degree N - 1
 
-/// The two halves' coefficients (de Casteljau's algorithm).
+/// Computes the two halves' coefficients (de Casteljau's algorithm).
 template <std::size_t N>
 void halve(const Bernstein<N>& whole, Bernstein<N>& left, Bernstein<N>& right) {
   right = whole;
@@ -21,7 +21,7 @@ void halve(const Bernstein<N>& whole, Bernstein<N>& left, Bernstein<N>& right) {
   }
 }
 
-/// The root of a polynomial that is positive at `low`, not at `high`, and has one root between.
+/// Returns the only root of a polynomial that is positive at `low` and not at `high`.
 template <std::size_t N>
 double only_descent(Bernstein<N> c, double low, double high) {
   Bernstein<N> left{}, right{};
@@ -35,12 +35,12 @@ double only_descent(Bernstein<N> c, double low, double high) {
   return high;
 }
 
-/// The first s in [low, high] where the polynomial, given by its coefficients on that interval, goes from
-/// positive to not positive. Two roots closer together than 2^-`depth` count as none.
+/// Returns the first s in [low, high] at which the polynomial, given by its coefficients on that interval,
+/// changes from positive to not positive. Two roots closer together than 2^-`depth` are ignored.
 template <std::size_t N>
 std::optional<double> first_descent(const Bernstein<N>& c, double low = 0, double high = 1, int depth = 40) {
-  // By Descartes' rule there are at most as many roots as changes of sign among the coefficients; one change
-  // is exactly one root.
+  // By Descartes' rule there are at most as many roots as sign changes among the coefficients; one change is
+  // exactly one root.
   int changes = 0;
   for (std::size_t i = 1; i < N; ++i) changes += (c[i] > 0) != (c[i - 1] > 0) ? 1 : 0;
   if (changes == 1 && c[0] > 0) return only_descent(c, low, high);

@@ -6,9 +6,8 @@
 
 namespace plumb {
 
-/// Numbers that many small increments are added to: what an addition rounds away is carried into the next
-/// one, so that the error does not grow with the number of steps (Kahan 1965; the exact error is Knuth's
-/// TwoSum).
+/// Accumulators for many small increments. The rounding error of each addition is carried into the next, so
+/// that the error does not grow with the number of steps (Kahan 1965; the exact error is Knuth's TwoSum).
 class Compensated {
  public:
   explicit Compensated(std::size_t size = 0) : value_(size, 0.0), carry_(size, 0.0) {}

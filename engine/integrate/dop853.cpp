@@ -32,7 +32,7 @@ double Dop853::work(double h) const {
   return sum * h;
 }
 
-/// Hands each component's sum to `store`.
+/// Passes each component's weighted sum to `store`.
 template <class Store>
 void Dop853::weighted_sum(const double* weights, int stages, const Store& store) const {
   const double* rate[kAllStages];
@@ -43,7 +43,7 @@ void Dop853::weighted_sum(const double* weights, int stages, const Store& store)
     rate[count] = rates_[j].data();
     weight[count++] = weights[j];
   }
-  // A part at a time, such that its sums stay in registers; stages are added in their order.
+  // Works on blocks whose sums stay in registers; stages are added in order.
   std::size_t first = 0;
   const auto go_by = [&]<std::size_t kPart>(std::integral_constant<std::size_t, kPart>) {
     for (; first + kPart <= dimension_; first += kPart) {
@@ -124,7 +124,7 @@ void Dop853::polynomial(Flow& flow, double time, double h, std::span<const doubl
     weighted_sum(kDenseA[s], stage, [&](std::size_t i, double sum) { at_stage_[i] = y[i] + h * sum; });
     flow.rate(time + kDenseC[s] * h, at_stage_, rates_[stage]);
   }
-  // The publication's terms are products of s and 1 - s in turn; here 1 - s is -(s - 1).
+  // The publication's terms are alternating products of s and 1 - s; here 1 - s is -(s - 1).
   out.set_nodes(std::array{0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0});
   for (std::size_t i = 0; i < y.size(); ++i) {
     const double moved = increment_[i], at_first = h * rates_.front()[i], at_last = h * rates_[kStages][i];

@@ -11,55 +11,56 @@
 namespace plumb {
 
 /// One step of DOP853, the explicit Runge-Kutta method of order 8 by Dormand and Prince. The last stage of a
-/// step is not the first of the next: the caller may move y between steps and then sets `first_rate` again.
+/// step is not reused as the first of the next: the caller may change y between steps and then sets
+/// `first_rate` again.
 class Dop853 {
  public:
   explicit Dop853(std::size_t dimension);
 
-  /// dy/dt at the start of the step: to be set before `step`.
+  /// dy/dt at the start of the step: must be set before `step`.
   std::span<double> first_rate() { return rates_.front(); }
   std::span<const double> first_rate() const { return rates_.front(); }
 
-  /// The flow's `power` there; and at the end of the step, with `last_rate`.
+  /// The flow's `power` at the start of the step; and at its end, together with `last_rate`.
   void set_first_power(double power) { powers_.front() = power; }
   void set_last_power(double power) { powers_[kLast] = power; }
   double last_power() const { return powers_[kLast]; }
 
-  /// From y at `time` over `h`: 11 evaluations of `flow`. The result is y + increment().
+  /// Steps from y at `time` over `h`: 11 evaluations of `flow`. The result is y + increment().
   void step(Flow& flow, double time, double h, std::span<const double> y);
 
   std::span<const double> increment() const { return increment_; }
 
-  /// The work of the flow's `power` over the last step, of length `h`: by the stages' own weights, and as
-  /// exact as the step.
+  /// Returns the work of the flow's `power` over the last step, of length `h`: by the stages' own weights,
+  /// and as accurate as the step.
   double work(double h) const;
 
-  /// The last step's estimated error: the largest over the components relative to `scale`, from the estimates
-  /// of orders 5 and 3 (Hairer, Norsett & Wanner, II.10, eq. (10.17) there with the largest in place of the
-  /// mean).
+  /// Returns the last step's estimated error: the largest over the components relative to `scale`, from the
+  /// estimates of orders 5 and 3. Source: Hairer, Norsett & Wanner, II.10, eq. (10.17), with the largest in
+  /// place of the mean.
   double error(double h, std::span<const double> scale) const;
 
-  /// Both estimates of the last step by component, of orders 5 and 3, and `error` from them where the caller
-  /// has taken something away.
+  /// Computes both estimates of the last step by component, of orders 5 and 3. The static `error` combines
+  /// them, after the caller may have subtracted a part.
   void error_vectors(double h, std::span<double> fifth, std::span<double> third) const;
   static double error(std::span<const double> scale, std::span<const double> fifth,
                       std::span<const double> third);
 
-  /// dy/dt at the end of the step: to be set before `polynomial`.
+  /// dy/dt at the end of the step: must be set before `polynomial`.
   std::span<double> last_rate();
   std::span<const double> last_rate() const;
 
-  /// The step's length times the largest rate at which the motion changes, from the last stage and the step's
-  /// end `y_end` with its `last_rate`: above some 6 the method is not stable, and steps are as short as that
-  /// alone asks for (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.2). To be asked for
-  /// right after a step.
+  /// Returns the step's length times the largest rate of change of the motion, from the last stage and the
+  /// step's end `y_end` with its `last_rate`. Above about 6 the method is unstable, and stability alone
+  /// limits the steps (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.2). To be called right
+  /// after a step.
   double stiffness(double h, std::span<const double> y_end, std::span<const double> scale) const;
 
-  /// The polynomial of order 7 over the last step, which was made from `y` at `time` over `h`: 3 evaluations
-  /// of `flow` (Hairer, Norsett & Wanner, II.6, and their program).
+  /// Computes the polynomial of order 7 over the last step, from `y` at `time` over `h`: 3 evaluations of
+  /// `flow` (Hairer, Norsett & Wanner, II.6, and their program).
   void polynomial(Flow& flow, double time, double h, std::span<const double> y, StepPolynomial& out);
 
-  /// The end of the last step is the start of the next: `last_rate` becomes `first_rate`.
+  /// Makes the end of the last step the start of the next: `last_rate` becomes `first_rate`.
   void advance();
 
  private:

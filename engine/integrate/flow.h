@@ -9,8 +9,8 @@ class Flow {
  public:
   virtual ~Flow() = default;
   virtual void rate(double time, std::span<const double> y, std::span<double> out) = 0;
-  /// What the flow's forces put into the motion at the last `rate`, W: those that have no potential of their
-  /// own in the account of who asks.
+  /// Returns the power of the flow's forces at the last `rate`, W: of those without a potential in the
+  /// caller's energy balance.
   virtual double power() const { return 0; }
 };
 

@@ -19,7 +19,7 @@ Radau::Radau(std::size_t dimension)
       rates_(kStages * dimension),
       change_(kStages * dimension) {}
 
-/// Rates of the stages from the last step's: their polynomial of degree 4, carried on.
+/// Extrapolates the last step's stage rates (a polynomial of degree 4) to the new stages.
 void Radau::guess(double h, std::span<const double> first_rate) {
   if (last_h_ == 0) {
     for (int s = 0; s < kStages; ++s) std::copy(first_rate.begin(), first_rate.end(), &rates_[s * n_]);
@@ -45,7 +45,7 @@ void Radau::guess(double h, std::span<const double> first_rate) {
   }
 }
 
-// k_i = f(t + c_i h, y + h sum_j a_ij k_j); Newton's method for the k.
+// Solves k_i = f(t + c_i h, y + h sum_j a_ij k_j) for the k by Newton's method.
 bool Radau::step(StiffFlow& flow, double time, double h, std::span<const double> y,
                  std::span<const double> first_rate, std::span<const double> scale) {
   constexpr int kMostIterations = 12;
@@ -80,7 +80,7 @@ bool Radau::step(StiffFlow& flow, double time, double h, std::span<const double>
     if (rounding || (contraction < 1 && size * contraction / (1 - contraction) <= kSmall)) break;
     if (iterations_ > 2 && contraction >= 1) {
       if (size > kStagnant) return false;
-      break;  // rounding
+      break;  // stagnates at rounding
     }
     before = size;
   }
@@ -129,7 +129,7 @@ void Radau::set_memory(double last_step, std::span<const double> rates) {
   std::copy(rates.begin(), rates.end(), rates_.begin());
 }
 
-// Through the start and the stages, by divided differences.
+// Interpolates the start and the stages by divided differences.
 void Radau::polynomial(StepPolynomial& out) const {
   std::array<double, kStages> nodes{};
   for (int k = 1; k < kStages; ++k) nodes[k] = kC[k - 1];

@@ -5,20 +5,20 @@
 
 namespace plumb {
 
-/// How long the next step should be, from the errors of the last two (a PI controller, Gustafsson 1991, as in
-/// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4). For a method whose error goes
-/// with h^8. The exponents are 3/32 and 1/32, because roots by repeated `sqrt` have the same bits everywhere
-/// and `pow` has not.
+/// Chooses the length of the next step from the errors of the last two, for a method whose error is
+/// proportional to h^8. A PI controller (Gustafsson 1991), as in Hairer, Norsett & Wanner, Solving Ordinary
+/// Differential Equations I, II.4. The exponents are 3/32 and 1/32, because repeated `sqrt` has the same bits
+/// on every platform and `pow` has not.
 class StepControl {
  public:
-  /// Of the length that would just meet the tolerance. Where errors change by more from step to step than a
-  /// tenth of the length makes up for, a fifth saves more steps that have to be done again than it costs.
+  /// Safety factors on the length that would just meet the tolerance. kCareful costs less than the rejected
+  /// steps it saves, if errors vary more from step to step than kUsual makes up for.
   static constexpr double kUsual = 0.9, kCareful = 0.8;
   explicit StepControl(double safety = kUsual) : safety_(safety) {}
 
-  /// The factor for a step that met its tolerance with `error` <= 1.
+  /// Returns the factor for a step that met its tolerance with `error` <= 1.
   double after_acceptance(double error) {
-    constexpr double kLeast = 1e-10;  // an error of zero says no more than this
+    constexpr double kLeast = 1e-10;  // limits the growth after an error of zero
     const double e = std::max(error, kLeast);
     const double r = root32(e);
     const double factor = safety_ * root32(previous_) / (r * r * r);
@@ -26,15 +26,15 @@ class StepControl {
     return std::clamp(factor, kShrinkMost, kGrowMost);
   }
 
-  /// The factor for a step that has to be done again; 1/8 of the power, without history.
+  /// Returns the factor for a rejected step: error^(-1/8), without history.
   double after_rejection(double error) const {
     if (!(error < 1e30)) return kShrinkMost;
     const double r = root32(error);
     return std::clamp(safety_ / ((r * r) * (r * r)), kShrinkMost, safety_);
   }
 
-  /// The factor after a step of a method whose error goes with h^6: error^(-1/6) with 1/8 + 1/32 + 1/128 for
-  /// the exponent.
+  /// Returns the factor after a step of a method whose error is proportional to h^6: error^(-1/6), with 1/8 +
+  /// 1/32 + 1/128 for the exponent.
   static double sixth_order(double error) {
     constexpr double kLeast = 1e-8;
     if (!(error < 1e30)) return kShrinkMost;

@@ -21,7 +21,7 @@ class StepPolynomial {
   std::size_t dimension() const { return dimension_; }
   int degree() const { return degree_; }
 
-  /// Sets the degree and the nodes n_0 ... n_(degree - 1); n_0 is 0. The terms are the caller's to fill.
+  /// Sets the degree and the nodes n_0 ... n_(degree - 1); n_0 is 0. The caller fills the terms.
   void set_nodes(std::span<const double> nodes) {
     degree_ = static_cast<int>(nodes.size());
     for (int k = 0; k < degree_; ++k) nodes_[k] = nodes[k];
@@ -32,14 +32,14 @@ class StepPolynomial {
   std::span<double> term(int k) { return {terms_.data() + (k - 1) * dimension_, dimension_}; }
   std::span<const double> term(int k) const { return {terms_.data() + (k - 1) * dimension_, dimension_}; }
 
-  /// y(s) - y0 of component i.
+  /// Returns y(s) - y0 of component i.
   double at(double s, std::size_t i) const {
     double value = 0;
     for (int k = degree_; k >= 1; --k) value = (value + term(k)[i]) * (s - nodes_[k - 1]);
     return value;
   }
 
-  /// dy/ds of component i.
+  /// Returns dy/ds of component i.
   double slope(double s, std::size_t i) const {
     double value = 0, slope = 0;
     for (int k = degree_; k >= 1; --k) {
@@ -50,8 +50,8 @@ class StepPolynomial {
     return slope;
   }
 
-  /// y(s) - y0 of component i by its Bernstein coefficients over the whole step: it lies between the least
-  /// and the largest of them.
+  /// Returns y(s) - y0 of component i as Bernstein coefficients over the whole step: it lies between the
+  /// least and the largest of them.
   Bernstein<kMostTerms + 1> bernstein(std::size_t i) const {
     Bernstein<kMostTerms + 1> c{};
     int degree = 0;
@@ -67,7 +67,7 @@ class StepPolynomial {
       for (int j = 0; j <= degree; ++j) c[j] += term(k)[i];
       times_factor(nodes_[k - 1]);
     }
-    for (; degree < kMostTerms; ++degree) {  // the same polynomial, written with one degree more
+    for (; degree < kMostTerms; ++degree) {  // raises the degree of the same polynomial
       for (int j = degree + 1; j > 0; --j) {
         const double weight = static_cast<double>(j) / (degree + 1);
         c[j] = weight * c[j - 1] + (1 - weight) * (j <= degree ? c[j] : 0);

@@ -6,17 +6,17 @@
 
 namespace plumb {
 
-/// An equation that an implicit method can solve: one that knows its Jacobian J = d(rate)/dy, or nearly.
+/// An equation for implicit methods, which provides its Jacobian J = d(rate)/dy, possibly approximate.
 class StiffFlow : public Flow {
  public:
   /// The two systems that an implicit method solves: of its stages together, and of its error estimate.
   enum class Use { Stages, Estimate };
 
-  /// Takes J at (time, y).
+  /// Computes J at (time, y).
   virtual void linearise(double time, std::span<const double> y) = 0;
 
-  /// Factorises I - h A (x) J with the matrix `a` of stages x stages numbers, row by row. False: it is
-  /// singular.
+  /// Factorises I - h A (x) J with the matrix `a` of stages x stages numbers, row by row. Returns false if it
+  /// is singular.
   virtual bool factor(Use use, std::span<const double> a, int stages, double h) = 0;
 
   /// Solves x_i - h sum_j a_ij J x_j = r_i in place; x holds stage after stage.

@@ -6,11 +6,11 @@
 #include "engine/math/vec2.h"
 #include "engine/scene/joint.h"
 
-/// What joints of the real-time world are made from. Anchors stand in the frames of their bodies (the body's
+/// Definitions of joints of the real-time world. Anchors are in the frames of their bodies (from the body's
 /// origin, not its centre of mass); angles in rad, counter-clockwise, of b relative to a.
 namespace plumb {
 
-/// Two anchors at a distance: a rod, a spring when `spring` is given, a rope when `range` is.
+/// Distance between two anchors: a rod, a spring when `spring` is given, a rope when `range` is.
 struct DistanceDefinition {
   Vec2d anchor_a{}, anchor_b{};
   double length = 1;  ///< m, > 0: of the rod, or of the spring at rest
@@ -40,7 +40,7 @@ struct PrismaticDefinition {
   double target_translation = 0;  ///< m, of the spring
 };
 
-/// Holds b to a; rigid where no spring is given.
+/// Holds b to a; rigid without springs.
 struct WeldDefinition {
   Vec2d anchor_a{}, anchor_b{};
   double reference_angle = 0;
@@ -62,7 +62,7 @@ struct MotorDefinition {
   double target_angle = 0;  ///< rad
   double max_force = 0;     ///< N
   double max_torque = 0;    ///< N m
-  Spring spring{2, 1};      ///< how it follows
+  Spring spring{2, 1};      ///< of its response
 };
 
 /// Pulls a point of b towards a point of the world (a is any static body).
@@ -73,7 +73,7 @@ struct MouseDefinition {
   double max_force = 0;  ///< N
 };
 
-/// angle_b = ratio angle_a + phase: two wheels that mesh have a negative ratio.
+/// angle_b = ratio angle_a + phase: meshing wheels have a negative ratio.
 struct GearDefinition {
   double ratio = -1;  ///< not 0
   double phase = 0;   ///< rad
@@ -87,10 +87,10 @@ struct PulleyDefinition {
   std::optional<double> length{};  ///< m, of length_a + ratio length_b; absent: as placed
 };
 
-/// Lets b turn relative to a one way, and holds the other way at teeth `tooth` apart.
+/// Lets b turn relative to a in one direction, and stops it in the other at teeth `tooth` apart.
 struct RatchetDefinition {
-  double tooth = 0.1;  ///< rad, not 0; its sign is the direction that is free
-  double phase = 0;    ///< rad, where a tooth stands
+  double tooth = 0.1;  ///< rad, not 0; its sign is the free direction
+  double phase = 0;    ///< rad, the position of a tooth
 };
 
 /// Resists motion of b relative to a with limited force and torque (top-down friction).

@@ -6,7 +6,7 @@ namespace plumb {
 
 // C = |d| - length, d from anchor a to anchor b, u = d / |d|.   dC/dt = u . dd/dt.
 // (dJ/dt) v = u . (w_a^2 r_a - w_b^2 r_b) + (|dd/dt|^2 - (u . dd/dt)^2) / |d|: the anchors' centripetal
-// accelerations along the rod, and that of the rod's own turning.
+// accelerations along the rod, and that of the rod's own rotation.
 template <class Real>
 void Distance<Real>::rows(const Pose<Real>& pose_a, const Pose<Real>& pose_b, const Twist<Real>& twist_a,
                           const Twist<Real>& twist_b, Row<Real>* out) const {
@@ -16,7 +16,7 @@ void Distance<Real>::rows(const Pose<Real>& pose_a, const Pose<Real>& pose_b, co
   const Vec2<Real> rate = (twist_b.velocity - twist_a.velocity) +
                           (cross(twist_b.angular_velocity, arm_b) - cross(twist_a.angular_velocity, arm_a));
   const Real separation = std::sqrt(length_squared(d));
-  // Anchors that coincide have no direction; any one moves them apart, and the turning has no meaning yet.
+  // Coinciding anchors have no direction: any one separates them, and the rod's rotation is undefined.
   const bool apart = separation > 0;
   const Vec2<Real> u = apart ? (1 / separation) * d : Vec2<Real>{1, 0};
   const Real sideways = cross(u, rate);

@@ -20,7 +20,7 @@ struct DistanceRows : JointTraits<0, 1> {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
     using std::sqrt;
     const Real length = sqrt(length_squared(point.gap));
-    // Anchors that coincide have no direction; any one moves them apart.
+    // Coinciding anchors have no direction: any one separates them.
     const Vec2<Real> u = length > 0 ? (1 / length) * point.gap : Vec2<Real>{1, 0};
     out.axial[0] = point.row(u, length);
     out.arm_b = point.arm_b;

@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-/// Resists the motion of b relative to a, at b's anchor, and its turning.
+/// Resists the motion of b relative to a at b's anchor, and its rotation.
 template <class Real>
 struct FrictionRows : JointTraits<0, 0> {
   using Definition = FrictionDefinition;

@@ -77,7 +77,7 @@ const char* name_of(const JointKind& definition) {
 }
 
 Vec2d unit(Vec2d axis) {
-  // Scaled first: the square of a component must neither overflow nor vanish.
+  // Scaled first: the square of a component must neither overflow nor underflow.
   const double largest = std::fmax(std::fabs(axis.x), std::fabs(axis.y));
   const Vec2d scaled{axis.x / largest, axis.y / largest};
   const double length = std::sqrt(length_squared(scaled));

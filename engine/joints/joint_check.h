@@ -7,12 +7,12 @@
 
 namespace plumb {
 
-/// Numbers of a joint are at most this large: no product of two overflows in float.
+/// Upper limit for numbers of a joint: no product of two overflows in float.
 inline constexpr double kLargestJointNumber = 1e15;
-/// Those that must be positive are at least this large: their reciprocals are no larger.
+/// Lower limit for numbers that must be positive: their reciprocals are no larger than the upper limit.
 inline constexpr double kSmallestJointNumber = 1e-15;
 
-/// Looks at the fields of one joint; every complaint is an Error (Value) that names it.
+/// Checks the fields of one joint; throws an Error (Value) that names the joint.
 class JointCheck {
  public:
   explicit JointCheck(const char* subject) : subject_(subject) {}
@@ -21,12 +21,12 @@ class JointCheck {
   void finite(const char* field, Vec2d value) const;
   void not_negative(const char* field, double value) const;
   void positive(const char* field, double value) const;
-  /// At least `smallest` in size.
+  /// Requires a magnitude of at least `smallest`.
   void not_zero(const char* field, double value, double smallest) const;
   void axis(const char* field, Vec2d value) const;
   void spring(const char* field, const std::optional<Spring>& spring) const;
   void motor(const char* field, const std::optional<Motor>& motor) const;
-  /// Bounds may be infinite, where they bound nothing.
+  /// Bounds may be infinite, for no bound.
   void range(const char* field, const std::optional<Range>& range) const;
   [[noreturn]] void refuse(const std::string& field, double value, const std::string& problem) const;
 
@@ -34,7 +34,7 @@ class JointCheck {
   std::string subject_;
 };
 
-/// Error (Value) where a joint cannot be made from the definition.
+/// Throws Error (Value) if no joint can be made from the definition.
 void validate(const DistanceDefinition& definition);
 void validate(const RevoluteDefinition& definition);
 void validate(const PrismaticDefinition& definition);
@@ -51,7 +51,7 @@ void validate(const JointKind& definition);
 /// "distance joint", "revolute joint", ...
 const char* name_of(const JointKind& definition);
 
-/// `axis` at length 1. It is not zero.
+/// Normalises `axis`, which is not zero.
 Vec2d unit(Vec2d axis);
 
 }  // namespace plumb

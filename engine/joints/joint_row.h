@@ -7,11 +7,11 @@
 #include "engine/joints/definitions.h"
 #include "engine/math/vec2.h"
 
-/// What every kind of joint is described by: coordinates with their Jacobians, and rules that say what is
-/// asked of them. Kinds know nothing of who solves them.
+/// Description of every kind of joint: coordinates with their Jacobians, and the rules on them. Kinds do not
+/// depend on their solvers.
 namespace plumb {
 
-/// How the joined bodies stand, as residuals see it.
+/// Relative pose of the joined bodies, from which residuals are computed.
 template <class Real>
 struct JointPose {
   Vec2<Real>
@@ -29,7 +29,7 @@ struct JointRow {
   Real residual = 0;                  ///< C, m or rad
 };
 
-/// Where the anchors are.
+/// Lever arms of the anchors and the gap between them.
 template <class Real>
 struct AnchorPoint {
   Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass
@@ -42,14 +42,13 @@ struct AnchorPoint {
   }
   JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
 
-  /// Both arms lead to anchor b, which conserves angular momentum. The Jacobian is that of the gap as seen
-  /// from a: right for gaps that may be wide, where a's frame is what b is placed in.
+  /// Moves both arms to anchor b, which conserves angular momentum. The Jacobian is that of the gap in a's
+  /// frame: right for wide gaps, where b is placed in that frame.
   AnchorPoint at_b() const { return {arm_a + gap, arm_b, gap}; }
-  /// Both arms lead to the middle of the gap, so that an impulse on b and its opposite on a conserve angular
-  /// momentum too. Their Jacobian is that of the gap as seen from a frame that
-  /// turns at the mean of the bodies' rates.
+  /// Moves both arms to the middle of the gap, which conserves angular momentum too. The Jacobian is that of
+  /// the gap in a frame that turns at the mean of the bodies' rates.
   AnchorPoint middle() const { return {arm_a + Real(0.5) * gap, arm_b - Real(0.5) * gap, gap}; }
-  /// The row of n . gap with the arms as they are.
+  /// Returns the row of n . gap with the arms unchanged.
   JointRow<Real> plain_row(Vec2<Real> n) const {
     return {-n, n, -cross(arm_a, n), cross(arm_b, n), dot(n, gap)};
   }
@@ -61,31 +60,30 @@ AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a,
   return {arm_a, arm_b, pose.offset + (arm_b - arm_a)};
 }
 
-/// All that a kind may tell of a pose; it fills what its constants announce.
+/// All rows that a kind may compute for a pose; it fills those that its constants announce.
 template <class Real>
 struct JointRows {
   AnchorPoint<Real> point{};  ///< kPoint: gap = 0, both components at once
   JointRow<Real> block[3]{};  ///< kBlock rows that are rigid, together
   JointRow<Real> axial[2]{};  ///< kAxial coordinates; the residual is the coordinate itself
-  Vec2<Real> arm_b{};         ///< m, to the point that torques are told about
+  Vec2<Real> arm_b{};         ///< m, to the point of reference of reported torques
 };
 
-/// What the angle of a pose is to a kind.
+/// Meaning of a pose's angle for a kind.
 enum class AngleUse {
   None,
-  Counted,  ///< of b relative to a: whole turns count from the one at birth (`angle_at_birth`)
-  Geared,   ///< whole turns count of each body
+  Counted,  ///< of b relative to a: whole turns count from the angle at creation (`angle_at_birth`)
+  Geared,   ///< whole turns of each body count
 };
 
 enum class RowRole {
   Rigid,   ///< C = 0
-  Spring,  ///< C is pulled to 0 by a damped spring
+  Spring,  ///< a damped spring pulls C to 0
   Limit,   ///< C >= 0, and the impulse is >= 0
-  Motor,   ///< dC/dt is driven to a speed
+  Motor,   ///< drives dC/dt to a speed
 };
 
-/// What is asked of a coordinate q: C = sign (q - origin), held by `role` with a force of at most
-/// `max_force`.
+/// A rule on a coordinate q: C = sign (q - origin), enforced by `role` with a force of at most `max_force`.
 struct RowRule {
   RowRole role = RowRole::Rigid;
   double origin = 0;  ///< m or rad
@@ -95,7 +93,7 @@ struct RowRule {
   double max_force = std::numeric_limits<double>::infinity();  ///< N or N m
 };
 
-/// Up to four rules on one coordinate, in the order in which they are solved: what must hold best comes last.
+/// Up to four rules on one coordinate, in solving order: the last one is met best.
 struct RowRules {
   static constexpr int kMost = 4;
   std::array<RowRule, kMost> rule{};
@@ -121,7 +119,7 @@ struct RowRules {
   }
 };
 
-/// The range that the limits among the rules allow.
+/// Returns the range allowed by the limits among the rules.
 inline Range limits_of(const RowRules& rules) {
   Range range;
   for (int i = 0; i < rules.count; ++i)
@@ -130,19 +128,19 @@ inline Range limits_of(const RowRules& rules) {
   return range;
 }
 
-/// The rules of one joint. A block needs none: its rows are rigid.
+/// The rules of one joint. A block has none: its rows are rigid.
 struct JointRules {
   RowRule point{};  ///< of both components; max_force bounds the vector
   RowRules turn{};  ///< of the angle
   RowRules axial[2]{};
 };
 
-/// Kinds that say nothing else.
+/// Defaults of the constants of kinds.
 template <int kBlockRows, int kAxialRows>
 struct JointTraits {
   static constexpr int kBlock = kBlockRows;  ///< rigid rows that are solved together
   static constexpr int kAxial = kAxialRows;  ///< coordinates with rules of their own
-  static constexpr bool kPoint = false;      ///< anchors that meet
+  static constexpr bool kPoint = false;      ///< anchors that coincide
   static constexpr bool kTurn = false;       ///< rules for the angle
   static constexpr bool kGrounded = false;   ///< offsets are from points of the world
   static constexpr AngleUse kAngle = AngleUse::None;

@@ -30,7 +30,7 @@ struct Distance {
             const Twist<Real>& twist_b, Row<Real>* out) const;
 };
 
-/// The hinges and rods of a scene, one array a kind; rows are numbered revolute joints first.
+/// The revolute joints and rods of a scene, one array per kind; rows are numbered revolute joints first.
 template <class Real>
 struct Joints {
   std::vector<Revolute<Real>> revolute;
@@ -38,13 +38,14 @@ struct Joints {
 
   std::size_t row_count() const { return 2 * revolute.size() + distance.size(); }
 
-  /// Every joint's rows at the given poses and twists (indexed by body). `out` has `row_count()` elements.
+  /// Computes every joint's rows at the given poses and twists (indexed by body). `out` has `row_count()`
+  /// elements.
   void rows(std::span<const Pose<Real>> poses, std::span<const Twist<Real>> twists,
             std::span<Row<Real>> out) const;
 };
 
-/// The scene's hinges and rods (not springs and ropes) with names resolved to body indices. The scene is
-/// valid.
+/// Compiles the scene's revolute joints and rods (not springs and ropes) with names resolved to body indices.
+/// The scene is valid.
 template <class Real>
 Joints<Real> compile_joints(const Scene& scene);
 

@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-/// What the joint of a scene is made from.
+/// Returns the definition of a scene's joint.
 JointKind kind_of(const Joint& joint);
 
 }  // namespace plumb

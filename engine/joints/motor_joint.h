@@ -4,7 +4,8 @@
 
 namespace plumb {
 
-/// b's origin at a point of a's frame and at an angle to it, followed by springs of bounded strength.
+/// b's origin is driven to a point of a's frame, and b to an angle to a, by springs of bounded force and
+/// torque.
 template <class Real>
 struct MotorRows : JointTraits<0, 0> {
   using Definition = MotorDefinition;

@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-/// A point of b at a point of the world: q = anchor b - target. a has no part in it.
+/// A point of b at a point of the world: q = anchor b - target. a is not involved.
 template <class Real>
 struct MouseRows : JointTraits<0, 0> {
   using Definition = MouseDefinition;

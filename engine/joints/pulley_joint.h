@@ -24,7 +24,7 @@ struct PulleyRows : JointTraits<0, 1> {
     const Vec2<Real> to_a = pose.offset_a + arm_a, to_b = pose.offset + arm_b;
     using std::sqrt;
     const Real length_a = sqrt(length_squared(to_a)), length_b = sqrt(length_squared(to_b));
-    // At a pulley the rope has no direction, and pulls nowhere.
+    // An anchor at its pulley has no direction: the rope exerts no force on it.
     const Vec2<Real> u_a = length_a > 0 ? (1 / length_a) * to_a : Vec2<Real>{};
     const Vec2<Real> u_b = length_b > 0 ? (ratio / length_b) * to_b : Vec2<Real>{};
     out.axial[0] = {u_a, u_b, cross(arm_a, u_a), cross(arm_b, u_b), length_a + ratio * length_b};

@@ -6,14 +6,15 @@
 
 namespace plumb {
 
-/// b turns relative to a one way; back only to the last tooth that it passed: q = (angle - phase) / tooth
-/// never falls below an integer that it has reached.
+/// b turns relative to a in one direction, and back only to the last tooth passed: q = (angle - phase) /
+/// tooth never falls below an integer that it has reached.
 template <class Real>
 struct RatchetRows : JointTraits<0, 0> {
   using Definition = RatchetDefinition;
   static constexpr bool kTurn = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
-  /// How close to a tooth, in teeth, counts as there: what starts on one must not slip for a rounding.
+  /// In teeth: an angle this close below a tooth counts as on it, so that rounding at the start loses no
+  /// tooth.
   static constexpr double kReach = 1e-3;
 
   double tooth = 1, reference = 0;  ///< rad; the phase
@@ -26,7 +27,7 @@ struct RatchetRows : JointTraits<0, 0> {
     out.arm_b = {};
   }
 
-  /// The last tooth at or before the angle (less the phase).
+  /// Returns the last tooth at or before the angle (less the phase).
   double tooth_at(double angle) const { return std::floor(angle / tooth + kReach); }
 };
 

@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-/// Index of the fixed frame where a body's index stands.
+/// Stands for the fixed frame in place of a body's index.
 inline constexpr int kFixedFrame = -1;
 
 /// One scalar constraint C(q) = 0 between two bodies, linearised: dC/dt = J v.

@@ -2,10 +2,9 @@
 
 #include "engine/math/vec2.h"
 
-/// The mobility, 1 / effective mass, that a joint's spring finds along its coordinate while the joint's rigid
-/// rows hold: what `hertz` and `damping_ratio` refer to, by the world and by Precise alike. A bar on a hinge
-/// turns about the hinge, not about its centre. All sums are of terms that are not negative, so that nothing
-/// cancels.
+/// The mobility (1 / effective mass) along the coordinate of a joint's spring while the joint's rigid rows
+/// hold. `hertz` and `damping_ratio` refer to it, in the world and in Precise. A bar on a hinge turns about
+/// the hinge, not about its centre. All sums are of non-negative terms, so that nothing cancels.
 namespace plumb {
 
 /// Inverse masses, 1/kg, and inverse moments of inertia, 1/(kg m^2), of the two bodies of a joint.
@@ -14,8 +13,8 @@ struct PairMobility {
   Number m_a{}, i_a{}, m_b{}, i_b{};
 };
 
-/// 1/(kg m^2), of the angle between two bodies that turn about a common point, `arm_a` and `arm_b` (m) from
-/// their centres of mass: with M = m_a + m_b
+/// Returns the mobility of the angle between two bodies that turn about a common point, 1/(kg m^2); `arm_a`
+/// and `arm_b` (m) lead there from their centres of mass. With M = m_a + m_b it is
 ///   (M (i_a + i_b) + i_a i_b |r_b - r_a|^2) / (M + i_a r_a^2 + i_b r_b^2 + i_a i_b (r_a x r_b)^2 / M).
 template <class Number>
 Number turning_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a, Vec2<Number> arm_b) {
@@ -27,8 +26,8 @@ Number turning_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a, Vec2<
   return (m * turn + both * length_squared(arm_b - arm_a)) / held;
 }
 
-/// 1/kg, along an axis of unit direction `n` on which two bodies slide that do not turn relative to each
-/// other; `offset`, m, leads from a's centre of mass to b's.
+/// Returns the mobility along an axis of unit direction `n`, 1/kg, on which two bodies slide without relative
+/// rotation; `offset`, m, leads from a's centre of mass to b's.
 template <class Number>
 Number sliding_mobility(const PairMobility<Number>& p, Vec2<Number> offset, Vec2<Number> n) {
   const Number m = p.m_a + p.m_b, both = p.i_a * p.i_b;
@@ -37,8 +36,8 @@ Number sliding_mobility(const PairMobility<Number>& p, Vec2<Number> offset, Vec2
   return held > 0 ? m * ((turn + both * length_squared(offset)) / held) : m;
 }
 
-/// 1/kg, along the first of two rows that are across each other at a point, when the second holds; from their
-/// linear parts of length 1 and their angular ones, m.
+/// Returns the mobility along the first of two perpendicular rows at a point while the second holds, 1/kg;
+/// from their linear parts of length 1 and their angular ones, m.
 template <class Number>
 Number line_mobility(const PairMobility<Number>& p, Number first_a, Number first_b, Number second_a,
                      Number second_b) {
@@ -52,9 +51,9 @@ Number line_mobility(const PairMobility<Number>& p, Number first_a, Number first
   return both / second;
 }
 
-/// What turning together adds to the mobility of a common point, 1/(kg m^2), times p p^T with p the
-/// perpendicular of the offset between the centres of mass, of two bodies that do not turn relative to each
-/// other.
+/// Returns what rotation together adds to the mobility of a common point, 1/(kg m^2), times p p^T. The two
+/// bodies do not turn relative to each other; p is the perpendicular of the offset between their centres of
+/// mass.
 template <class Number>
 Number common_turning(const PairMobility<Number>& p) {
   const Number turn = p.i_a + p.i_b;

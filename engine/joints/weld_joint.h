@@ -26,7 +26,7 @@ struct WeldRows : JointTraits<3, 0> {
   }
 };
 
-/// The same with a spring for the point, for the angle or for both; what has none is rigid.
+/// The same with a spring for the point, for the angle or for both; the one without a spring is rigid.
 template <class Real>
 struct SoftWeldRows : JointTraits<0, 0> {
   using Definition = WeldDefinition;

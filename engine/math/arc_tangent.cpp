@@ -27,7 +27,7 @@ constexpr TwoDoubles kArcs[9] = {{0, 0},
                                  {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
                                  {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
 
-/// What is left of a / b beyond its rounded value q, from halves of 26 bits (Veltkamp, Dekker).
+/// Returns a / b minus its rounded value q, from halves of 26 bits (Veltkamp, Dekker).
 double quotient_tail(double a, double b, double q) {
   constexpr double kSplit = 0x1p27 + 1;
   const double b_high = kSplit * b - (kSplit * b - b), b_low = b - b_high;
@@ -38,7 +38,7 @@ double quotient_tail(double a, double b, double q) {
 /// atan(y / x) for 0 <= y <= x, x normal. With the nearest k/8 to y/x,
 /// atan(y/x) = atan(k/8) + atan(r), r = (y - x k/8) / (x + y k/8), |r| < 1/15.
 TwoDoubles first_octant(double y, double x) {
-  // A little late to the next node, so that y >= x k/16 and the difference below has no rounding (Sterbenz).
+  // Rounds up late (0.4999), so that y >= x k/16 and the difference below has no rounding (Sterbenz).
   const int k = static_cast<int>(8 * (y / x) + 0.4999);
   const double ratio = 0.125 * k;
   // x k/8 in two parts without rounding: the upper part has 8 bits to spare.
@@ -55,15 +55,15 @@ TwoDoubles first_octant(double y, double x) {
   const double small = r * series + ((quotient_tail(over, under, r) - r * under_tail / under) + arc.tail);
   const double rest = r + small;
   const double sum = arc.value + rest;
-  // What the two sums have rounded off: it decides the last place once a quarter turn is added.
+  // The rounding errors of both sums: they decide the last place once a quarter turn is added.
   return {sum, ((arc.value - sum) + rest) + ((r - rest) + small)};
 }
 
-/// The arc of a pair of positive finite sizes.
+/// Returns the arc tangent of y / x for positive finite y and x.
 TwoDoubles first_quadrant(double y, double x) {
   const bool steep = y > x;
   double adjacent = steep ? y : x, opposite = steep ? x : y;
-  // Sums must not overflow and quotients must not lose bits to underflow: powers of two are exact.
+  // Sums must not overflow and quotients must not underflow: scaling by powers of two is exact.
   if (adjacent > 0x1p900) {
     adjacent *= 0x1p-200, opposite *= 0x1p-200;
   } else if (adjacent < 0x1p-900) {

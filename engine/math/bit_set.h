@@ -8,20 +8,20 @@
 
 namespace plumb {
 
-/// A set of small non-negative integers, one bit each; it grows with the largest that is set. What lies
-/// beyond its size is not in it.
+/// A set of small non-negative integers, one bit each; grows with the largest member. Integers beyond its
+/// size are not in it.
 class BitSet {
  public:
   static constexpr int kWordBits = 64;
 
   explicit BitSet(int size = 0) { ensure(size); }
 
-  /// Makes room for 0 .. size - 1, so that setting them allocates nothing; never shrinks.
+  /// Reserves capacity for 0 .. size - 1, so that setting them allocates nothing; never shrinks.
   void ensure(int size) {
     const std::size_t words = (static_cast<std::size_t>(size) + kWordBits - 1) / kWordBits;
     if (words > words_.size()) words_.resize(words, 0);
   }
-  /// There is room for 0 .. size() - 1; a multiple of the word's bits.
+  /// Returns the capacity, for 0 .. size() - 1: a multiple of the word's bits.
   int size() const { return static_cast<int>(words_.size()) * kWordBits; }
 
   void set(int i) {
@@ -42,7 +42,7 @@ class BitSet {
     return std::all_of(words_.begin(), words_.end(), [](std::uint64_t bits) { return bits == 0; });
   }
 
-  /// Empties the set; its room stays.
+  /// Empties the set; its capacity stays.
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
 
   BitSet& operator|=(const BitSet& other) {
@@ -51,8 +51,8 @@ class BitSet {
     return *this;
   }
 
-  /// Calls visit(i) for each member in ascending order. `visit` may change members up to i's word freely; of
-  /// later words it sees what it left there.
+  /// Calls visit(i) for each member in ascending order. `visit` may change members up to i's word freely;
+  /// changes to later words take effect.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t w = 0; w < words_.size(); ++w)

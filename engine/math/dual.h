@@ -4,9 +4,8 @@
 
 namespace plumb {
 
-/// A number with its derivative along one direction: formulas that are templates on Real give their exact
-/// derivatives with it (W. K. Clifford 1873; R. E. Wengert, A simple automatic derivative evaluation program,
-/// CACM 7, 1964).
+/// A number with its derivative along one direction: templates on Real compute exact derivatives with it (W.
+/// K. Clifford 1873; R. E. Wengert, A simple automatic derivative evaluation program, CACM 7, 1964).
 struct Dual {
   double value = 0, change = 0;
 

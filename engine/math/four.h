@@ -5,8 +5,8 @@
 
 namespace plumb {
 
-/// Four numbers that are treated alike, lane by lane: each lane gives the bits that the same sums of single
-/// numbers give. With PLUMB_SCALAR, or a compiler without vectors, it is an array.
+/// Four numbers processed lane by lane: each lane gives the same bits as scalar code. With PLUMB_SCALAR, or a
+/// compiler without vectors, it is an array.
 template <class Real>
 struct Four {
 #if defined(__GNUC__) && !defined(PLUMB_SCALAR)
@@ -28,7 +28,7 @@ struct Four {
     return out;
   }
   void store(Real* to) const { std::memcpy(to, part, 4 * sizeof(Real)); }
-  /// From and to a multiple of 16 bytes.
+  /// Address must be a multiple of 16 bytes.
   static Four load_aligned(const Real* from) { return load(std::assume_aligned<16>(from)); }
   void store_aligned(Real* to) const { store(std::assume_aligned<16>(to)); }
 
@@ -67,7 +67,7 @@ struct Four {
   }
 };
 
-/// Rows become columns: lane i of out k is lane k of row i.
+/// Transposes: lane i of out k is lane k of row i.
 template <class Real>
 [[gnu::always_inline]] inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
 #if defined(__GNUC__) && !defined(PLUMB_SCALAR)
@@ -94,7 +94,7 @@ template <class Real>
 #endif
 }
 
-/// Whether a > b in all four lanes.
+/// Returns true if a > b in all four lanes.
 template <class Real>
 [[gnu::always_inline]] inline bool all_greater(const Four<Real>& a, const Four<Real>& b) {
 #if defined(__GNUC__) && !defined(PLUMB_SCALAR)
@@ -113,8 +113,8 @@ template <class Real>
 #endif
 }
 
-/// Four numbers at each of four places, multiples of 16 bytes, as the four firsts, the four seconds and so
-/// on.
+/// Loads four numbers from each of four addresses, multiples of 16 bytes, and transposes: the four firsts,
+/// the four seconds and so on.
 template <class Real>
 [[gnu::always_inline]] inline void load_rows(const Real* const (&from)[4], Four<Real> (&out)[4]) {
   Four<Real> rows[4];
@@ -122,13 +122,13 @@ template <class Real>
   transpose(rows, out);
 }
 
-/// Two numbers at each of four places, as the four firsts and the four seconds.
+/// Loads two numbers from each of four addresses: the four firsts and the four seconds.
 template <class Real>
 [[gnu::always_inline]] inline void load_pairs(const Real* const (&from)[4], Four<Real> (&out)[2]) {
 #if defined(__GNUC__) && !defined(PLUMB_SCALAR)
   using Part = typename Four<Real>::Part;
   if constexpr (sizeof(Real) == 4) {
-    typedef double Pairs __attribute__((vector_size(16)));  // of which none is a number
+    typedef double Pairs __attribute__((vector_size(16)));  // pairs of floats, not numbers
     double pair[4];
     for (int i = 0; i < 4; ++i) std::memcpy(&pair[i], from[i], sizeof(double));
     const Part low = reinterpret_cast<Part>(Pairs{pair[0], pair[1]});

@@ -4,14 +4,14 @@
 
 namespace plumb {
 
-/// Where a body is, or where a frame lies in another one.
+/// Position and rotation of a body, or of a frame in another one.
 template <class Real>
 struct Pose {
   Vec2<Real> position{};
   Rotation<Real> rotation{};
 };
 
-/// How a body moves.
+/// Velocity and angular velocity of a body.
 template <class Real>
 struct Twist {
   Vec2<Real> velocity{};

@@ -10,11 +10,12 @@
 namespace plumb {
 namespace {
 
-// pi in parts of 33 bits, so that a part times a number of half turns below 2^20 has no rounding, and a rest.
+// pi in parts of 33 bits, so that a part times a number of half turns below 2^20 is exact, and a remainder.
 constexpr double kPi1 = 0x1.921fb544p+1, kPi2 = 0x1.0b4611a6p-33, kPiRest = 0x1.3198a2e037073p-68;
 constexpr double kFarthest = 0x1p20;
 
-// Of sin r = r + r^3 (...) and cos r = 1 - r^2/2 + r^4 (...), from the highest power of r^2 down.
+// Coefficients of sin r = r + r^3 (...) and cos r = 1 - r^2/2 + r^4 (...), from the highest power of r^2
+// down.
 constexpr double kSine[] = {1.0 / 51090942171709440000.0,
                             -1.0 / 121645100408832000,
                             1.0 / 355687428096000,

@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-/// `q` turned on by `x`, rad: sine and cosine of a small angle to the order where a float rounds, the
-/// library's own beyond an eighth.
+/// Rotates `q` by `x`, rad: sine and cosine by a series to a float's rounding; by `rotation_of` beyond an
+/// eighth.
 template <class Real>
 [[gnu::always_inline]] inline Rotation<Real> turned_by(Rotation<Real> q, Real x) {
   if (std::abs(x) > Real(0.125)) {

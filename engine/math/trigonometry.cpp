@@ -12,7 +12,7 @@ struct TwoDoubles {
   double value = 0, tail = 0;
 };
 
-/// angle = quadrant pi/2 + rest, |rest| <= pi/4 (and a rounding more).
+/// angle = quadrant pi/2 + rest, |rest| <= pi/4 (up to a rounding).
 struct Reduced {
   TwoDoubles rest;
   unsigned quadrant = 0;
@@ -34,7 +34,7 @@ TwoDoubles exact_product(double a, double b) {
   return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-// pi/2 in three parts of 33 bits and a rest: a part times a quadrant number below 2^20 has no rounding.
+// pi/2 in three parts of 33 bits and a remainder: a part times a quadrant number below 2^20 is exact.
 constexpr double kHalfPiParts[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2ep-69};
 constexpr double kHalfPiRest = 0x1.b839a252049c1p-104;
 constexpr double kPartsLimit = 0x1p20;
@@ -59,7 +59,7 @@ constexpr std::uint32_t kTwoOverPiBits[38] = {
     0xEF2F118Bu, 0x5A0A6D1Fu, 0x6D367ECFu, 0x27CB09B7u, 0x4F463F66u, 0x9E5FEA2Du, 0x7527BAC7u, 0xEBE5F17Bu,
     0x3D0739F7u, 0x8A5292EAu, 0x6BFB5FB1u, 0x1F8D5D08u, 0x56033046u, 0xFC7B6BABu};
 
-/// The 32 bits of 2/pi that follow its first `start` bits; bits before the point are 0.
+/// Returns the 32 bits of 2/pi that follow its first `start` bits; bits before the point are 0.
 std::uint32_t two_over_pi_bits(int start) {
   const auto word = [](int i) { return i < 0 ? std::uint64_t{0} : std::uint64_t{kTwoOverPiBits[i]}; };
   const int first = start >= 0 ? start / 32 : -((31 - start) / 32);
@@ -67,7 +67,7 @@ std::uint32_t two_over_pi_bits(int start) {
   return static_cast<std::uint32_t>((word(first) << 32 | word(first + 1)) >> (32 - shift));
 }
 
-/// Payne and Hanek's reduction, for |angle| > kPartsLimit: multiplies by those bits of 2/pi that decide the
+/// Payne and Hanek's reduction, for |angle| > kPartsLimit: multiplies by the bits of 2/pi that decide the
 /// quadrant and 190 bits below it; higher ones give whole turns.
 Reduced reduce_by_bits(double angle) {
   constexpr int kLimbs = 6;

@@ -38,7 +38,7 @@ constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// w z-hat x r: the velocity at r of a body that spins at w.
+/// w z-hat x r: the velocity at r of a body with angular velocity w.
 template <class Real>
 constexpr Vec2<Real> cross(Real w, Vec2<Real> r) {
   return {-w * r.y, w * r.x};
@@ -49,7 +49,7 @@ constexpr Real length_squared(Vec2<Real> a) {
   return dot(a, a);
 }
 
-/// a turned a quarter turn counter-clockwise.
+/// Rotates a by a quarter turn counter-clockwise.
 template <class Real>
 constexpr Vec2<Real> perpendicular(Vec2<Real> a) {
   return {-a.y, a.x};
@@ -60,7 +60,7 @@ template <class Real>
 struct Rotation {
   Real c = 1, s = 0;
 
-  /// From the body's frame to the world's.
+  /// Rotates from the body's frame to the world's.
   friend constexpr Vec2<Real> operator*(Rotation q, Vec2<Real> v) {
     return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
   }

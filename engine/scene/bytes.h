@@ -13,9 +13,8 @@
 
 namespace plumb {
 
-/// Whether every byte of a T belongs to its value, so that a copy of its bytes carries nothing
-/// indeterminate. The language knows it of integers and of structs of integers; of a struct with floats its
-/// author says so, beside the struct:
+/// True if every byte of a T belongs to its value, so that a copy of its bytes is determinate. The language
+/// knows this for integers and structs of integers. A struct with floats declares it beside its definition:
 ///
 ///     template <>
 ///     inline constexpr bool kWholeBytes<Arm> = members_fill<Arm, float, float, int>();
@@ -25,7 +24,7 @@ template <class T>
 inline constexpr bool kWholeBytes =
     std::has_unique_object_representations_v<T> || std::is_same_v<T, float> || std::is_same_v<T, double>;
 
-/// Whether `Members`, all the members of `T` in their order, leave no room for padding.
+/// Returns true if `Members`, all members of `T` in order, leave no padding.
 template <class T, class... Members>
 consteval bool members_fill() {
   return std::is_trivially_copyable_v<T> && (kWholeBytes<Members> && ...) &&
@@ -37,11 +36,11 @@ inline constexpr bool kWholeBytes<Vec2<Real>> = members_fill<Vec2<Real>, Real, R
 template <class Real>
 inline constexpr bool kWholeBytes<Rotation<Real>> = members_fill<Rotation<Real>, Real, Real>();
 
-/// What may be written as the bytes it lies in.
+/// Types that may be written as their bytes.
 template <class T>
 concept Bytewise = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && kWholeBytes<T>;
 
-/// Appends values to a buffer, in the machine's own byte order.
+/// Appends values to a buffer, in native byte order.
 class ByteWriter {
  public:
   explicit ByteWriter(std::vector<std::byte>& out) : out_(out) {}
@@ -51,7 +50,7 @@ class ByteWriter {
     append(&value, sizeof(T));
   }
 
-  /// The number of elements (64 bits), then the elements.
+  /// Appends the number of elements (64 bits), then the elements.
   template <Bytewise T>
   void values(std::span<const T> values) {
     value(static_cast<std::uint64_t>(values.size()));
@@ -75,16 +74,16 @@ class ByteWriter {
   std::vector<std::byte>& out_;
 };
 
-/// Takes values from the front of a buffer, in the order in which they were written. Throws
-/// Error (Value, subject "snapshot") when the buffer ends early or holds what no writer writes; nothing is
-/// allocated for a count that the buffer cannot hold.
+/// Reads values from the front of a buffer, in the order of writing. Throws Error (Value, subject "snapshot")
+/// when the buffer ends early or holds data that no writer produces. Allocates nothing for a count that
+/// exceeds the buffer.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> in) : in_(in) {}
 
   template <Bytewise T>
   T value(const char* field) {
-    // A bool of other bits than these is undefined behaviour.
+    // A bool with other bits is undefined behaviour.
     if constexpr (std::is_same_v<T, bool>) {
       const auto bits = value<std::uint8_t>(field);
       require(bits <= 1, field, "is neither true nor false");
@@ -96,7 +95,7 @@ class ByteReader {
     }
   }
 
-  /// Replaces what `out` holds; its capacity is kept.
+  /// Replaces the contents of `out`; its capacity is kept.
   template <Bytewise T>
   void values(std::vector<T>& out, const char* field) {
     static_assert(!std::is_same_v<T, bool>);
@@ -116,10 +115,10 @@ class ByteReader {
     return std::string(reinterpret_cast<const char*>(from), size);
   }
 
-  /// What has not been read.
+  /// Returns the unread part.
   std::span<const std::byte> rest() const { return in_; }
 
-  /// Throws unless `holds`; `problem` ends the sentence that begins with `field`.
+  /// Throws unless `holds` is true; `problem` ends the sentence that begins with `field`.
   static void require(bool holds, const char* field, const char* problem) {
     if (!holds) throw Error(Error::Kind::Value, "snapshot", field, "", problem);
   }

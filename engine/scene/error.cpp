@@ -27,7 +27,7 @@ std::string_view name_of(Error::Kind kind) {
   return "error";
 }
 
-/// `value` as it stands in the sentence: names are quoted once.
+/// Returns `value` as it appears in the sentence: names are quoted once.
 std::string shown(Error::Kind kind, const std::string& value) {
   const bool bare = kind == Error::Kind::Name && !value.empty() && value[0] != '\'' && value[0] != '"';
   return bare ? quoted(value) : value;
@@ -38,14 +38,14 @@ std::string field_and_value(const std::string& field, const std::string& value) 
   return field.empty() || value.empty() ? field + value : field + " is " + value;
 }
 
-/// "line 12: body 'ball': mass is -1: must be a positive number of kg"; empty parts leave no trace.
+/// "line 12: body 'ball': mass is -1: must be a positive number of kg"; empty parts are left out.
 std::string sentence(Error::Kind kind, const std::string& subject, const std::string& field,
                      const std::string& value, const std::string& problem, int line) {
   const std::string place = line > 0 ? "line " + std::to_string(line) : "";
   std::string what = subject;
   const std::string middle = field_and_value(field, shown(kind, value));
   if (!middle.empty()) {
-    // A name alone belongs to its subject: "scenario 'free_fal'".
+    // A name without a field follows its subject: "scenario 'free_fal'".
     const bool alone = kind == Error::Kind::Name && field.empty();
     if (!what.empty()) what += alone ? " " : ": ";
     what += middle;

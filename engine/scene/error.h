@@ -5,21 +5,21 @@
 
 namespace plumb {
 
-/// Something about a scene, a setting or a run that plumb cannot accept. `what()` is the whole sentence;
-/// the parts are there for programs.
+/// A problem with a scene, a setting or a run that plumb cannot accept. `what()` is the whole sentence; the
+/// parts are for programs.
 class Error : public std::runtime_error {
  public:
   enum class Kind {
     Syntax,       ///< not JSON, or JSON of the wrong shape
     Value,        ///< a value out of its range: NaN, negative mass, dt <= 0
     Name,         ///< an unknown or duplicate name
-    Unsupported,  ///< well formed, but not something that this driver or engine does
-    Run,          ///< the run could not go on: a state that is not finite, a work limit
+    Unsupported,  ///< well formed, but not supported by this driver or engine
+    Run,          ///< the run could not continue: a non-finite state, a work limit
     Io,           ///< a file or a program that cannot be opened, read or started
   };
 
-  /// `subject` names the thing ("body 'ball'"), `field` its member ("mass"), `value` what was given,
-  /// `problem` what is wrong and what to do; `line` is 1-based, 0 when there is no text.
+  /// `subject` names the thing ("body 'ball'"), `field` its member ("mass"), `value` the value given,
+  /// `problem` the problem and its remedy; `line` is 1-based, 0 without a text.
   Error(Kind kind, std::string subject, std::string field, std::string value, std::string problem,
         int line = 0);
 
@@ -30,7 +30,7 @@ class Error : public std::runtime_error {
   const std::string& problem() const { return problem_; }
   int line() const { return line_; }
 
-  /// The same error, placed at a line of a text.
+  /// Returns the same error with a line of a text.
   Error at_line(int line) const { return {kind_, subject_, field_, value_, problem_, line}; }
 
  private:

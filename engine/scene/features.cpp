@@ -29,7 +29,7 @@ std::string unusual_field_of(const Body& body) {
   return "";
 }
 
-/// The first field besides anchors, a rod's length and `collide` that is not as it is by default.
+/// Returns the first field with a value other than its default, apart from anchors, `length` and `collide`.
 template <class J>
 std::string unusual_field_of(const J& joint) {
   static const J kDefault{};

@@ -4,8 +4,9 @@
 
 #include "engine/scene/scene.h"
 
-/// What a scene has beyond what every engine knows: circles and boxes with friction and restitution, plain
-/// revolute joints and rods. Each function gives the first such thing in words, or nothing.
+/// Features of a scene that not every engine supports: all but circles and boxes with friction and
+/// restitution, plain revolute joints and rods. Each function describes the first such feature, or returns
+/// nothing.
 namespace plumb {
 
 /// A kind of shape or joint: "body 'lever' has a capsule", "joint 'door' is a prismatic joint".

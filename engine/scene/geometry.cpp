@@ -11,7 +11,7 @@ constexpr double kPi = std::numbers::pi;
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
-/// Sums parts about the origin, and gives the whole about its centroid.
+/// Sums parts about the origin, and returns the whole about its centroid.
 class Sum {
  public:
   void add(const Extent& part) {
@@ -40,7 +40,8 @@ Extent of_sector(Vec2d tip, Vec2d axis, double half, double radius) {
   return {radius * radius * half, tip + distance * axis, radius * radius / 2 - distance * distance};
 }
 
-/// About its centroid (|u|^2 + |v|^2 - u.v) / 18, u and v two of its sides from one corner, the origin.
+/// Squared radius of gyration about the centroid: (|u|^2 + |v|^2 - u.v) / 18, u and v two sides from one
+/// corner, the origin.
 Extent of_triangle(Vec2d u, Vec2d v) {
   return {cross(u, v) / 2, (1.0 / 3) * (u + v), (length_squared(u) + length_squared(v) - dot(u, v)) / 18};
 }
@@ -53,7 +54,7 @@ Extent extent(const Box& box) {
   return {box.width * box.height, {}, (box.width * box.width + box.height * box.height) / 12};
 }
 
-/// Corners counter-clockwise, the first at the origin, of a size near 1.
+/// Extent of a rounded polygon: corners counter-clockwise, the first at the origin, of a size near 1.
 Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
   Sum sum;
   const std::size_t n = corners.size();
@@ -73,7 +74,7 @@ Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
 Extent extent(const Capsule& capsule) {
   const double r = capsule.radius, span = length(capsule.end - capsule.start);
   const Vec2d middle = 0.5 * (capsule.start + capsule.end);
-  // A rectangle between the halves of a disc: a half's centroid lies 4 r/(3 pi) out of its flat side.
+  // A rectangle between two half discs: a half's centroid lies 4 r/(3 pi) from its flat side.
   const double disc = kPi * r * r, between = 2 * r * span, area = disc + between;
   const double of_ends = r * r / 2 + span * span / 4 + span * (4 * r / (3 * kPi));
   const double of_middle = (span * span + 4 * r * r) / 12;

@@ -5,7 +5,7 @@
 
 #include "engine/math/vec2.h"
 
-/// What a shape can be, in SI units, each in a frame of its own.
+/// The geometries of shapes, in SI units, each in its own frame.
 namespace plumb {
 
 struct Circle {
@@ -39,8 +39,8 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// A line of segments with a front only (to the right of the way from point to point), on which nothing
-/// catches at the seams. It has no mass.
+/// A line of segments that collides on its front only (to the right of the direction from point to point),
+/// without internal edges at its corners. It has no mass.
 struct Chain {
   std::vector<Vec2d> points{};  ///< m, 2 or more; 3 or more when closed
   bool closed = false;          ///< the last point is joined to the first
@@ -49,22 +49,22 @@ struct Chain {
 
 using Geometry = std::variant<Circle, Box, Capsule, Polygon, Segment, Chain>;
 
-/// How a geometry of even density weighs. Exact but for rounding; lines have none.
+/// Mass properties of a geometry of uniform density. Exact but for rounding; lines have none.
 struct Extent {
   double area = 0;              ///< m^2
   Vec2d centroid{};             ///< m, in the geometry's frame
   double gyration_squared = 0;  ///< m^2: I/m about the centroid
 };
 
-/// Source: r^2/2 of a disc, (w^2 + h^2)/12 of a box; others are put together from triangles, rectangles on
-/// their edges and circular sectors at their corners, by parallel axes.
+/// Source: r^2/2 for a disc, (w^2 + h^2)/12 for a box. Others are sums of triangles, rectangles on their
+/// edges and circular sectors at their corners, by the parallel axis theorem.
 Extent extent_of(const Geometry& geometry);
 
-/// The largest distance of a point of the geometry from its frame's origin, m.
+/// Returns the largest distance of a point of the geometry from its frame's origin, m.
 double reach_of(const Geometry& geometry);
 
-/// The corners of the convex hull of `points`, counter-clockwise, from the lowest of the leftmost; points on
-/// an edge are left out. Fewer than 3 when all points lie on a line.
+/// Returns the corners of the convex hull of `points`, counter-clockwise, from the lowest of the leftmost;
+/// points on an edge are left out. Fewer than 3 when all points lie on a line.
 std::vector<Vec2d> convex_corners(std::vector<Vec2d> points);
 
 }  // namespace plumb

@@ -10,7 +10,8 @@
 /// The joints of a scene, in SI units; angles in rad, counter-clockwise, of b relative to a.
 namespace plumb {
 
-/// A damped spring by what one sees of it: its natural frequency with the joined bodies' own effective mass.
+/// A damped spring, given by its natural frequency with the joined bodies' effective mass and its damping
+/// ratio.
 struct Spring {
   double hertz = 0;          ///< 1/s, > 0
   double damping_ratio = 1;  ///< 1 is critical, >= 0
@@ -24,22 +25,22 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
-/// Drives towards a speed with no more than a force.
+/// Drives towards a speed with limited force or torque.
 struct Motor {
   double speed = 0;      ///< m/s or rad/s
   double max_force = 0;  ///< N or N m, >= 0
   friend bool operator==(const Motor&, const Motor&) = default;
 };
 
-/// Holds two anchors together; the bodies turn freely about them, as far as limits let them.
+/// Holds two anchors together; the bodies turn freely about them within the limits.
 struct RevoluteJoint {
   std::string name;    ///< unique, not empty
   std::string body_a;  ///< a body's name, or "world"
   std::string body_b;
   Vec2d anchor_a{};               ///< m, in body a's frame
   Vec2d anchor_b{};               ///< m, in body b's frame
-  bool collide = false;           ///< whether the two bodies may also touch
-  double break_force = 0;         ///< N, at which the joint lets go; 0: never
+  bool collide = false;           ///< true: the two bodies may also touch
+  double break_force = 0;         ///< N, at which the joint breaks; 0: never
   double break_torque = 0;        ///< N m; 0: never
   double reference_angle = 0;     ///< rad, of b relative to a, where the joint's angle is 0
   std::optional<Range> limits{};  ///< rad
@@ -85,7 +86,7 @@ struct PrismaticJoint {
   friend bool operator==(const PrismaticJoint&, const PrismaticJoint&) = default;
 };
 
-/// Holds b to a; rigid where no spring is given.
+/// Holds b to a; rigid without springs.
 struct WeldJoint {
   std::string name;
   std::string body_a;
@@ -129,11 +130,11 @@ struct MotorJoint {
   double target_angle = 0;  ///< rad
   double max_force = 0;     ///< N, >= 0
   double max_torque = 0;    ///< N m, >= 0
-  Spring spring{2, 1};      ///< how it follows
+  Spring spring{2, 1};      ///< of its response
   friend bool operator==(const MotorJoint&, const MotorJoint&) = default;
 };
 
-/// Pulls a point of b towards a point of the world. Body a takes no part; it is "world" or a static body.
+/// Pulls a point of b towards a point of the world. Body a is not involved; it is "world" or a static body.
 struct MouseJoint {
   std::string name;
   std::string body_a;
@@ -148,7 +149,7 @@ struct MouseJoint {
   friend bool operator==(const MouseJoint&, const MouseJoint&) = default;
 };
 
-/// angle_b = ratio angle_a + phase: two wheels that mesh have a negative ratio.
+/// angle_b = ratio angle_a + phase: meshing wheels have a negative ratio.
 struct GearJoint {
   std::string name;
   std::string body_a;
@@ -177,7 +178,7 @@ struct PulleyJoint {
   friend bool operator==(const PulleyJoint&, const PulleyJoint&) = default;
 };
 
-/// Lets b turn relative to a one way, and holds the other way at teeth `tooth` apart.
+/// Lets b turn relative to a in one direction, and stops it in the other at teeth `tooth` apart.
 struct RatchetJoint {
   std::string name;
   std::string body_a;
@@ -185,8 +186,8 @@ struct RatchetJoint {
   bool collide = false;
   double break_force = 0;
   double break_torque = 0;
-  double tooth = 0.1;  ///< rad, not 0; its sign is the direction that is free
-  double phase = 0;    ///< rad, where a tooth stands
+  double tooth = 0.1;  ///< rad, not 0; its sign is the free direction
+  double phase = 0;    ///< rad, the position of a tooth
   friend bool operator==(const RatchetJoint&, const RatchetJoint&) = default;
 };
 

@@ -5,8 +5,8 @@
 #include "engine/scene/joint.h"
 #include "engine/scene/limits.h"
 
-/// What the scene format calls the fields of each joint, and which values they take: the one list that
-/// reading, writing and validation go through. `visit(name, member, rule)` is called for each field in order.
+/// Names and allowed values of each joint's fields in the scene format: the one list for reading, writing and
+/// validation. `visit(name, member, rule)` is called for each field in order.
 namespace plumb {
 
 struct FieldRule {
@@ -18,7 +18,7 @@ struct FieldRule {
 template <class J, class Kind>
 concept Is = std::is_same_v<std::remove_const_t<J>, Kind>;
 
-/// Anchors, where the joint has them.
+/// Visits the anchors, if the joint has any.
 template <class J, class Visit>
 void anchor_fields(J& j, Visit&& visit) {
   constexpr FieldRule kPlace{Limits::Any, "m"};
@@ -26,7 +26,7 @@ void anchor_fields(J& j, Visit&& visit) {
   if constexpr (requires { j.anchor_b; }) visit("anchor_b", j.anchor_b, kPlace);
 }
 
-/// What every joint has after its own fields.
+/// Visits the fields common to all joints, which follow each joint's own.
 template <class J, class Visit>
 void last_fields(J& j, Visit&& visit) {
   visit("collide", j.collide, FieldRule{});

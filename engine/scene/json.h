@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// The scene as JSON; numbers are the shortest decimals that read back to the same bits. `indent` < 0: one
-/// line. Throws `Error` for what JSON cannot hold: numbers that are not finite (a law's infinite duration is
-/// left out), names that are not UTF-8.
+/// Returns the scene as JSON; numbers are the shortest decimals that read back to the same bits. `indent` <
+/// 0: one line. Throws `Error` for values without a JSON form: non-finite numbers (except a law's infinite
+/// duration, which is left out) and names that are not UTF-8.
 std::string to_json(const Scene& scene, int indent = 2);
 
 /// Reads a scene and validates it. Throws `Error` with the line, the subject, the field and the value.

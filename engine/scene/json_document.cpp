@@ -11,14 +11,14 @@
 namespace plumb::json {
 namespace {
 
-/// Where the lexer is in the text.
+/// The lexer's line numbers.
 struct Cursor {
   int line = 1;        ///< of the next character
   int token_line = 1;  ///< of the last character that is not white space
 };
 
-/// A character of the text; moving past it counts its line. The lexer looks one character ahead of a number,
-/// so the line of a token is that of the last character which is not white space.
+/// A character of the text; counts lines when advanced. The lexer looks one character beyond a number, so the
+/// line of a token is that of the last character which is not white space.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -51,7 +51,8 @@ class CountingIterator {
   Cursor* cursor_;
 };
 
-/// The second member with a key that another has, in the order of the text; nullptr where there is none.
+/// Returns the first member, in the order of the text, whose key an earlier one has; nullptr if keys are
+/// unique.
 const Node* find_duplicate(const Node& object) {
   std::vector<const Node*> sorted;
   for (const Node& item : object.items) sorted.push_back(&item);
@@ -65,7 +66,7 @@ const Node* find_duplicate(const Node& object) {
   return first;
 }
 
-/// "while parsing object key: unexpected '}'; expected string literal" out of the library's
+/// Extracts "while parsing object key: unexpected '}'; expected string literal" from the library's
 /// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing object key -
 /// ..."
 std::string explain(std::string message) {
@@ -74,12 +75,12 @@ std::string explain(std::string message) {
     message.erase(0, at + kIntroduction.size());
   }
   if (const auto dash = message.find(" - "); dash != std::string::npos) message.replace(dash, 3, ": ");
-  // A comma would be right there too.
+  // A comma would be valid there too.
   for (const char bracket : {'}', ']'}) {
     const std::string expected = std::string("; expected '") + bracket + "'";
     if (message.ends_with(expected)) message.insert(message.size() - 3, "',' or ");
   }
-  // The library quotes what it read last, be it a megabyte; what it expected stands behind.
+  // The library quotes all that it read last, up to megabytes; the expected token follows.
   constexpr std::size_t kHead = 160, kTail = 80;
   if (message.size() > kHead + kTail) {
     message = printable(message, kHead) + " " + message.substr(message.size() - kTail);
@@ -87,7 +88,7 @@ std::string explain(std::string message) {
   return "is not JSON: " + printable(message, 2 * (kHead + kTail));
 }
 
-/// Builds the tree from the library's events. Functions answer whether to go on.
+/// Builds the tree from the library's events. The functions return true to continue.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
   Builder(Document& out, const Cursor& cursor) : out_(out), cursor_(cursor) {}
@@ -95,7 +96,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool null() override { return add(Kind::Null), true; }
   bool boolean(bool value) override { return add(Kind::Boolean).number = value ? 1 : 0, true; }
   bool number_integer(number_integer_t value) override {
-    // Only a text with a sign gets here, so this zero was "-0".
+    // Only numbers with a sign get here, so this zero was "-0".
     return add(Kind::Number).number = value == 0 ? -0.0 : static_cast<double>(value), true;
   }
   bool number_unsigned(number_unsigned_t value) override {
@@ -154,7 +155,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return *node;
   }
 
-  /// Pointers in `open_` stay valid: an array's items move only when it gets another, and then none is open.
+  /// Pointers in `open_` stay valid: an array's items move only when one is added, and none of them is open
+  /// then.
   bool open(Kind kind) {
     open_.push_back(&add(kind));
     if (open_.size() <= kDeepest) return true;
@@ -175,7 +177,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   int key_line_ = 0;
 };
 
-/// What is wrong with the bytes themselves; empty where nothing is. `at` gets the place.
+/// Returns the problem with the bytes themselves, or an empty string. Sets `at` to its position.
 std::string find_foreign_bytes(std::string_view text, std::size_t& at) {
   at = 0;
   if (text.size() > kLongestText) {

@@ -9,8 +9,8 @@
 
 namespace plumb::json {
 
-/// Writes JSON front to back. With `indent` >= 0, arrays and objects take a line an entry, except those that
-/// are opened as `inline`; else all is one line without spaces.
+/// Writes JSON front to back. With `indent` >= 0, arrays and objects have one entry per line, except those
+/// opened as `Inline`; otherwise all is one line without spaces.
 class Emitter {
  public:
   enum class Layout { Block, Inline };
@@ -27,7 +27,7 @@ class Emitter {
   void string(std::string_view value);
   void vector(Vec2d value);
 
-  /// Whether anything was no JSON: a number that is not finite, a string that is not UTF-8.
+  /// Returns true if a value has no JSON form: a non-finite number or a string that is not UTF-8.
   bool failed() const { return failed_; }
 
   std::string take() { return std::move(out_); }
@@ -38,7 +38,7 @@ class Emitter {
     bool empty = true;
   };
 
-  void separate();  ///< what stands between the entry before and the one to come
+  void separate();  ///< writes the separator between two entries
   void new_line();
 
   int indent_;

@@ -9,10 +9,10 @@
 #include "engine/math/vec2.h"
 #include "engine/scene/json_document.h"
 
-/// Typed reading of JSON values, with errors that say where and what.
+/// Typed reading of JSON values, with errors that name the place and the problem.
 namespace plumb::json {
 
-/// A value together with the way to it from the root. Lives on the stack, below the view that it came from.
+/// A value together with the path to it from the root. Lives on the stack; its parent view must outlive it.
 class View {
  public:
   explicit View(const Node& root) : node_(&root) {}
@@ -20,13 +20,13 @@ class View {
 
   const Node& node() const { return *node_; }
 
-  /// From the root to here.
+  /// Returns the path from the root to here.
   std::vector<const Node*> path() const;
 
   /// Throws `Error` about this value: its subject, field, excerpt and line.
   [[noreturn]] void fail(Error::Kind kind, const std::string& problem) const;
 
-  /// As `fail`, at another line: that of a vector's component.
+  /// Same as `fail`, at another line: that of a vector's component.
   [[noreturn]] void fail_at(int line, Error::Kind kind, const std::string& problem) const;
 
  private:
@@ -39,10 +39,10 @@ bool boolean(const View& view);
 std::string string(const View& view);
 Vec2d vector(const View& view);
 
-/// A whole number from `lowest` to `highest`.
+/// Reads a whole number from `lowest` to `highest`.
 double integer(const View& view, double lowest, double highest);
 
-/// The index in `names` of the string here; throws `Error` (Name) that suggests the nearest.
+/// Returns the index in `names` of the string here; throws `Error` (Name) that suggests the nearest.
 std::size_t choice(const View& view, const std::string_view* names, std::size_t count);
 
 template <std::size_t kCount>
@@ -50,7 +50,7 @@ std::size_t choice(const View& view, const std::array<std::string_view, kCount>&
   return choice(view, names.data(), kCount);
 }
 
-/// An object whose keys are all known. Optional members leave `out` as it is where they are absent.
+/// An object whose keys are all known. Reading an absent optional member leaves `out` unchanged.
 class Fields {
  public:
   using Keys = std::vector<std::string_view>;
@@ -60,7 +60,7 @@ class Fields {
 
   bool has(std::string_view key) const { return view_.node().find(key) != nullptr; }
 
-  /// The member `key`; throws where it is absent.
+  /// Returns the member `key`; throws if it is absent.
   View required(std::string_view key) const;
 
   void read(std::string_view key, double& out) const;
@@ -75,7 +75,7 @@ class Fields {
     if (has(key)) out = static_cast<Enum>(choice(required(key), names));
   }
 
-  /// Calls `visit` with a view of each entry of the list `key`, where it is present.
+  /// Calls `visit` with a view of each entry of the list `key`, if present.
   template <class Visit>
   void each(std::string_view key, Visit visit) const {
     if (!has(key)) return;

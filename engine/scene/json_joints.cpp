@@ -34,7 +34,7 @@ Motor read_motor(const View& view) {
   return motor;
 }
 
-/// Reads one field after another.
+/// Reads each field it is called with.
 class Reader {
  public:
   explicit Reader(const Fields& fields) : fields_(fields) {}
@@ -91,7 +91,7 @@ Joint read_as(const View& view, std::string_view kind) {
   return joint;
 }
 
-/// One reader a kind, and the keys of all kinds together: a mistyped "type" is named as such.
+/// One reader per kind, and the keys of all kinds together, so that a mistyped "type" is reported as such.
 template <class... Kinds>
 struct AnyJoint;
 template <class... Kinds>

@@ -5,7 +5,7 @@
 
 namespace plumb::json {
 
-/// The joint at `view`; throws `Error` that says where and what.
+/// Reads the joint at `view`; throws `Error` that names the place and the problem.
 Joint read_joint(const View& view);
 
 }  // namespace plumb::json

@@ -18,7 +18,7 @@ std::size_t index_in(const Node& list, const Node& item) {
   return static_cast<std::size_t>(&item - list.items.data());
 }
 
-/// The name of entry `item` of the scene's list `list`; empty where that is none of its lists.
+/// Returns the subject of entry `item` of `list`; empty if that is not one of the scene's lists.
 std::string entry_subject(const Node& list, const Node& item) {
   if (list.kind != Kind::Array) return "";
   const std::size_t index = index_in(list, item);
@@ -30,7 +30,7 @@ std::string entry_subject(const Node& list, const Node& item) {
   return "";
 }
 
-/// Whether an error names the whole list in place of its entry: a position in place of its x.
+/// Returns true if errors name the whole list rather than its entry: a position rather than its x.
 bool is_vector(const Node& list) {
   return list.kind == Kind::Array && list.key != "bodies" && list.key != "joints" && list.key != "forces" &&
          list.key != "shapes" && list.key != "points";
@@ -40,7 +40,7 @@ const char* list_key(Place::List list) {
   return list == Place::List::Bodies ? "bodies" : list == Place::List::Joints ? "joints" : "forces";
 }
 
-/// Takes the next name or index off `field`: "shapes[1].radius" is shapes, 1, radius.
+/// Removes the first name or index from `field` and returns it: "shapes[1].radius" is shapes, 1, radius.
 std::string_view next_step(std::string_view& field) {
   const std::size_t end = std::min(field.find_first_of(".[]"), field.size());
   const std::string_view step = field.substr(0, end);

@@ -22,8 +22,8 @@ Fields::Keys operator+(Fields::Keys keys, const Fields::Keys& more) {
   return keys;
 }
 
-/// The index in `names` of the object's "type". `keys` are those of any type: a mistyped "type" is named as
-/// such.
+/// Returns the index in `names` of the object's "type". `keys` are those of all types, so that a mistyped
+/// "type" is reported as such.
 template <std::size_t kCount>
 std::size_t type_of(const View& view, std::string_view what, const Fields::Keys& keys,
                     const std::array<std::string_view, kCount>& names) {

@@ -62,7 +62,7 @@ class Writer {
     write("friction", rules.friction, kCombineNames);
     write("restitution", rules.restitution, kCombineNames);
     write("restitution_threshold", rules.restitution_threshold);
-    // Written where it is chosen: the hashes of scenes from before there was a choice stay as they are.
+    // Omitted when default, so that the hashes of scenes from before this option stay the same.
     if (rules.simultaneous != Simultaneous::Sequence)
       write("simultaneous", rules.simultaneous, kSimultaneousNames);
     out_.end('}');
@@ -152,7 +152,7 @@ class Writer {
     write("max_force", motor.max_force);
     out_.end('}');
   }
-  /// JSON has no infinity: an open end of a range is left out.
+  /// JSON has no infinity: an infinite end of a range is left out.
   void write(std::string_view key, const Range& range) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     out_.key(key);
@@ -232,7 +232,7 @@ class Writer {
     write("phase", force.phase);
   }
 
-  /// JSON has no infinity: a law that lasts for ever has no duration.
+  /// JSON has no infinity: an infinite duration is left out.
   void times(double start, double duration) {
     write("start", start);
     if (duration != std::numeric_limits<double>::infinity()) write("duration", duration);
@@ -248,7 +248,7 @@ std::string to_json(const Scene& scene, int indent) {
   Writer writer(indent);
   writer.scene(scene);
   if (writer.failed()) {
-    validate(scene);  // knows what it is and what it is called
+    validate(scene);  // throws with the name of the offending value
     throw Error(Error::Kind::Value, scene_subject(scene.name), "", "", "holds something that JSON cannot");
   }
   return writer.take();

@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-/// Which numbers a field takes.
+/// Allowed numbers of a field.
 enum class Limits { Any, NonNegative, Positive, ZeroToOne, NotZero };
 
 /// "must be a positive number of kg".

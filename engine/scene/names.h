@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-/// What the scene format calls the members of each enumeration and variant, in their order of declaration.
+/// Names of the members of each enumeration and variant in the scene format, in their order of declaration.
 namespace plumb {
 
 inline constexpr std::array<std::string_view, 3> kBodyTypeNames{"static", "kinematic", "dynamic"};

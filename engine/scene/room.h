@@ -6,22 +6,22 @@
 
 namespace plumb {
 
-/// Lists with more items than this grow by a quarter, not by doubling: what has no use yet is then at most a
-/// fifth of their room, and each item is moved four times at most, on average, while they grow.
+/// Vectors with more items than this grow by a quarter instead of doubling: at most a fifth of the capacity
+/// is then unused, and each item is moved four times on average.
 inline constexpr std::size_t kDoubled = 1024;
 
-/// The capacity that a list of `size` items, which has room for `capacity`, is to grow to.
+/// Returns the capacity to grow to, for `size` items when the present capacity is `capacity`.
 inline std::size_t grown_room(std::size_t capacity, std::size_t size) {
   return std::max(size, capacity < kDoubled ? 2 * capacity : capacity + capacity / 4);
 }
 
-/// Makes room for `wanted` items, so that a list gets as many without an allocation.
+/// Reserves capacity for `wanted` items, so that the vector grows to them without an allocation.
 template <class T>
 void ensure_room(std::vector<T>& list, std::size_t wanted) {
   if (wanted > list.capacity()) list.reserve(grown_room(list.capacity(), wanted));
 }
 
-/// Resizes a list.
+/// Resizes a vector with this growth.
 template <class T>
 void make_room(std::vector<T>& list, int size) {
   const std::size_t wanted = static_cast<std::size_t>(size);
@@ -29,11 +29,11 @@ void make_room(std::vector<T>& list, int size) {
   list.resize(wanted);
 }
 
-/// Puts an item at a list's end.
+/// Appends an item with this growth.
 template <class T>
 void append(std::vector<T>& list, const T& item) {
   if (list.size() == list.capacity()) {
-    const T kept = item;  // which may be in the list
+    const T kept = item;  // a copy: `item` may be in the list
     list.reserve(grown_room(list.capacity(), list.size() + 1));
     list.push_back(kept);
     return;

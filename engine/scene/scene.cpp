@@ -16,8 +16,8 @@ double inertia_of(const Body& body) {
   if (body.inertia) return *body.inertia;
   double total = 0;
   for (const Shape& shape : body.shapes) total += shape.density.value_or(1) * extent_of(shape.geometry).area;
-  // I = m sum s_i (k_i^2 + |r_i|^2), s_i a shape's share of the mass, k_i its radius of gyration about its
-  // own centroid and r_i where that is: the polar moment does not depend on a shape's angle.
+  // I = m sum s_i (k_i^2 + |r_i|^2), s_i a shape's fraction of the mass, k_i its radius of gyration about its
+  // own centroid, r_i the centroid's position. The polar moment does not depend on a shape's angle.
   double mean_square = 0;
   for (const Shape& shape : body.shapes) {
     const Extent extent = extent_of(shape.geometry);

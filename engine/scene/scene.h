@@ -16,11 +16,11 @@
 /// One scene for every engine: plain data in SI units, double precision, y up.
 namespace plumb {
 
-/// Joints name this in place of a body to hold on to the fixed frame.
+/// Joints use this in place of a body's name for the fixed frame.
 inline constexpr std::string_view kWorld = "world";
 
-/// Two shapes may touch when each one's category is in the other's mask; an equal non-zero group decides
-/// first: positive always, negative never.
+/// Two shapes may touch when each one's category is in the other's mask. An equal non-zero group takes
+/// precedence: positive always, negative never.
 struct Filter {
   std::uint32_t category = 1;
   std::uint32_t mask = 0xFFFFFFFFu;
@@ -36,9 +36,10 @@ struct Shape {
   double restitution = 0;  ///< Newton's coefficient, 0..1
   Filter filter{};
   double rolling_resistance =
-      0;                     ///< share of the rounding radius at which the normal force resists rolling, >= 0
-  double surface_speed = 0;  ///< m/s, of the surface, to the right as seen by who stands on it
-  std::optional<double> density{};  ///< kg/m^2, >= 0; where one shape of a body has it all have
+      0;                     ///< fraction of the rounding radius at which the normal force resists rolling,
+                             ///< >= 0
+  double surface_speed = 0;  ///< m/s, of the surface, to the right for an observer standing on it
+  std::optional<double> density{};  ///< kg/m^2, >= 0; if one shape of a body has it, all must
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
@@ -56,11 +57,11 @@ struct Body {
   std::optional<double> inertia{};  ///< kg m^2 about the centre of mass, > 0; absent: see `inertia_of`
   bool fixed_rotation = false;
   std::vector<Shape> shapes{};
-  double gravity_scale = 1;    ///< share of the scene's gravity that acts on the body
+  double gravity_scale = 1;    ///< fraction of the scene's gravity that acts on the body
   double linear_damping = 0;   ///< 1/s, >= 0: the velocity decays as exp(-damping t)
-  double angular_damping = 0;  ///< 1/s, >= 0: likewise
+  double angular_damping = 0;  ///< 1/s, >= 0: the same for the angular velocity
   bool lock_x = false;         ///< the centre of mass keeps its x
-  bool lock_y = false;         ///< likewise its y
+  bool lock_y = false;         ///< the centre of mass keeps its y
   friend bool operator==(const Body&, const Body&) = default;
 };
 
@@ -85,7 +86,7 @@ struct PointForce {
   std::string body;
   Vec2d force{};                                              ///< N, in `frame`
   Vec2d point{};                                              ///< m, in the body's frame
-  Frame frame = Frame::World;                                 ///< what the force's direction is fixed in
+  Frame frame = Frame::World;                                 ///< frame of the force's direction
   double start = 0;                                           ///< s
   double duration = std::numeric_limits<double>::infinity();  ///< s
   friend bool operator==(const PointForce&, const PointForce&) = default;
@@ -101,7 +102,7 @@ struct Torque {
 };
 
 /// Hooke's law with viscous damping along the line between two points: the tension is
-/// stiffness (length - rest_length) + damping d(length)/dt. Points that coincide feel none.
+/// stiffness (length - rest_length) + damping d(length)/dt; zero for coinciding points.
 struct SpringForce {
   std::string body_a;  ///< a body's name, or "world"
   std::string body_b;
@@ -113,20 +114,20 @@ struct SpringForce {
   friend bool operator==(const SpringForce&, const SpringForce&) = default;
 };
 
-/// Attraction of a body's centre of mass towards a point: F = strength m / r^exponent, m the body's mass.
-/// What the point is fixed to feels the opposite force there. None at the point itself.
+/// Attraction of a body's centre of mass towards a point: F = strength m / r^exponent, m the body's mass. The
+/// body that the point is fixed to feels the opposite force there. No force at r = 0.
 struct AttractionForce {
   std::string body;
-  std::string centre_body{kWorld};  ///< what `centre` is fixed to: a body's name, or "world"
+  std::string centre_body{kWorld};  ///< frame of `centre`: a body's name, or "world"
   Vec2d centre{};                   ///< m, in the frame of `centre_body`
-  double strength = 0;              ///< m^(1 + exponent)/s^2; negative pushes away
+  double strength = 0;              ///< m^(1 + exponent)/s^2; negative repels
   int exponent = 2;                 ///< -9..9: 2 is Newton's law, -1 a force that grows with the distance
   friend bool operator==(const AttractionForce&, const AttractionForce&) = default;
 };
 
 inline constexpr int kLargestExponent = 9;
 
-/// A force at a point of the body that swings: F = amplitude sin(angular_frequency t + phase).
+/// A sinusoidal force at a point of the body: F = amplitude sin(angular_frequency t + phase).
 struct SinusoidalForce {
   std::string body;
   Vec2d amplitude{};             ///< N, fixed in the world
@@ -139,16 +140,16 @@ struct SinusoidalForce {
 using ForceLaw = std::variant<LinearDrag, QuadraticDrag, PointForce, Torque, SpringForce, AttractionForce,
                               SinusoidalForce>;
 
-/// The names of what a law acts on: a body, and another or "world" for laws between two.
+/// Returns the names of the bodies that a law acts on: one, and another or "world" for laws between two.
 std::array<std::string_view, 2> ends_of(const ForceLaw& law);
 
-/// How two shapes' coefficients become a contact's.
+/// Combination of two shapes' coefficients into a contact's.
 enum class Combine { GeometricMean, Product, Maximum, Minimum, Average };
 
-/// How impacts at the same instant are resolved, by engines that have a choice.
+/// Resolution of simultaneous impacts, in engines that offer a choice.
 enum class Simultaneous {
-  Sequence,  ///< pair by pair, the fastest first, until none closes: a blow goes through a row of balls
-  Together,  ///< all at once, as one complementarity problem: nothing closes, and no order matters
+  Sequence,  ///< pair by pair, fastest first, until none approaches: impacts pass along a row of balls
+  Together,  ///< all at once, as one complementarity problem: none approaches, and order does not matter
 };
 
 struct ContactRules {
@@ -169,7 +170,7 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What moves of a body. The angle counts whole turns: it is not wrapped.
+/// The state of motion of a body. The angle counts whole turns: it is not wrapped.
 struct BodyState {
   Vec2d position{};             ///< m, of the centre of mass
   double angle = 0;             ///< rad
@@ -178,28 +179,29 @@ struct BodyState {
   friend bool operator==(const BodyState&, const BodyState&) = default;
 };
 
-/// The state that `body` starts in.
+/// Returns the initial state of `body`.
 BodyState initial_state(const Body& body);
 
-/// Rotational inertia of a dynamic body about its centre of mass, kg m^2: as given, else that of its shapes
-/// with their densities, or with uniform density (overlaps counted twice). 0 where rotation is fixed. Source:
-/// `extent_of`, parallel axes.
+/// Returns the rotational inertia of a dynamic body about its centre of mass, kg m^2: as given, otherwise
+/// from its shapes with their densities, or with uniform density (overlaps counted twice). 0 with fixed
+/// rotation. Source: `extent_of`, parallel axes.
 double inertia_of(const Body& body);
 
-/// What the shapes' densities give, kg; nothing where shapes have none. A body with densities has this mass.
+/// Returns the sum of the shapes' masses by density, kg; nothing if shapes have none. A body with densities
+/// has this mass.
 std::optional<double> mass_by_density(const Body& body);
 
-/// The coefficient of a contact between shapes with coefficients `a` and `b`.
+/// Combines coefficients `a` and `b` of two shapes into a contact's.
 double combine(Combine rule, double a, double b);
 
-/// Whether two shapes' filters let them touch.
+/// Returns true if two shapes' filters let them touch.
 bool may_touch(const Filter& a, const Filter& b);
 
-/// The index of the body called `name`; nothing for "world" or an unknown name.
+/// Returns the index of the body called `name`; nothing for "world" or an unknown name.
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name);
 
-/// 64-bit FNV-1a of the scene's one-line JSON: scenes with the same bits have the same hash on every
-/// platform. A negative zero counts as different from zero, though the two compare equal. Throws as
+/// Returns the 64-bit FNV-1a of the scene's one-line JSON: scenes with the same bits have the same hash on
+/// every platform. A negative zero counts as different from zero, though the two compare equal. Throws as
 /// `to_json`.
 std::uint64_t hash(const Scene& scene);
 

@@ -4,16 +4,16 @@
 #include <string>
 #include <string_view>
 
-/// How errors name the things of a scene.
+/// Names of a scene's objects in errors.
 namespace plumb {
 
-/// "scene 'tower'", or "scene" where it has no name.
+/// "scene 'tower'", or "scene" without a name.
 std::string scene_subject(std::string_view name);
 
-/// "body 'ball'"; "body 3", counted from 0, where it has no name.
+/// "body 'ball'"; "body 3", counted from 0, without a name.
 std::string body_subject(std::size_t index, std::string_view name);
 
-/// "joint 'hinge'"; "joint 3", counted from 0, where it has no name.
+/// "joint 'hinge'"; "joint 3", counted from 0, without a name.
 std::string joint_subject(std::size_t index, std::string_view name);
 
 /// "force 2 (linear_drag on 'ball')", counted from 0; force laws have no names. Empty parts are left out.

@@ -10,17 +10,17 @@
 namespace plumb {
 namespace {
 
-/// Longer names are never a slip of the finger away from another.
+/// Longer names are not compared: they are never typing errors of each other.
 constexpr std::size_t kLongest = 200;
 
-/// So many may be listed in a sentence.
+/// Maximum number of names to list in a sentence.
 constexpr std::size_t kFew = 12;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool same(char a, char b) { return lower(a) == lower(b); }
 
-/// Optimal string alignment: Levenshtein's distance with swaps of neighbours.
+/// Optimal string alignment: Levenshtein's distance with transpositions of neighbours.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) above[j] = j;
@@ -39,7 +39,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
-/// A third of the letters may be wrong, but never all of them.
+/// Returns true if at most a third of the letters are wrong, and fewer than all of the shorter name.
 bool near(std::size_t wrong, std::size_t shorter, std::size_t longer) {
   return wrong < shorter && wrong <= (longer + 2) / 3;
 }

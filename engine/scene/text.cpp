@@ -9,7 +9,7 @@ namespace {
 
 unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Whether the character of `length` bytes that `text` starts with is a control character.
+/// Returns true if the character of `length` bytes at the start of `text` is a control character.
 bool is_control(std::string_view text, std::size_t length) {
   if (length == 1) return byte_at(text, 0) < 0x20 || byte_at(text, 0) == 0x7F;
   return length == 2 && byte_at(text, 0) == 0xC2 && byte_at(text, 1) < 0xA0;
@@ -27,7 +27,7 @@ void append_escaped(std::string& out, unsigned byte) {
 std::string shortest(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
-  // "-0" is an integer to most readers of JSON, and integers have no negative zero.
+  // Most JSON readers take "-0" for an integer, and integers have no negative zero.
   if (value == 0 && std::signbit(value)) return "-0.0";
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
@@ -43,7 +43,7 @@ std::size_t utf8_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte_at(text, i) & 0xC0) != 0x80) return 0;
   }
-  // Unicode, table 3-7: the second byte excludes overlong forms, surrogates and what lies beyond U+10FFFF.
+  // Unicode, table 3-7: the second byte excludes overlong forms, surrogates and code points beyond U+10FFFF.
   const unsigned second = byte_at(text, 1);
   const bool excluded = (lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
                         (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F);

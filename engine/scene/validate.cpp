@@ -24,7 +24,7 @@ std::string text_of(Vec2d v) { return "[" + shortest(v.x) + ", " + shortest(v.y)
 
 using Index = std::unordered_map<std::string_view, std::size_t>;
 
-/// Looks at one thing after another and throws at the first that is wrong.
+/// Checks a scene in order and throws at the first error.
 class Checker {
  public:
   Checker(const Scene& scene, Place& place) : scene_(scene), place_(place) {}
@@ -108,7 +108,7 @@ class Checker {
     }
   }
 
-  /// A name of a body or joint: of its own, not empty.
+  /// Checks the name of a body or joint: unique and not empty.
   void name(const std::string& value, Index& taken) const {
     if (value.empty()) fail(Error::Kind::Name, "name", "", "must not be empty");
     text("name", value);
@@ -152,7 +152,7 @@ class Checker {
     if (dynamic) check_mass(body);
   }
 
-  /// A mass that follows from the shapes, and shapes that the inertia can follow from.
+  /// Checks that mass and densities agree, and that the inertia can be computed from the shapes.
   void check_mass(const Body& body) const {
     const auto has = [](const Shape& shape) { return shape.density.has_value(); };
     if (std::any_of(body.shapes.begin(), body.shapes.end(), has)) {
@@ -165,7 +165,7 @@ class Checker {
       if (!(sum >= kSmallest && sum <= kLargest))
         fail(Error::Kind::Value, "mass", shortest(sum),
              "by the shapes' densities is out of range: it must be positive");
-      // The share is that of a decimal with 9 digits.
+      // Tolerance of a decimal with 9 digits.
       if (!(std::abs(body.mass - sum) <= 1e-9 * sum))
         fail(Error::Kind::Value, "mass", shortest(body.mass),
              "must be " + shortest(sum) + " kg, what the shapes' densities give; it may be left out");
@@ -264,7 +264,7 @@ class Checker {
       vector("points[" + std::to_string(i) + "]", points[i], "m");
   }
 
-  /// The body that `field` names; nullptr for the world where that is allowed.
+  /// Returns the body named by `field`; nullptr for the world if that is allowed.
   const Body* body_called(const char* field, const std::string& name, bool or_world) const {
     if (or_world && name == kWorld) return nullptr;
     if (const auto found = body_names_.find(name); found != body_names_.end())
@@ -299,7 +299,7 @@ class Checker {
     last_fields(joint, check);
   }
 
-  // A field of a joint, by its type.
+  // Checks a field of a joint, by its type.
   void field(const std::string& name, double value, const FieldRule& rule) const {
     number(name, value, rule.limits, rule.unit);
   }
@@ -395,7 +395,7 @@ class Checker {
 
   const Scene& scene_;
   Place& place_;
-  std::string prefix_;  ///< of the fields of the shape that is looked at
+  std::string prefix_;  ///< prefix of field names of the shape being checked
   Index body_names_, joint_names_;
 };
 

@@ -12,15 +12,15 @@
 namespace plumb {
 namespace {
 
-/// What decides whether shapes touch, and how.
+/// Properties of contacts that may occur.
 struct Touching {
   bool any = false, friction = false, restitution = false;
 };
 
-/// Shapes that are alike in all that `PairRules` asks, the body and its joints apart.
+/// Key of shapes that `PairRules` treats alike, apart from body and joints.
 using Likeness = std::tuple<std::uint32_t, std::uint32_t, std::int32_t, double, double, bool>;
 
-/// Looks at pairs of kinds of shapes, and for each at pairs of shapes until one may touch.
+/// Tests pairs of kinds of shapes, and for each kind pairs of shapes until one may touch.
 Touching find_touching(const Scene& scene) {
   const PairRules rules(scene);
   std::map<Likeness, std::vector<int>> kinds;
@@ -56,7 +56,7 @@ bool turns(const Body& body) {
   return body.type == BodyType::Kinematic || (body.type == BodyType::Dynamic && !body.fixed_rotation);
 }
 
-/// Why some body turns, or may come to; empty when none can.
+/// Returns the reason why a body rotates or may do so; empty when none can.
 std::string why_it_turns(const Scene& scene, bool touching) {
   bool any_free = false;
   for (const Body& body : scene.bodies) {

@@ -5,20 +5,20 @@
 
 namespace plumb {
 
-/// One thing that a step does for a scene, and why that scene needs it.
+/// One stage of a step, with the reason why the scene needs it.
 struct Stage {
   std::string name;        ///< "broad_phase", "joint_solve", ...
   std::string why;         ///< "2 of 4 bodies have shapes that may touch"
-  bool active = true;      ///< inactive stages are listed with the reason, and neither allocate nor run
+  bool active = true;      ///< inactive stages are listed with the reason, but neither allocate nor run
   double nanoseconds = 0;  ///< time spent since profiling was switched on
 };
 
-/// What `compile` derived from the scene: the stages in the order in which a step runs them.
+/// The stages that `compile` derived from the scene, in the order of execution.
 struct Plan {
   std::string driver;  ///< "realtime<double>", "realtime<float>", "precise"
   std::vector<Stage> stages;
-  int substeps = 1;            ///< Realtime: of a step
-  std::string substeps_why{};  ///< "as asked for", or what of the scene needs more
+  int substeps = 1;            ///< Realtime: substeps per step
+  std::string substeps_why{};  ///< "as asked for", or the reason for more
 };
 
 }  // namespace plumb

@@ -14,13 +14,13 @@
 namespace plumb::precise {
 namespace {
 
-/// Impacts, and steps, within one max_dt: more of them do not end.
+/// Limits on impacts and steps within one max_dt: beyond them the run counts as stuck.
 constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
-/// Times a flight: how long the next may be.
+/// Maximum length of a flight, as a multiple of the last one.
 constexpr double kLonger = 2;
-/// Of the scene's length: what lies in each other by more is a mistake, however few digits are asked for.
+/// Fraction of the scene's length: deeper initial overlaps are an error at any tolerance.
 constexpr double kDeepestOverlap = 1e-3;
-/// Of the gaps that scenes may start with: roundings of positions.
+/// Roundings of positions that gaps at the start may be off by.
 constexpr double kRoundings = 16;
 
 }  // namespace
@@ -42,8 +42,8 @@ void PreciseDriver::step() {
   report_cost();
 }
 
-/// One step of the motion. It may go beyond `end`, and what is read there lies within it: steps do not depend
-/// on how often they are looked at. Events do end it.
+/// Advances the motion by one step. Steps may go beyond `end`, as states are interpolated within them: step
+/// sizes do not depend on the output times. Events end a step.
 void PreciseDriver::go_on(double end) {
   arrive();
   if (!contacts_.empty() && !contacts_.settled()) {
@@ -56,7 +56,7 @@ void PreciseDriver::go_on(double end) {
   }
   if (!contacts_.empty()) {
     const Clock clock(profiling_, cost_[kContactSearch]);
-    contacts_.stop();  // at the first event on the way
+    contacts_.stop();  // at the first event within the step
     if (!contacts_.settled()) {
       last_flight_ = smooth_.time() - last_event_;
       last_event_ = smooth_.time();
@@ -71,9 +71,8 @@ void PreciseDriver::go_on(double end) {
   ++statistics_.steps;
 }
 
-/// Without events to look for, nothing but the motion decides how long a step is. Parabolas may be of any
-/// length, but the longer they are, the more shapes are near: up to twice as long as the flight before, or
-/// this one so far.
+/// Without contacts, only the motion limits the step. Ballistic flights may have any length, but longer ones
+/// have more candidate contacts. So the limit is twice the previous flight, or twice the present one so far.
 double PreciseDriver::limit_of_step(double end) const {
   if (smooth_.dimension() == 0) return end;
   if (contacts_.empty()) return std::numeric_limits<double>::infinity();
@@ -82,7 +81,7 @@ double PreciseDriver::limit_of_step(double end) const {
              : end;
 }
 
-/// Where the last step ended, forces may be switched.
+/// Switches forces that change at the end of the last step.
 void PreciseDriver::arrive() {
   const double now = smooth_.time();
   if (!std::binary_search(parts_.switches.begin(), parts_.switches.end(), now)) return;
@@ -123,7 +122,7 @@ void PreciseDriver::name_redundant_joints() {
         "; redundant where they start, and without force of their own: " + names;
 }
 
-/// Once, and after bodies were moved from outside: closes joints and their velocities.
+/// Closes joints and their velocities: at the start, and after bodies were changed from outside.
 void PreciseDriver::close_joints() {
   if (joints_closed_) return;
   refuse_open_joints();
@@ -133,7 +132,7 @@ void PreciseDriver::close_joints() {
   joints_closed_ = true;
 }
 
-/// Where a run starts, joints are closed: how they come together otherwise, no law says.
+/// At the start of a run joints must be closed: no law defines how they would close.
 void PreciseDriver::refuse_open_joints() const {
   if (open_.gap == 0 || written_ || smooth_.time() > 0) return;
   throw Error(Error::Kind::Run, "joint '" + open_.joint + "'", "gap",

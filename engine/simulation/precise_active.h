@@ -9,26 +9,27 @@
 
 namespace plumb::precise {
 
-/// A contact that lasts: one or two points of the same two shapes, which share their tangent line.
+/// A persistent contact: one or two points of the same two shapes, with a common tangent.
 struct ActivePatch {
   const Outline* a = nullptr;
   const Outline* b = nullptr;
   double friction = 0;
-  int mode = 0;  ///< 0: sticks; +1, -1: slips in this direction, friction acts against it
+  int mode = 0;  ///< contact mode, 0: sticks; +1, -1: slips in this direction, friction acts against it
   int count = 0;
   Feature features[2] = {};
 
   bool sticks() const { return friction > 0 && mode == 0; }
 };
 
-/// Forces of contacts that last, N: normal ones by point, patch after patch; tangential ones by patch, on
+/// Forces of persistent contacts, N: normal ones by point, patch after patch; tangential ones by patch, on
 /// body b along the tangent (the normal from a to b turned a quarter counter-clockwise).
 struct ContactForces {
   std::vector<double> normal, tangent;
-  std::vector<double> stop;  ///< of held stops of joints, N or N m, in their order
+  std::vector<double> stop;  ///< of the stops of joints that are held (reached limits, motors at their
+                             ///< speed), N or N m, in order
 };
 
-/// J v of one row; `motion` by body.
+/// Returns J v of one row; `motion` by body.
 inline double rate_along(const Row<double>& row, std::span<const Twist<double>> motion) {
   const auto part = [&](int body, Vec2d linear, double angular) {
     if (body == kFixedFrame) return 0.0;
@@ -37,11 +38,11 @@ inline double rate_along(const Row<double>& row, std::span<const Twist<double>> 
   return part(row.a, row.linear_a, row.angular_a) + part(row.b, row.linear_b, row.angular_b);
 }
 
-/// Rows and what a unit impulse along each of them changes, joints included.
+/// Rows and the velocity changes by a unit impulse along each of them, joints included.
 struct ContactResponse {
   std::vector<Row<double>> rows;
   std::vector<Twist<double>> of_a, of_b;  ///< by row: of the row's own bodies
-  std::vector<Twist<double>> all;         ///< row after row, by body; empty where no joints pass anything on
+  std::vector<Twist<double>> all;         ///< row after row, by body; empty if joints transmit nothing
 
   Twist<double> at(std::size_t row, int body, std::size_t bodies) const {
     if (body == kFixedFrame) return {};

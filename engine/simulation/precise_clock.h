@@ -4,7 +4,7 @@
 
 namespace plumb::precise {
 
-/// Adds the time until its end to `nanoseconds`; does nothing, and does not look at the clock, unless `on`.
+/// Adds the time until its end to `nanoseconds`; does nothing, and does not read the clock, unless `on`.
 class Clock {
  public:
   Clock(bool on, double& nanoseconds) : sum_(on ? &nanoseconds : nullptr) {

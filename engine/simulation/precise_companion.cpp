@@ -9,8 +9,8 @@
 namespace plumb::precise {
 namespace {
 
-/// The companion's error is a tenth of the run's, so that their difference is the run's error to 10 %.
-/// Below the tolerance at which both would be rounding, it is ten times the run's instead: an upper estimate.
+/// The companion's error is a tenth of the run's, so that their difference is the run's error to 10 %. Below
+/// the tolerance at which both would be rounding, it is ten times the run's: an upper estimate.
 constexpr double kFiner = 0.1, kCoarser = 10, kLeastTolerance = 1e-11;
 
 Precise companion_of(Precise precise) {

@@ -9,12 +9,12 @@
 
 namespace plumb::precise {
 
-/// A run of `Precise` with a second one of the same scene beside it, at another tolerance: their difference
-/// estimates the first one's error, amplified along the motion as it is.
+/// A run of `Precise` together with a second one at another tolerance: their difference estimates the first
+/// one's error, including its amplification by the motion.
 class CompanionDriver final : public Driver {
  public:
   using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
-  /// `make` gives a driver of the scene, of `bodies` bodies.
+  /// `make` creates a driver of the scene; `bodies` is its number of bodies.
   CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make);
 
   void step() override;

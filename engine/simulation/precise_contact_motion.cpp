@@ -5,12 +5,12 @@
 #include "engine/math/trigonometry.h"
 #include "engine/simulation/precise_motion.h"
 
-// The equations of motion under contacts that last. Joints are eliminated first, by their sparse system: R,
-// the response of a contact's row, is what is left of M^-1 J^T after joints have pushed back. What remains is
-// small and dense,
+// Equations of motion with persistent contacts. Joints are eliminated first, by their sparse system: R, the
+// response of a contact's row, is M^-1 J^T plus the joints' reaction to it. The remaining system is small and
+// dense,
 //   C a + c = 0,   a = a0 + sum lambda_k R_k,   (C R) lambda = -(C a0 + c),
-// with a0 the accelerations without contacts, C the normals and the tangents of what sticks. The friction of
-// what slips goes with its normal force: R of n - s mu t.
+// with a0 the accelerations without contacts, C the normals and the tangents of sticking contacts. Friction
+// of slipping contacts is tied to their normal force: R is the response of n - s mu t.
 namespace plumb::precise {
 namespace {
 
@@ -34,7 +34,7 @@ void EquationsOfMotion::hold_contacts(std::vector<ActivePatch> patches) {
   guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
 }
 
-/// The responses of rows, at the poses of the last `place` and with the joints' last factorisation.
+/// Computes the responses of rows, at the poses of the last `place` and with the joints' last factorisation.
 void EquationsOfMotion::find_response(std::vector<Row<double>> rows, ContactResponse& out) {
   out.rows = std::move(rows);
   const std::size_t bodies = poses_.size();
@@ -53,7 +53,7 @@ void EquationsOfMotion::find_response(std::vector<Row<double>> rows, ContactResp
     const std::span<Twist<double>> all(out.all.data() + k * bodies, bodies);
     if (row.a != kFixedFrame) all[row.a] = out.of_a[k];
     if (row.b != kFixedFrame) all[row.b] = out.of_b[k];
-    // Joints push back so that the anchors' velocities stay as they are: J dv = 0.
+    // The joints' reaction keeps the anchors' velocities: J dv = 0.
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], all);
     solve_joints();
     pull(all);
@@ -66,7 +66,7 @@ double EquationsOfMotion::gain(const Row<double>& row, const ContactResponse& re
          row.angular_b * b.angular_velocity;
 }
 
-/// The rates of the rows, row after row, by a unit of each response.
+/// Computes the rates of the rows, row after row, by a unit of each response.
 void EquationsOfMotion::find_gains(std::span<const Row<double>> rows, const ContactResponse& response,
                                    std::vector<double>& matrix) const {
   const std::size_t n = response.rows.size();
@@ -76,7 +76,7 @@ void EquationsOfMotion::find_gains(std::span<const Row<double>> rows, const Cont
       for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = gain(rows[i], response, k);
     return;
   }
-  // Without joints, a row feels what acts on its own bodies.
+  // Without joints, a row is affected only by responses on its own bodies.
   std::vector<std::vector<std::size_t>> acting_on(poses_.size());
   for (std::size_t k = 0; k < n; ++k) {
     for (const int body : {response.rows[k].a, response.rows[k].b})
@@ -110,8 +110,8 @@ void EquationsOfMotion::add_response(const ContactResponse& response, std::span<
   }
 }
 
-/// Rows of the active contacts and the matrix C R, factorised. `forces`: with the friction of what slips;
-/// else the pushes are along the rows themselves, as projections want them.
+/// Computes the rows of the active contacts and the matrix C R, and factorises it. `forces`: with the
+/// friction of slipping contacts; otherwise responses are along the rows themselves, as for projections.
 void EquationsOfMotion::linearise_contacts(bool forces) {
   constraints_.clear();
   std::vector<Row<double>> pushes, tangents;
@@ -152,14 +152,14 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
   contact_system_.factor(n, matrix, 1e-11);
 }
 
-/// Solves (C R) lambda = right_side of the contacts in place.
+/// Solves (C R) lambda = right_side for the contacts in place.
 void EquationsOfMotion::solve_contacts(std::span<double> right_side) {
   for (std::size_t i = 0; i < right_side.size(); ++i) right_side[i] *= scale_[i];
   contact_system_.solve_refined(right_side);
   for (std::size_t i = 0; i < right_side.size(); ++i) right_side[i] *= scale_[i];
 }
 
-/// Adds the accelerations by contacts to those without.
+/// Adds the accelerations by contacts to those without them.
 void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
   linearise_contacts(true);
   contact_side_.resize(constraints_.size());
@@ -203,7 +203,7 @@ std::span<const Row<double>> EquationsOfMotion::stop_rows(double time, std::span
   return stop_rows();
 }
 
-/// Adds the forces of motors that push as hard as they can.
+/// Adds the forces of saturated motors.
 void EquationsOfMotion::add_motors() {
   const std::span<const Row<double>> rows = stop_rows();
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -220,7 +220,7 @@ void EquationsOfMotion::add_motors() {
   }
 }
 
-/// What velocities (or, with `gaps`, positions) lack of holding the active contacts, on top of `shift`.
+/// Adds to `shift` the correction by which velocities (or, with `gaps`, positions) meet the active contacts.
 void EquationsOfMotion::close_contacts(std::span<const Twist<double>> motion, bool gaps,
                                        std::span<Twist<double>> shift) {
   contact_side_.assign(constraints_.size(), 0.0);

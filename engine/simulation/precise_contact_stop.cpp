@@ -5,16 +5,16 @@
 #include "engine/math/trigonometry.h"
 #include "engine/simulation/precise_contacts.h"
 
-// Looking for the first event of a step: shapes that meet, and what ends a contact's mode.
+// Locates the first event of a step: shapes that meet, and the end of a contact's mode.
 namespace plumb::precise {
 namespace {
 
-/// Samples of a step that forces and slips are watched at.
+/// Samples of forces and slips per step.
 constexpr int kSamples = 5;
-/// And of forces that swing with time: 16 a period.
+/// Samples per radian of time-periodic forces: 16 a period.
 constexpr double kSamplesARadian = 2.6;
-/// Forces may be this much below zero before their contact opens, of the largest of them: rounding, and the
-/// difference between a step's polynomial and the step itself.
+/// Force below zero at which a contact opens, as a fraction of the largest force: more than rounding, and
+/// than the difference between a step's polynomial and the step itself.
 constexpr double kForceNoise = 3e-11;
 
 double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b) {
@@ -22,7 +22,8 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
          row.angular_b * b.angular_velocity;
 }
 
-/// The corner that comes down where the limit `index` of a corner on an edge runs out.
+/// Returns the feature of the corner that touches next when the limit `index` of a corner on an edge is
+/// reached.
 Feature feature_of_height(const Feature& f, const Outline& a, const Outline& b, int index) {
   Feature other = f;
   int& corner = f.kind == Feature::Kind::CornerOfB ? other.b : other.a;
@@ -46,7 +47,7 @@ void Contacts::stop() {
   }
   if (const auto change = first_change(until)) event = change;
   if (!event) {
-    // Pairs that have come apart are looked for again like any other.
+    // Pairs that have separated are searched again like any other.
     const auto apart = [&](const OutlinePair& pair) { return search_.distance(pair, until) > near_; };
     std::erase_if(touching_, apart);
     std::erase_if(passing_, apart);
@@ -215,16 +216,16 @@ std::optional<Contacts::Event> Contacts::first_change(double until) {
   return event;
 }
 
-/// Steps follow the motion. Under contacts that hold still it says nothing of forces that swing by
-/// themselves.
+/// Step sizes adapt to the motion only. With contacts at rest, time-periodic forces need their own sampling
+/// rate.
 int Contacts::samples_until(double until) const {
   constexpr double kMost = 65536;
   const double swings = fastest_force_ * (until - smooth_.start());
   return std::max(kSamples, static_cast<int>(std::min(std::ceil(kSamplesARadian * swings), kMost)));
 }
 
-/// The polynomial that the event was found on and the step that ends there differ by the step's error:
-/// Newton's method on the gap with steps of their own.
+/// The step that ends at the event differs from the polynomial on which it was found by the step's error.
+/// Newton's method on the gap, with a step for each iteration, removes the difference.
 void Contacts::refine(const Event& event) {
   constexpr int kMost = 4;
   if (event.limit) return refine_limit(*event.limit);

@@ -8,16 +8,17 @@
 #include "engine/scene/error.h"
 #include "engine/scene/text.h"
 
-// Deciding at an instant: impacts, then which contacts last.
+// Handles events: resolves impacts, then decides which contacts persist.
 namespace plumb::precise {
 namespace {
 
-/// Bouncing ends where what is left of it takes less than this share of the scene's own time (the time in
-/// which its accelerations cross its length), or rises by less than this many roundings of a gap.
+/// Bouncing ends when the rest of the Zeno cascade takes less than this fraction of the scene's own time, or
+/// rises by less than this many roundings of a gap. In its own time the scene's accelerations cross its
+/// length.
 constexpr double kLeftToBounce = 3e-5, kLowestBounce = 32;
-/// Corners that take turns at touching are held where they return within this share of the scene's own time.
+/// Corners that touch alternately are closed if they return within this fraction of the scene's own time.
 constexpr double kClatter = 1e-7;
-/// Gaps up to this many times the rounding of positions touch.
+/// Gaps up to this multiple of the rounding of positions count as touching.
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 
@@ -96,7 +97,7 @@ void Contacts::settle() {
   for (int round = 0;; ++round) {
     std::vector<Touch> touches = finder_.touches(states_, near_, passing_);
     stops_.find(now, smooth_.state().value(), finder_, states_, touches);
-    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion goes on as it was
+    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion continues as before
       touching_.clear();
       settled_ = true;
       return;
@@ -135,8 +136,8 @@ std::vector<Twist<double>> Contacts::accelerations() {
   return result;
 }
 
-/// How strongly each point is drawn together: its gap's second derivative with the sign turned, under the
-/// contacts that are held; for those themselves under none.
+/// Returns how fast each point's gap accelerates towards closing: minus the gap's second derivative, under
+/// the held contacts; without contacts for the points that are held themselves.
 std::vector<std::array<double, 2>> Contacts::pulls(std::span<const Touch> touches) {
   std::vector<std::array<double, 2>> result(touches.size());
   const std::vector<Twist<double>> with = accelerations();
@@ -177,7 +178,7 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
         pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
     if (!(drawn > 0)) return e;
     // A bounce takes 2 v / a, the next one e times as long; the series has this limit. Its impulses add up to
-    // what a contact that begins now gives within the same time.
+    // those of a contact that begins now, within the same time.
     const double left = 2 * e * speed / (drawn * (1 - e)), height = e * e * speed * speed / (2 * drawn);
     if (left > kLeftToBounce * own_time && height > kLowestBounce * near_) return e;
     ends = true;
@@ -189,7 +190,7 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
   if (ends) count(ContactEvent::Rest, limit);
 }
 
-/// Which of the points that neither close nor open push, by Coulomb's law for the accelerations; and which
+/// Decides which points with zero gap rate have forces, by Coulomb's law for the accelerations, and which
 /// motors at their speed hold it.
 Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   const double now = smooth_.time();
@@ -209,7 +210,7 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   }
   if (p.problem.size() > 0 &&
       std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
-    p.problem.rate.assign(p.problem.size(), 0.0);  // nothing of it can move
+    p.problem.rate.assign(p.problem.size(), 0.0);  // no part of it can move
   const CoulombSolution solution = solve(p.problem, brakes);
   if (!solution.solved) {
     if (!law_.jamb(now, touches, states_, smooth_.change())) {
@@ -225,8 +226,8 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   return end_clatter(touches) ? Decision::Again : Decision::Done;
 }
 
-/// Motors far stronger than all else would swallow the others' digits: they are taken as weaker as long as
-/// that suffices.
+/// The digits of other forces would be lost beside motors that are far stronger: their bounds are reduced as
+/// long as the weaker motors suffice.
 CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
   constexpr double kStronger = 1e3;
   if (brakes.empty()) return solve_coulomb(problem);
@@ -304,7 +305,8 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
   equations_.hold_contacts(std::move(patches));
 }
 
-/// Points that open but come back at once, corners that take turns: they are closed. Returns whether any was.
+/// Closes points that open but would return at once, as with corners that touch alternately. Returns true if
+/// there were any.
 bool Contacts::end_clatter(std::vector<Touch>& touches) {
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
   const auto opens = [](const Touch& touch, int i) { return !touch.stop && touch.closing[i] > touch.quiet; };

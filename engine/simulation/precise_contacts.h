@@ -20,32 +20,32 @@
 
 namespace plumb::precise {
 
-/// Contacts of `Precise`, and limits and motors of joints: between events those that last are constraints of
-/// the equations of motion; at events it is decided anew which they are.
-/// - `stop` looks for the first event of the step just made, and cuts the step there;
-/// - `settle` resolves impacts, and finds by a complementarity problem in the accelerations which contacts
-///   push, stick, slip or open.
+/// Contacts of `Precise`, and limits and motors of joints. Between events the persistent ones are constraints
+/// of the equations of motion; at events they are determined anew.
+/// `stop` locates the first event of the last step and cuts the step there.
+/// `settle` resolves impacts, and finds the contact modes (push, stick, slip or open) by a complementarity
+/// problem in the accelerations.
 class Contacts {
  public:
   Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
            SmoothMotion& smooth);
 
-  /// Nothing may touch, and joints have neither limits nor motors.
+  /// Returns true if no shapes may touch, and joints have neither limits nor motors.
   bool empty() const { return finder_.outlines().empty() && stops_.empty(); }
 
-  /// Throws `Error` (Run) that names both bodies where shapes lie in each other by more than `share` of the
-  /// scene's length. For bodies that were placed from outside.
+  /// Throws `Error` (Run) that names both bodies if shapes overlap by more than `share` of the scene's
+  /// length. For bodies placed from outside.
   void refuse_overlaps(double share);
 
-  /// At the time where the motion has stopped: after events, jumps of forces and changes from outside.
+  /// Handles the event at the motion's time; also after jumps of forces and changes from outside.
   void settle();
   bool settled() const { return settled_; }
   void unsettle() { settled_ = false; }
 
-  /// Cuts the last step at its first event, and is unsettled then.
+  /// Cuts the last step at its first event, and is then unsettled.
   void stop();
 
-  /// What happened so far.
+  /// Counts of the events so far.
   const std::array<EventCount, kContactEvents>& events() const { return events_; }
   std::int64_t impacts() const { return events_[static_cast<std::size_t>(ContactEvent::Impact)].count; }
 
@@ -53,7 +53,7 @@ class Contacts {
   void restore(SnapshotReader& in);
 
  private:
-  /// What is watched of contacts that last.
+  /// Quantities of persistent contacts that are monitored for events.
   enum class Quantity { Force, Cone, Slip, Range, Height, Stop };
   struct Watched {
     Quantity quantity{};
@@ -65,9 +65,9 @@ class Contacts {
   struct Event {
     double time = 0;
     Quantity quantity{};
-    std::optional<OutlinePair> meet;                      // shapes that come together
+    std::optional<OutlinePair> meet;                      // shapes that come into contact
     std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
-    std::optional<std::size_t> limit;                     // of a joint, that is met
+    std::optional<std::size_t> limit;                     // of a joint, when reached
   };
 
   void look_at_states();
@@ -107,13 +107,13 @@ class Contacts {
   StepPaths paths_;
   ContactSearch search_;
   std::vector<BodyState> states_;  // by body, at the motion's time
-  double near_ = 0;                // m: gaps that are none
-  double fastest_force_ = 0;       // rad/s, of forces that swing with time by themselves
+  double near_ = 0;                // m: gaps below it count as touching
+  double fastest_force_ = 0;       // rad/s, the largest of time-periodic forces
   bool settled_ = false;
 
   std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order
-  std::vector<OutlinePair> touching_;  // that touch and are not held; ascending
-  std::vector<OutlinePair> passing_;   // that touch where a chain does not push; ascending
+  std::vector<OutlinePair> touching_;  // touching but not held; ascending
+  std::vector<OutlinePair> passing_;   // touching where a chain does not push; ascending
   std::vector<Watched> watched_;
   std::vector<double> tolerance_;
   double force_scale_ = 0;

@@ -8,7 +8,7 @@
 #include "engine/scene/text.h"
 #include "engine/simulation/precise_clock.h"
 
-// The driver apart from its step: reading and writing, snapshots, errors, costs.
+// All of the driver but its step: reading and writing, snapshots, errors, costs.
 namespace plumb::precise {
 
 void PreciseDriver::read(std::span<BodyState> out) const {
@@ -92,12 +92,11 @@ void PreciseDriver::report_cost() {
   cost_[kJointAccelerations] = equations_.cost.joints;
   cost_[kProjection] = smooth_.projection_nanoseconds;
   for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
-  double& rest =
-      plan_.stages[kRungeKutta].nanoseconds;  // what its evaluations and the projection did not take
+  double& rest = plan_.stages[kRungeKutta].nanoseconds;  // the rest, without evaluations and projection
   rest = std::max(0.0, rest - cost_[kForces] - cost_[kJointAccelerations] - cost_[kProjection]);
 }
 
-/// Snapshots are numbers of 8 bytes, one after the other.
+/// Writes a snapshot: numbers of 8 bytes, one after the other.
 std::vector<std::byte> PreciseDriver::save() const {
   SnapshotWriter out;
   out.put(time_);
@@ -139,7 +138,7 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
   in.expect_end();
-  written_ = true;  // how it started is past
+  written_ = true;  // its initial state no longer matters
   sampled_ = -1;
 }
 

@@ -23,7 +23,7 @@
 
 namespace plumb::precise {
 
-/// What `make_precise_driver` makes.
+/// The driver that `make_precise_driver` returns.
 class PreciseDriver final : public Driver {
  public:
   PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options);
@@ -42,13 +42,13 @@ class PreciseDriver final : public Driver {
  private:
   bool active(StageIndex stage) const { return plan_.stages[stage].active; }
 
-  // What a step is made of, in this order.
+  // The parts of a step, in this order.
   void close_joints();
   void go_on(double end);
   double limit_of_step(double end) const;
   void arrive();
 
-  // What those are made of.
+  // Helpers of these parts.
   void name_redundant_joints();
   void refuse_open_joints() const;
   std::size_t slot_of(std::size_t body) const;
@@ -58,28 +58,29 @@ class PreciseDriver final : public Driver {
   [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
                          const std::string& problem) const;
 
-  const double max_dt_, overlap_;  // s; share of the scene's length that shapes may start in each other
+  const double max_dt_, overlap_;  // s; fraction of the scene's length that shapes may overlap by at the
+                                   // start
   Parts parts_;
   Plan plan_;
   Flight flight_;
   EquationsOfMotion equations_;
-  mutable SmoothMotion smooth_;  // its polynomial is made when somebody reads
-  mutable Compensated sample_;   // of the integrated bodies at sampled_, where that is within the last step
+  mutable SmoothMotion smooth_;  // mutable: its polynomial is made on reading
+  mutable Compensated sample_;   // of the integrated bodies at sampled_, if within the last step
   mutable double sampled_ = -1;  // s
   Contacts contacts_;
   Invariants invariants_;
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 
-  double time_ = 0;  // s, of what is read: within the last step of the motion, or at its end
+  double time_ = 0;  // s, of the states read: within the last step of the motion, or at its end
   std::int64_t grid_steps_ = 0;
   bool joints_closed_ = false;
-  bool written_ = false;  // bodies were moved from outside
-  JointStart open_{};     // the joint that is farthest off at the start; gap 0: none is
+  bool written_ = false;  // bodies were changed from outside
+  JointStart open_{};     // the joint with the largest gap at the start; gap 0: none
   Statistics statistics_{};
   int steps_in_step_ = 0;
-  double last_event_ = 0, last_flight_ = 0;  // s: when it was, and after what time without one
-  std::int64_t impacts_before_ = 0;          // when the step began
+  double last_event_ = 0, last_flight_ = 0;  // s: time of the last event, and the flight before it
+  std::int64_t impacts_before_ = 0;          // at the start of the step
   bool profiling_ = false;
   std::array<double, kStageCount> cost_{};
 };

@@ -11,7 +11,7 @@ class Watch {
   Watch(const std::function<void(double, std::span<double>)>& evaluate, std::span<const double> tolerance)
       : evaluate_(evaluate), tolerance_(tolerance), scratch_(tolerance.size()) {}
 
-  /// Values with the tolerance added: negative is an event.
+  /// Returns the values with the tolerance added: negative is an event.
   std::vector<double> at(double time) {
     evaluate_(time, scratch_);
     std::vector<double> values = scratch_;
@@ -23,7 +23,8 @@ class Watch {
     return scratch_[index] + tolerance_[index];
   }
 
-  /// The root of a function that is not negative at `low` and negative at `high`; the side where it is.
+  /// Returns the root of a function that is not negative at `low` and negative at `high`: the bound on the
+  /// negative side.
   double locate(std::size_t index, double low, double f_low, double high, double f_high) {
     int side = 0;
     for (int i = 0; i < 100; ++i) {
@@ -58,8 +59,8 @@ struct Sample {
   std::vector<double> values;
 };
 
-/// Where the parabola through three samples is lowest between them, if it falls to a third of all three or
-/// below.
+/// Returns the minimum of the parabola through three samples, if it lies between them and falls to a third of
+/// all three or below.
 std::optional<double> dip(const Sample& a, const Sample& b, const Sample& c, std::size_t i) {
   const double fa = a.values[i], fb = b.values[i], fc = c.values[i];
   if (fb < 0) return std::nullopt;

@@ -5,7 +5,7 @@
 namespace plumb::precise {
 namespace {
 
-/// What a law gives whose wrench is the same between switching times, wherever its body is.
+/// Returns the wrench of a law that is constant between switching times, wherever its body is.
 Wrench<double> constant_wrench(const PointForce& law) { return {law.force, 0}; }
 Wrench<double> constant_wrench(const Torque& law) { return {{}, law.torque}; }
 template <class Law>
@@ -76,7 +76,7 @@ void Flight::switch_forces(double time) {
   }
 }
 
-/// The acceleration from `time` on. The laws are constant until the next switching time.
+/// Sets the acceleration from `time` on. The laws are constant until the next switching time.
 void Flight::accelerate(std::size_t body, double time) {
   const int slot = slot_[body];
   Motion& motion = arcs_[slot].motion;

@@ -9,24 +9,24 @@
 
 namespace plumb::precise {
 
-/// Bodies on polynomials: x = x0 + v0 s + a s^2/2 with s the time since the last event of the body. Nothing
-/// is added up over steps, so there is no error but that of the formula's own rounding.
+/// Ballistic trajectories: x = x0 + v0 s + a s^2/2 with s the time since the last event of the body. Nothing
+/// is summed over steps, so the only error is the formula's own rounding.
 class Flight {
  public:
   Flight(const Scene& scene, const Parts& parts);
 
   bool holds(std::size_t body) const { return slot_[body] >= 0; }
 
-  /// Where `body` is at `time`.
+  /// Returns the motion of `body` at `time`.
   Motion at(std::size_t body, double time) const;
 
   /// Starts a new polynomial at `time` from `state`.
   void restart(std::size_t body, double time, const BodyState& state);
 
-  /// Starts new polynomials at `time` for the bodies that a force is switched on or off for just then.
+  /// Starts new polynomials at `time` for bodies with a force that is switched at this time.
   void switch_forces(double time);
 
-  /// What the polynomials are made of, for snapshots.
+  /// Data of a polynomial, for snapshots.
   struct Arc {
     double start = 0;
     Motion motion{};
@@ -37,7 +37,7 @@ class Flight {
  private:
   void accelerate(std::size_t body, double time);
 
-  std::vector<int> slot_;          // by body: its place in the vectors below, or -1
+  std::vector<int> slot_;          // by body: its index in the vectors below, or -1
   std::vector<std::size_t> body_;  // by slot
   std::vector<Arc> arcs_;
   std::vector<double> inverse_mass_, inverse_inertia_;

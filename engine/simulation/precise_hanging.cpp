@@ -20,8 +20,8 @@ HangingTree::HangingTree(const Scene& scene, const Parts& parts, EquationsOfMoti
   state_.resize(2 * width_);
 }
 
-/// Hinge by hinge from what stands, each of which has one body whose place is known and one whose is not:
-/// false where that does not make a tree of all.
+/// Adds hinge by hinge from the static bodies, each with one known body and one unknown. Returns false if the
+/// hinges do not form a tree of all bodies.
 bool HangingTree::find_links(const Scene& scene, const Parts& parts) {
   constexpr int kUnknown = -2, kStands = -1;
   std::vector<int> link_of(scene.bodies.size(), kUnknown);
@@ -136,7 +136,7 @@ void HangingTree::rate(double, std::span<const double> state, std::span<double> 
   }
 }
 
-/// From the tips on: what a link is to the hinge that it hangs on, is added to its parent. Leaves T / J in
+/// Eliminates from the tips on: adds each link's inertia and bias at its hinge to its parent. Leaves T / J in
 /// `t` and U / J in `u`.
 void HangingTree::eliminate() {
   for (std::size_t i = links_.size(); i-- > 0;) {

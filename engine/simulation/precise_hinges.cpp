@@ -8,7 +8,7 @@
 namespace plumb::precise {
 namespace {
 
-/// A pivot that has lost all but a few of its digits is the rounding left over by what it depends on.
+/// A pivot that has lost all but a few of its digits is rounding: its direction depends on others.
 constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -34,8 +34,8 @@ HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revo
   }
 }
 
-/// A single line is eliminated from both ends in turns: two short recursions side by side instead of a long
-/// one, each step of which waits for the one before.
+/// Reorders a single line so that it is eliminated from both ends alternately: two short independent
+/// recursions instead of a long one, whose every step waits for the one before.
 void HingeLines::from_both_ends() {
   const int n = static_cast<int>(lines_.size());
   for (int k = 0; k < n; ++k) {
@@ -59,7 +59,7 @@ void HingeLines::from_both_ends() {
   lines_ = std::move(turned);
 }
 
-/// Hinges in an order in which each has one body that is known where it stands, and one that is not yet.
+/// Orders the hinges so that each has one body of known position, and one not yet known.
 void HingeLines::find_root() {
   int last = -1;
   for (const Line& line : lines_) last = std::max({last, line.a, line.b});
@@ -83,8 +83,8 @@ void HingeLines::find_root() {
   }
   if (steps_.size() == lines_.size()) return;
   steps_.clear();
-  // What flies freely is a tree where there are fewer hinges than bodies. Loops may become singular: not
-  // here.
+  // A free mechanism is a tree if it has fewer hinges than bodies. Loops may become singular and are not
+  // handled here.
   std::vector<char> moving(known.size(), 0);
   for (const Line& line : lines_) {
     if (line.mass_a > 0 || line.inertia_a > 0) moving[static_cast<std::size_t>(line.a)] = 1;
@@ -126,7 +126,7 @@ HingeLines::Widest HingeLines::widest(std::span<const Pose<double>> poses) const
   return found;
 }
 
-/// The inverse of a block, by its determinant: its pivots are xx and determinant / xx.
+/// Inverts a block by its determinant: its pivots are xx and determinant / xx.
 HingeLines::Inverse HingeLines::inverse(const Block& block) {
   const double determinant = block.xx * block.yy - block.xy * block.xy, own = block.own_y * block.xx;
   if (!(block.xx > kDependent * block.own_x && determinant > kDependent * own)) return deficient(block);
@@ -136,7 +136,7 @@ HingeLines::Inverse HingeLines::inverse(const Block& block) {
   return {block.yy * share, -(block.xy * share), block.xx * share};
 }
 
-/// A direction that depends on others gets no force.
+/// Inverts a singular block: a direction that depends on others gets no force.
 HingeLines::Inverse HingeLines::deficient(const Block& block) {
   Inverse found;
   if (block.xx > kDependent * block.own_x) {
@@ -151,8 +151,8 @@ HingeLines::Inverse HingeLines::deficient(const Block& block) {
   return found;
 }
 
-/// Each hinge in turn by what it shares with its neighbour: with S the inverse of its block and B the
-/// neighbour's block beside it, the neighbour's block loses B S B^T and its right side B S r.
+/// Eliminates each hinge in turn: with S the inverse of its block and B the neighbour's off-diagonal block,
+/// the neighbour's block loses B S B^T and its right side B S r.
 void HingeLines::eliminate() {
   weakest_ = 1;
   dependent_ = 0;
@@ -180,7 +180,7 @@ void HingeLines::eliminate() {
   }
 }
 
-/// A lambda = right side, and motion += M^-1 J^T lambda.
+/// Solves A lambda = right side, and adds M^-1 J^T lambda to `motion`.
 void HingeLines::solve(std::span<Twist<double>> motion) {
   eliminate();
   for (std::size_t k = lines_.size(); k-- > 0;) {

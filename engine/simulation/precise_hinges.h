@@ -10,27 +10,27 @@
 
 namespace plumb::precise {
 
-/// Chains and trees of hinges, the commonest mechanism, in one pass over the bodies: what `Joints::rows` and
-/// `JointSystem` do, without rows. A hinge's Jacobian is known from its arms r = R s,
-///   C = x_b + r_b - x_a - r_a,   J v = v_b + w_b x r_b - v_a - w_a x r_a,   (dJ/dt) v = w_a^2 r_a - w_b^2
-///   r_b,
+/// Chains and trees of hinges, the most common mechanism, in one pass over the bodies: the work of
+/// `Joints::rows` and `JointSystem`, without rows. A hinge's Jacobian follows from its arms r = R s,
+///   C = x_b + r_b - x_a - r_a,   J v = v_b + w_b x r_b - v_a - w_a x r_a,
+///   (dJ/dt) v = w_a^2 r_a - w_b^2 r_b,
 /// so that A = J M^-1 J^T has blocks of 2 x 2: with p = (-r_y, r_x),
 ///   own:            (1/m_a + 1/m_b) I + p_a p_a^T / I_a + p_b p_b^T / I_b,
 ///   of a neighbour: +-(I / m + p p'^T / I) of the body that both share.
 class HingeLines {
  public:
-  /// `order`: `JointSystem::hinges`, of a system whose rows are those of `hinges` alone. Empty: there are
+  /// `order`: `JointSystem::hinges`, of a system whose rows are those of `hinges` alone; empty if there are
   /// none.
   HingeLines(std::span<const HingePlace> order, const std::vector<Revolute<double>>& hinges,
              std::span<const double> inverse_mass, std::span<const double> inverse_inertia);
 
   bool empty() const { return lines_.empty(); }
 
-  /// Whether every body hangs, hinge by hinge, on something that joints do not move: then angles say where
-  /// all is.
+  /// Returns true if every body hangs, hinge by hinge, on something that joints do not move: the angles then
+  /// determine all positions.
   bool rooted() const { return !steps_.empty(); }
-  /// Bodies that hang on others are put where these and the angles want them, and move with them: no gap is
-  /// left but rounding. The arms are those of `place`. `moved(body)` is called for each.
+  /// Sets positions and velocities of hanging bodies from those they hang on and the angles: no gap is left
+  /// but rounding. The arms are those of `place`. Calls `moved(body)` for each.
   template <class Moved>
   void hang(std::span<Pose<double>> poses, std::span<Twist<double>> twists, const Moved& moved) const {
     for (const Step& step : steps_) {
@@ -49,44 +49,43 @@ class HingeLines {
     }
   }
 
-  /// Takes the arms and the blocks of A where bodies are placed; by body.
+  /// Computes the arms and the blocks of A at `poses`, which are by body.
   void place(std::span<const Pose<double>> poses);
 
-  /// The widest gap, m, at those places, and its hinge.
+  /// The widest gap, m, at given poses, and its hinge.
   struct Widest {
     double gap = 0;
     int hinge = 0;
   };
   Widest widest(std::span<const Pose<double>> poses) const;
 
-  /// At the places of `place`, once for each: accelerations += M^-1 J^T lambda such that
-  /// J a + (dJ/dt) v = 0.
+  /// At the poses of `place`, once for each: accelerations += M^-1 J^T lambda such that J a + (dJ/dt) v = 0.
   void accelerate(std::span<const Twist<double>> twists, std::span<Twist<double>> accelerations);
-  /// shift += M^-1 J^T lambda such that it takes J v away.
+  /// Adds to `shift` the M^-1 J^T lambda that makes J v zero.
   void stop(std::span<const Twist<double>> twists, std::span<Twist<double>> shift);
-  /// shift += M^-1 J^T lambda such that it closes the gaps, to first order.
+  /// Adds to `shift` the M^-1 J^T lambda that closes the gaps, to first order.
   void close(std::span<const Pose<double>> poses, std::span<Twist<double>> shift);
 
-  /// Of the last of those: directions that depend on others, and get no force; the least share of a direction
-  /// that the others leave to it, as `JointSystem::weakest`.
+  /// Results of the last of these: number of directions that depend on others and get no force; the least
+  /// fraction of a direction that the others leave to it, as in `JointSystem::weakest`.
   int dependent() const { return dependent_; }
   double weakest() const { return weakest_; }
 
  private:
   struct Line {
     int a = kFixedFrame, b = kFixedFrame, hinge = 0;
-    int next = -1;                                                // the one hinge after it that shares a body
-    bool side = false, next_side = false;                         // of that body: whether it is b of either
+    int next = -1;                                                // the one later hinge that shares a body
+    bool side = false, next_side = false;                         // true: it is b of this hinge, of the next
     double mass_a = 0, mass_b = 0, inertia_a = 0, inertia_b = 0;  // inverse
     Vec2d anchor_a{}, anchor_b{};
     double shared_mass = 0, shared_inertia = 0;  // of that body, with the sign of the neighbour's block
   };
-  /// What elimination leaves of a hinge: the inverse of its own block, and what its neighbour takes from it.
+  /// A hinge during elimination: the inverse of its own block, and its effect on its neighbour.
   struct Block {
     Vec2d arm_a{}, arm_b{};
-    double xx = 0, xy = 0, yy = 0;  // of A; less what was taken by hinges before it, then
+    double xx = 0, xy = 0, yy = 0;  // of A; then reduced by earlier hinges
     double own_x = 0, own_y = 0;
-    double x = 0, y = 0;  // the right side; what it comes to; the multipliers
+    double x = 0, y = 0;  // the right side; then reduced; then the multipliers
     double w00 = 0, w01 = 0, w10 = 0,
            w11 = 0;  // the neighbour's block beside it, times the inverse of its own
   };
@@ -94,7 +93,7 @@ class HingeLines {
     double xx = 0, xy = 0, yy = 0;
   };
 
-  /// One body that hangs on one that comes before it.
+  /// One body that hangs on an earlier one.
   struct Step {
     std::size_t line = 0;
     bool b_hangs = false;
@@ -109,7 +108,7 @@ class HingeLines {
   void solve(std::span<Twist<double>> motion);
 
   std::vector<Line> lines_;  // in the order of elimination
-  std::vector<Step> steps_;  // from the root on; empty where there is none
+  std::vector<Step> steps_;  // from the root on; empty without a root
   std::vector<Block> blocks_;
   double weakest_ = 1;
   int dependent_ = 0;

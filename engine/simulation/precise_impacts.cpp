@@ -9,8 +9,8 @@
 namespace plumb::precise {
 namespace {
 
-/// Impacts of one instant, as a sequence. They shrink like a geometric series where they do not end: what
-/// still closes after so many has come to rest but for rounding, and is brought there.
+/// Maximum number of impacts resolved one after the other. An endless sequence shrinks like a geometric
+/// series: approach that remains is rounding, and is resolved together, with restitution only where it is 1.
 constexpr std::int64_t kMostInSequence = 20000;
 
 bool closes(const Touch& touch) {
@@ -128,8 +128,8 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
       continue;
     }
     ++count;
-    // Corners of one shape that close together are one impact. Where one of them opens, it is struck after
-    // the other, and so on in turn: the limit of corners that touch a little apart in time.
+    // Corners of one shape that approach together are one impact. If one of them opens, it is resolved after
+    // the other, and so on in turn: the limit of corners that touch at slightly different times.
     const Touch& struck = touches[worst];
     bool both = true;
     for (int i = 0; i < struck.count; ++i) both = both && closes(struck, i);
@@ -155,7 +155,7 @@ bool ImpactLaw::jamb(double time, std::vector<Touch>& touches, std::span<BodySta
       std::vector<double> w;
       equations_.respond(time, y.value(), {touch.rows[i].normal, touch.rows[i].tangent}, r, w);
       const double own =
-          w[0] - way * touch.friction * w[1];  // gap's rate by a normal impulse with its friction
+          w[0] - way * touch.friction * w[1];  // the gap's rate by a normal impulse with its friction
       if (own / w[0] >= least) continue;
       least = own / w[0];
       worst = t, worst_point = i, worst_way = way;
@@ -171,7 +171,7 @@ bool ImpactLaw::jamb(double time, std::vector<Touch>& touches, std::span<BodySta
   if (worst_way * slowing >= 0) return false;
   const double first = -touch.slip / slowing;
   double closing = touch.closing[worst_point] + (nn - worst_way * mu * nt) * first;
-  // Then without slip, or with slip back where friction does not hold, until the gap no longer closes.
+  // Then without slip, or with reversed slip if friction does not hold, until the gap no longer closes.
   const double stick = -tn / tt;
   const double drawn = std::clamp(stick, -mu, mu);
   const double opening = nn + drawn * nt;

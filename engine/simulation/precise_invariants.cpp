@@ -10,9 +10,9 @@
 namespace plumb::precise {
 namespace {
 
-/// Steps that may err by the tolerance together: each errs by a thousandth of it.
+/// Number of steps whose errors together equal the tolerance: each errs by a thousandth of it.
 constexpr double kSteps = 1000;
-/// Roundings of a position, a speed or the work, that a step's balance may be off by.
+/// Allowed error of a step's balance, in roundings of a position, a speed or the work.
 constexpr double kRoundings = 16;
 
 }  // namespace

@@ -5,17 +5,17 @@
 
 #include "engine/simulation/precise_joints.h"
 
-// What the parts of KindJoints share.
+// Shared parts of the implementation of KindJoints.
 namespace plumb::precise {
 
-/// How a joint's two bodies stand and move; derivatives are along `Directions`.
+/// Pose and motion of a joint's two bodies; derivatives are along `Directions`.
 struct KindJoints::Ends {
   JointPose<Dual> pose{};
   Vec2<Dual> velocity_a{}, velocity_b{};
   Dual spin_a{}, spin_b{};
 };
 
-/// The rates at which places and velocities of both bodies change with whatever derivatives are taken by.
+/// Rates of change of the poses and velocities of both bodies along the direction of differentiation.
 struct KindJoints::Directions {
   Twist<double> place_a{}, place_b{}, motion_a{}, motion_b{};
 };

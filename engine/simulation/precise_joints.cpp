@@ -52,7 +52,7 @@ KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const
   return ends;
 }
 
-/// What the spring of a scalar coordinate refers to: see engine/joints/spring_mobility.h.
+/// Returns the mobility of a scalar coordinate's spring: see engine/joints/spring_mobility.h.
 Dual KindJoints::mobility_of_spring(const Entry& e, const Ends& ends, const JointRow<Dual>& j) {
   const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
   const bool point_holds = e.rules.point.role == RowRole::Rigid &&
@@ -139,7 +139,7 @@ KindJoints::Pull KindJoints::pull_of_rows(const Entry& e, const Ends& ends,
 
 namespace {
 
-/// As a row of the equations of motion, from derivatives along the motion itself.
+/// Converts to a row of the equations of motion, with derivatives along the motion itself.
 Row<double> row_of(int a, int b, const JointRow<Dual>& j, double sign, const Twist<double>& motion_a,
                    const Twist<double>& motion_b) {
   const auto value = [&](Vec2<Dual> v) { return sign * Vec2d{v.x.value, v.y.value}; };
@@ -210,7 +210,7 @@ void KindJoints::each_spring(const BodiesNow& now,
   }
 }
 
-/// The derivatives of a pull by the first `directions` of: x, y and angle of a, of b; their velocities.
+/// Adds the derivatives of a pull by the first `directions` of: x, y and angle of a, of b; their velocities.
 template <class Evaluate>
 void KindJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,
                             std::vector<ForceBlock>& out) {

@@ -26,59 +26,59 @@
 
 namespace plumb::precise {
 
-/// How all bodies of the scene stand and move, by body.
+/// Poses and velocities of all bodies of the scene, by body.
 struct BodiesNow {
   std::span<const Pose<double>> poses;
   std::span<const double> angles;  ///< rad, whole turns counted
   std::span<const Twist<double>> twists;
 };
 
-/// The joints of a scene beside its plain hinges and rods: their rigid rows, and their springs as forces.
-/// Residuals and Jacobians are those of engine/joints; how they change along a motion, which accelerations
-/// and implicit methods want, is their derivative by `Dual`.
+/// General joints: those of a scene other than plain hinges and rods, with their rigid rows, and their
+/// springs as forces. Residuals and Jacobians are those of engine/joints; their derivatives along a motion,
+/// for accelerations and implicit methods, are computed by `Dual`.
 class KindJoints {
  public:
   /// The scene is valid.
   explicit KindJoints(const Scene& scene);
 
   std::size_t row_count() const { return row_names_.size(); }
-  /// By row: the joint's name.
+  /// Returns the joint's name by row.
   const std::vector<std::string>& row_names() const { return row_names_; }
   bool has_springs() const { return has_springs_; }
 
-  /// The rigid rows; `out` has `row_count` elements.
+  /// Computes the rigid rows; `out` has `row_count` elements.
   void rows(const BodiesNow& now, std::span<Row<double>> out) const;
 
-  /// What holds only at times: limits, C >= 0 with a force >= 0 along C, and motors, which drive dC/dt to a
-  /// speed with a force of bounded size.
+  /// Unilateral rows: limits, C >= 0 with a force >= 0 along C, and motors, which drive dC/dt to a speed with
+  /// a bounded force.
   struct Stop {
     RowRole role = RowRole::Limit;
     double speed = 0, max_force = 0;
     std::string joint{};
-    /// What a limit's C is: an angle; how far anchor b lies along a's axis; the anchors' distance.
+    /// Meaning of a limit's C: an angle; the position of anchor b along a's axis; the anchors' distance.
     enum class Kind { Turn, Line, Distance };
     Kind kind = Kind::Turn;
     int a = kFixedFrame, b = kFixedFrame;
     Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; of a for distances alone
   };
   const std::vector<Stop>& stops() const { return stops_; }
-  /// The rows of C; `out` has an element for each stop.
+  /// Computes the rows of C; `out` has an element for each stop.
   void stop_rows(const BodiesNow& now, std::span<Row<double>> out) const;
 
-  /// Adds the forces of springs, N and N m: with J the row of a coordinate C and m the bodies' effective mass
+  /// Adds the forces of springs, N and N m. With J the row of a coordinate C and m the bodies' effective mass
   /// there while the joint's rigid rows hold (engine/joints/spring_mobility.h),
   ///   lambda = -m (w^2 C + 2 zeta w J v),   w = 2 pi hertz,
-  /// bounded where the joint has a bound; that of a point the same with the 2 x 2 matrix m.
+  /// bounded if the joint has a bound; for a point the same with the 2 x 2 matrix m.
   void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
 
-  /// Calls `take(joint, force, torque)` for each of those: what it does to body b, torque about its centre.
+  /// Calls `take(joint, force, torque)` for each of those: force and torque on body b, about its centre.
   void each_spring(const BodiesNow& now,
                    const std::function<void(const std::string&, Vec2d, double)>& take) const;
 
-  /// Adds how those forces change with the bodies' positions and velocities.
+  /// Adds the derivatives of those forces by the bodies' positions and velocities.
   void add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const;
 
-  /// Adds how J^T lambda of the rigid rows changes with the bodies' positions, for fixed multipliers.
+  /// Adds the derivatives of J^T lambda of the rigid rows by the bodies' positions, for fixed multipliers.
   void add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
                           std::vector<ForceBlock>& out) const;
 

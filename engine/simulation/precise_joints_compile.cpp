@@ -8,7 +8,7 @@
 #include "engine/simulation/precise_joints.h"
 #include "engine/solve/joint_angle.h"
 
-// From the joints of a scene to what the equations of motion want of them.
+// Compiles the joints of a scene for the equations of motion.
 namespace plumb::precise {
 
 namespace {
@@ -57,7 +57,7 @@ void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>&
         } else if constexpr (std::is_same_v<Definition, PulleyDefinition>) {
           e.kind = PulleyRows<Dual>(definition, {}, {});
         } else {
-          plain = true;  // not one that Precise takes
+          plain = true;  // a kind that Precise does not support
         }
       },
       kind_of(joint));
@@ -79,7 +79,7 @@ void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>&
   entries.push_back(std::move(e));
 }
 
-/// The anchors of a stop that is no angle.
+/// Sets the anchors of a stop whose coordinate is not an angle.
 void KindJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
   if (!moves) return;
   const auto value = [](Vec2<Dual> v) { return Vec2d{v.x.value, v.y.value}; };
@@ -107,7 +107,7 @@ KindJoints::KindJoints(const Scene& scene) {
     add(scene, joint, entries_);
     if (entries_.size() == before) continue;
     Entry& e = entries_.back();
-    // Turns are counted from the ones at birth.
+    // Whole turns count from those at creation.
     const double angle_a = e.a == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.a)];
     const double angle_b = e.b == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.b)];
     std::visit(

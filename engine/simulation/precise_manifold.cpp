@@ -20,8 +20,8 @@ Feature feature(Kind kind, int edge, int corner) {
   return kind == Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
 }
 
-/// Beyond the ends of edges rounded shapes touch by their corners, even where an edge's line is as close to
-/// rounding.
+/// Returns the closest corners: beyond the ends of edges rounded shapes touch by their corners, even if an
+/// edge's line is as close to rounding.
 Feature closest_corners(const Pair& pair) {
   Feature best{Kind::Corners, 0, 0};
   double least = std::numeric_limits<double>::infinity();
@@ -36,8 +36,8 @@ Feature closest_corners(const Pair& pair) {
   return best;
 }
 
-/// Where an edge meets the other outline's corners that lie `near` it or below: at one corner, or along an
-/// edge of the other, then at the two ends of what they share.
+/// Finds the contacts of an edge with the other outline's corners that lie at most `near` above it. They are
+/// one corner or, along an edge of the other, the two ends of the common part.
 std::vector<Feature> on_edge(const Pair& pair, Kind kind, int edge, double lowest, double near) {
   const bool of_a = kind == Kind::CornerOfB;
   const Outline& cornered = of_a ? pair.b : pair.a;
@@ -60,7 +60,7 @@ std::vector<Feature> on_edge(const Pair& pair, Kind kind, int edge, double lowes
   }
   if (low[0].along > low[1].along) std::swap(low[0], low[1]);
   if (low[0].along > length + near || low[1].along < -near) return {};
-  // The edges run against each other: the other's starts where this one ends.
+  // The edges run in opposite directions: the other's starts at this one's end.
   const int first = low[0].corner, second = low[1].corner, other_edge = second;
   const Kind other_kind = of_a ? Kind::CornerOfA : Kind::CornerOfB;
   const Feature left =
@@ -91,7 +91,7 @@ std::vector<Feature> touching_features(const Outline& a, const Pose<double>& pos
           std::min(opening, dot(n.linear_a, twist_a.velocity) + n.angular_a * twist_a.angular_velocity +
                                 dot(n.linear_b, twist_b.velocity) + n.angular_b * twist_b.angular_velocity);
     }
-    // Directions that open as fast to rounding are one: then the one with more points.
+    // Directions that open equally fast, to rounding, count as equal: the one with more points wins.
     const double alike = 1e-9 * std::max(std::abs(opening), std::abs(fastest));
     const bool better = found.empty() || opening > fastest + alike ||
                         (opening > fastest - alike && features.size() > found.size());

@@ -27,7 +27,7 @@ std::vector<std::string> joint_names_by_row(const Scene& scene, const KindJoints
   return names;
 }
 
-/// Which bodies each row has: the numbers are those of bodies that lie on each other.
+/// Computes the rows for bodies that lie on each other: only their body indices matter.
 std::vector<Row<double>> pattern(const Joints<double>& joints, const KindJoints& others, std::size_t bodies) {
   std::vector<Row<double>> rows(joints.row_count() + others.row_count());
   const std::vector<Pose<double>> poses(bodies);
@@ -55,7 +55,7 @@ InverseMasses inverse_masses(const Scene& scene) {
   return inverse;
 }
 
-/// Whether joined bodies' masses are more than a hundred times apart.
+/// Returns true if the masses of joined bodies differ by a factor of more than a hundred.
 bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const double> inverse_mass) {
   double lightest = 0, heaviest = std::numeric_limits<double>::infinity();
   for (const Row<double>& row : rows) {
@@ -68,8 +68,8 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
   return lightest > 100 * heaviest;
 }
 
-/// The hinges of mechanisms that have nothing else. Where masses are far apart, rounding wants the refinement
-/// that rows have.
+/// Returns the hinges of mechanisms that consist of hinges alone. With wide mass ratios rounding requires the
+/// refinement that rows have.
 HingeLines hinge_lines(const JointSystem<double>& system, const Joints<double>& joints,
                        const KindJoints& others, const std::vector<double>& inverse_mass,
                        const std::vector<double>& inverse_inertia, bool wide_mass_ratio) {
@@ -171,7 +171,7 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
   }
 }
 
-/// Residuals, Jacobian and the accelerations that its change asks for, where bodies are placed.
+/// Computes residuals, Jacobian and bias accelerations at the bodies' poses.
 void EquationsOfMotion::find_rows(std::span<Row<double>> out) const {
   joints_.rows(poses_, twists_, out);
   if (kind_joints_.row_count() > 0) kind_joints_.rows(bodies_now(), out.subspan(joints_.row_count()));
@@ -201,14 +201,14 @@ bool EquationsOfMotion::has_hinges_alone() const {
          joints_.distance.empty() && kind_joints_.row_count() == 0;
 }
 
-/// multipliers = A^-1 right_side.
+/// Solves A multipliers = right_side.
 void EquationsOfMotion::solve_joints() {
   std::copy(right_side_.begin(), right_side_.end(), multipliers_.begin());
   system_.solve(multipliers_);
   if (wide_mass_ratio_) system_.refine(rows_, right_side_, multipliers_);
 }
 
-/// motion += M^-1 J^T multipliers.
+/// Adds M^-1 J^T multipliers to `motion`.
 void EquationsOfMotion::pull(std::span<Twist<double>> motion) const {
   const auto add = [&](int body, Vec2d linear, double angular, double multiplier) {
     if (body == kFixedFrame) return;
@@ -221,7 +221,7 @@ void EquationsOfMotion::pull(std::span<Twist<double>> motion) const {
   }
 }
 
-/// J v for one row.
+/// Returns J v for one row.
 double EquationsOfMotion::row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const {
   const auto along = [&](int body, Vec2d linear, double angular) {
     if (body == kFixedFrame) return 0.0;
@@ -275,7 +275,7 @@ void EquationsOfMotion::rate_with_rows(double time, std::span<const double> y, s
   write_rate(y, out);
 }
 
-/// Adds the accelerations by joints to those without.
+/// Adds the accelerations by joints to those without them.
 void EquationsOfMotion::accelerate_joints() {
   const Clock clock(cost.on, cost.joints);
   linearise();

@@ -22,133 +22,134 @@
 namespace plumb::precise {
 
 /// The equations of motion of the integrated bodies, in maximal coordinates: y holds position, angle,
-/// velocity and angular velocity of each, six numbers a body. Joints act through the accelerations that they
-/// allow,
+/// velocity and angular velocity of each, six numbers per body. Joints enter as constraints on the
+/// accelerations,
 ///   M a = F + J^T lambda,   J a + (dJ/dt) v = 0,
-/// and so do contacts that last.
+/// and so do persistent contacts.
 class EquationsOfMotion final : public Flow {
  public:
   static constexpr std::size_t kPerBody = 6;
 
-  /// `every_stage`: forces and joints are gone through even where there are none.
-  /// `tolerance`: of `Precise`; joints of closed loops that are off by more than it are an error.
+  /// `every_stage`: forces and joints are evaluated even if there are none.
+  /// `tolerance`: of `Precise`; joints of closed loops that are open by more are an error.
   EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage,
                     double tolerance);
 
   std::size_t dimension() const { return kPerBody * bodies_.size(); }
 
-  /// Switched forces act with their share of this time in all that follows.
+  /// Sets the time over which switched forces are averaged in all later calls.
   void set_window(double start, double end) { window_start_ = start, window_end_ = end; }
 
-  /// Puts `poses` and `twists` where bodies are in state y.
+  /// Sets `poses` and `twists` to state y.
   void place(double time, std::span<const double> y);
 
-  /// dy/dt. Counts as one evaluation.
+  /// Computes dy/dt. Counts as one evaluation.
   void rate(double time, std::span<const double> y, std::span<double> out) override;
-  /// Of the forces of the last evaluation, gravity apart, and contacts that last.
+  /// Returns the power of the forces of the last evaluation, without gravity and persistent contacts.
   double power() const override { return power_; }
-  /// The same, and `rows` and `multipliers` are those of this state then.
+  /// The same, after which `rows` and `multipliers` are those of this state.
   void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
   void count_evaluation() { ++evaluations_; }
   void set_evaluations(std::int64_t count) { evaluations_ = count; }
 
   /// Moves positions and angles by the least mass-weighted amount that closes all joints and held contacts,
-  /// to rounding; then velocities likewise until they keep them so, and what sticks from slipping. Throws
-  /// `Error` (Run) where gaps cannot be closed.
+  /// to rounding. Then corrects velocities in the same way, so that they keep these closed and sticking
+  /// contacts do not slip. Throws `Error` (Run) if gaps cannot be closed.
   void project(double time, Compensated& y);
-  /// Where bodies hang by hinges alone, and start with velocities that these do not allow: the impulses that
-  /// take away what is not allowed, as if the hinges were put on in that instant. `project` then lets places
-  /// and velocities follow from the angles.
+  /// For bodies that hang by hinges alone and start with velocities that the hinges do not allow: applies the
+  /// impulses that remove them, as if the hinges were attached at that instant. `project` then computes
+  /// positions and velocities from the angles.
   void strike_hinges(double time, Compensated& y);
 
-  /// The parts of `rate` and `project`, for methods that hold joints in their own way; arrays by body.
-  /// Accelerations by forces alone:
+  /// Parts of `rate` and `project`, for methods with their own treatment of joints; arrays by body. Computes
+  /// the accelerations by forces alone.
   void accelerate_freely(double time, std::span<const double> y, std::span<Twist<double>> out);
-  /// Takes the joints' Jacobian J and factorises A = J M^-1 J^T there.
+  /// Computes the joints' Jacobian J and factorises A = J M^-1 J^T at this state.
   void hold(double time, std::span<const double> y);
   /// -M^-1 J^T A^-1 C(y), with J and A of `hold`; returns the largest gap, m.
   double gap_response(double time, std::span<const double> y, std::span<Twist<double>> out);
   /// -M^-1 J^T A^-1 J v with the velocities in y, at the place of `hold`.
   void speed_response(std::span<const double> y, std::span<Twist<double>> out);
   double length() const { return length_; }  ///< m, the scene's
-  /// m: what gaps cannot be less than, as differences of the positions of the last evaluation.
+  /// Returns the least possible gap, m: the rounding of differences of the positions of the last evaluation.
   double rounding_of_gaps() const;
   std::size_t body_count() const { return poses_.size(); }
 
-  /// The least `JointSystem::weakest`, and the most dependent rows, in evaluations since `forget_rank`.
+  /// The least `JointSystem::weakest`, and the most dependent rows, of evaluations since `forget_rank`.
   double weakest() const { return weakest_; }
   int dependent_rows() const { return dependent_rows_; }
   void forget_rank() { weakest_ = 1, dependent_rows_ = 0; }
-  /// Whether joints close loops: their rows may come to depend on each other on the way.
+  /// Returns true if joints close loops: their rows may become dependent during the motion.
   bool has_loops() const { return has_loops_; }
-  /// `JointSystem::weakest` in state y; zero where rows depend on others that do not always. As an evaluation
-  /// without forces it is not counted.
+  /// Returns `JointSystem::weakest` in state y; zero if rows are dependent that are not always so. Not
+  /// counted as an evaluation.
   double weakness(double time, std::span<const double> y);
-  /// Takes rows that depend on others where the last factorisation was, as dependent everywhere.
+  /// Treats rows that were dependent at the last factorisation as dependent everywhere.
   void keep_dependent() { system_.keep_dependent(); }
   void release_dependent() { system_.release_dependent(); }
-  /// Rows that the others leave less than this share of are not held by `project`, and gaps up to `open`, m,
-  /// may stay; 0: all that can be held is.
+  /// `project` ignores rows that the others leave less than this fraction of, and gaps up to `open`, m, may
+  /// remain. 0: holds all rows that can be held.
   void hold_only_above(double share, double open) { system_.set_least_share(share), may_stay_open_ = open; }
-  /// One step of Newton's method towards the place on the joints' manifold that is nearest to `target`: both
-  /// what closes gaps and what leads towards it along the manifold. Returns how far it went, m.
+  /// Takes one step of Newton's method to the point of the joints' manifold nearest to `target`: closes gaps,
+  /// and moves towards it along the manifold. Returns the distance moved, m.
   double draw_near(double time, std::span<const double> target, std::span<double> y);
-  /// Takes from the velocities in y what joints do not allow.
+  /// Removes from the velocities in y the part that joints do not allow.
   void allow_velocities(double time, std::span<double> y);
-  /// Takes from changes of places, and of velocities, what joints do not allow where they were held last.
+  /// Removes from changes of positions, and of velocities, the part that the joints do not allow, as last
+  /// held.
   void keep_allowed(std::span<double> change);
-  /// Closes the gaps in y but those of rows that the others leave less than `weak` of; returns the widest gap
-  /// that is left, m.
+  /// Closes the gaps in y except for rows that the others leave less than `weak` of; returns the widest
+  /// remaining gap, m.
   double left_open(double time, std::span<double> y, double weak);
-  /// The joint of the weakest row of the last factorisation.
+  /// Returns the joint of the weakest row of the last factorisation.
   std::string weakest_joint() const;
-  /// Joints some of whose rows follow from others in state y: they may be left out, or carry no force of
-  /// their own.
+  /// Returns the joints with rows that follow from others in state y: they may be omitted, or carry no force
+  /// of their own.
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
 
-  /// Contacts that last from now on: they are held as joints are, by accelerations and by `project`.
+  /// Sets the persistent contacts: they are held as joints are, by accelerations and by `project`.
   void hold_contacts(std::vector<ActivePatch> patches);
   std::span<const ActivePatch> held() const { return patches_; }
 
-  /// Stops of joints (`KindJoints::stops`) by how they act from now on: held as constraints, motors at their
-  /// bound pushing this way (+1, -1), or not at all. Cleared by an empty list.
+  /// Sets the mode of each stop of a joint (`KindJoints::stops`): held as a constraint, a motor saturated in
+  /// either direction, or inactive. Cleared by an empty list.
   enum class StopMode : signed char { Free, Held, Forward, Backward };
   void hold_stops(std::vector<StopMode> modes);
   std::span<const StopMode> stop_modes() const { return stop_modes_; }
   bool has_forces() const { return has_forces_; }
   bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
-  /// Their rows where bodies were placed last, and those at a state.
+  /// Return the stops' rows at the bodies' last poses, and at a state.
   std::span<const Row<double>> stop_rows();
   std::span<const Row<double>> stop_rows(double time, std::span<const double> y);
 
-  /// The forces of the contacts that are held, at a state. Counts as one evaluation.
+  /// Computes the forces of the held contacts at a state. Counts as one evaluation.
   const ContactForces& contact_forces(double time, std::span<const double> y);
   const ContactForces& last_contact_forces() const { return contact_forces_; }
 
-  /// What unit impulses along `rows` change at the state `y`, joints included; `matrix`, row after row, the
-  /// change of each row's rate by each impulse.
+  /// Computes the response to unit impulses along `rows` at the state `y`, joints included; `matrix`, row
+  /// after row, is the change of each row's rate by each impulse.
   void respond(double time, std::span<const double> y, std::vector<Row<double>> rows,
                ContactResponse& response, std::vector<double>& matrix);
 
   /// Adds the impulses along the rows of `response` to the velocities in `y`.
   void push(const ContactResponse& response, std::span<const double> impulses, Compensated& y) const;
 
-  /// By body of the scene, as if no contact lasted; valid until the next call of anything. Zero for what is
-  /// not integrated.
+  /// Returns the accelerations by body of the scene, without contacts; valid until the next call of any
+  /// function. Zero for bodies that are not integrated.
   std::span<const Twist<double>> accelerations_without_contacts(double time, std::span<const double> y);
 
   /// Adds `scale` times `response` to the velocities in `y`.
   void kick(std::span<const Twist<double>> response, double scale, Compensated& y) const;
 
-  /// Whether what is held, joints and contacts, may do work where bodies were placed last: friction that
-  /// slips, a motor that holds its speed, what is guided and moves.
+  /// Returns true if held joints and contacts may do work at the bodies' last poses: slipping friction, a
+  /// motor that holds its speed, a moving prescribed body.
   bool held_works() const;
 
-  /// Whether gravity and hinges, of masses not far apart, are all that acts but for contacts.
+  /// Returns true if only gravity and hinges act, contacts apart, with masses not far apart.
   bool has_hinges_alone() const;
 
-  /// The forces of all joints and of the contacts that are held, at a state. Not counted as an evaluation.
+  /// Computes the forces of all joints and of the held contacts at a state. Not counted as an evaluation.
   Reactions reactions(double time, std::span<const double> y);
 
   double inverse_mass(std::size_t body) const { return inverse_mass_[body]; }
@@ -156,7 +157,7 @@ class EquationsOfMotion final : public Flow {
 
   std::span<const std::size_t> bodies() const { return bodies_; }
 
-  /// As the last evaluation of `rate` found them: poses and twists by body; of `rate_with_rows`, the joints'
+  /// Results of the last evaluation of `rate`: poses and twists by body; of `rate_with_rows`, the joints'
   /// rows and their multipliers.
   std::span<const Pose<double>> poses() const { return poses_; }
   std::span<const Twist<double>> twists() const { return twists_; }
@@ -203,7 +204,7 @@ class EquationsOfMotion final : public Flow {
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
 
-  // Contacts that last (precise_contact_motion.cpp).
+  // Persistent contacts (precise_contact_motion.cpp).
   void find_response(std::vector<Row<double>> rows, ContactResponse& out);
   double gain(const Row<double>& row, const ContactResponse& response, std::size_t k) const;
   void find_gains(std::span<const Row<double>> rows, const ContactResponse& response,
@@ -217,8 +218,8 @@ class EquationsOfMotion final : public Flow {
   void close_contacts(std::span<const Twist<double>> motion, bool gaps, std::span<Twist<double>> shift);
 
   std::vector<std::size_t> bodies_;  // integrated, by slot
-  std::vector<int> slot_;            // by body: its place among those, or -1
-  std::vector<std::size_t> guides_;  // not integrated, but with joints or at the end of a law
+  std::vector<int> slot_;            // by body: its slot, or -1
+  std::vector<std::size_t> guides_;  // prescribed bodies: not integrated, but with joints, laws or contacts
   const Flight& flight_;
   Vec2d gravity_;
   Forces<double> forces_;
@@ -227,15 +228,15 @@ class EquationsOfMotion final : public Flow {
   std::vector<std::string> joint_of_row_, names_;
   std::vector<JointEnd> joint_ends_;  // of the scene's joints, in its order: their bodies b
   std::vector<Row<double>> rows_, rows_elsewhere_;
-  // By body of the scene. Inverse masses of contacts are those of all dynamic bodies, those of joints of the
-  // integrated ones alone: joints do not move what flies.
+  // By body of the scene. Inverse masses for contacts are those of all dynamic bodies, those for joints of
+  // the integrated ones alone: joints do not move flying bodies.
   std::vector<double> inverse_mass_, inverse_inertia_, joint_inverse_mass_, joint_inverse_inertia_;
   std::vector<Pose<double>> poses_;
   std::vector<double> angles_;
   std::vector<Twist<double>> twists_, accelerations_;
   std::vector<Wrench<double>> wrenches_;
   JointSystem<double> system_;
-  HingeLines hinges_;  // empty where there is anything else
+  HingeLines hinges_;  // empty if there is anything else
   std::vector<double> right_side_, multipliers_;
   bool has_forces_, has_joints_, has_loops_, wide_mass_ratio_;
   double weakest_ = 1;
@@ -248,8 +249,8 @@ class EquationsOfMotion final : public Flow {
   std::int64_t evaluations_ = 0;
 
   std::vector<ActivePatch> patches_;
-  std::vector<Row<double>> constraints_;  // of active contacts: normals, then tangents of what sticks
-  std::size_t points_ = 0;                // how many normals
+  std::vector<Row<double>> constraints_;  // of active contacts: normals, then tangents of sticking ones
+  std::size_t points_ = 0;                // number of normals
   ContactResponse active_response_;
   DenseSystem contact_system_;
   std::vector<double> scale_, contact_side_, scratch_;

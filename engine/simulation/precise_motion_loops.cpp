@@ -4,10 +4,10 @@
 
 #include "engine/simulation/precise_motion.h"
 
-// Closed linkages near places where their rows depend on each other.
+// Closed linkages near kinematic singularities, at which their rows become dependent.
 namespace plumb::precise {
 
-/// Whether joints close a loop, over the world or not: bodies and joints are no forest then.
+/// Returns true if joints close a loop, over the world or not: bodies and joints are then no forest.
 bool EquationsOfMotion::find_loops() const {
   std::vector<int> group(poses_.size() + 1);
   std::iota(group.begin(), group.end(), 0);
@@ -121,7 +121,8 @@ double EquationsOfMotion::left_open(double time, std::span<double> y, double wea
     }
   }
   system_.set_least_share(0);
-  // Rows that are redundant all the way close there as well as `project` asks, or the linkage would not move.
+  // Rows that are redundant throughout close as well there as `project` requires, or the linkage could not
+  // move.
   constexpr double kOpen = 1e-9;
   return system_.kept() > 0 ? std::max(open - std::min(kOpen, tolerance_) * length_, 0.0) : open;
 }

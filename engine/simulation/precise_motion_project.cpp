@@ -6,7 +6,7 @@
 #include "engine/scene/text.h"
 #include "engine/simulation/precise_motion.h"
 
-// Back onto what joints and contacts ask for, after steps.
+// Projects states back onto joints and contacts after steps.
 namespace plumb::precise {
 
 void EquationsOfMotion::project(double time, Compensated& y) {
@@ -32,8 +32,8 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   kick(shift, 1, y);
 }
 
-/// Throws `Error` (Run) where velocities, with `shift` added, open a joint by more than the tolerance allows:
-/// of closed loops that are singular there is no such shift.
+/// Throws `Error` (Run) if velocities, with `shift` added, open a joint by more than the tolerance allows: at
+/// a singularity of closed loops there is no valid shift.
 void EquationsOfMotion::check_speeds(std::span<const Twist<double>> shift) const {
   double fastest = speed_, worst = 0;
   std::size_t joint = 0;
@@ -64,7 +64,7 @@ bool EquationsOfMotion::held_works() const {
 }
 
 void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
-  constexpr double kRounding = 1e-12;  // of the fastest: velocities that were meant to fit
+  constexpr double kRounding = 1e-12;  // of the fastest: below it, velocities already fit
   if (!only_hinges() || !hinges_.rooted()) return;
   place(time, y.value());
   hinges_.place(poses_);
@@ -81,7 +81,7 @@ void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
   if (fastest(shift) > kRounding * fastest(twists_)) kick(shift, 1, y);
 }
 
-/// Of what hangs by hinges on what stands, angles alone are free: places and velocities follow from them.
+/// Sets positions and velocities of bodies that hang by hinges on static ones from their angles.
 void EquationsOfMotion::hang(double time, Compensated& y) {
   place(time, y.value());
   hinges_.place(poses_);
@@ -94,11 +94,11 @@ void EquationsOfMotion::hang(double time, Compensated& y) {
   });
 }
 
-/// Newton's method on the gaps, q += M^-1 J^T lambda with A lambda = -C, until they are rounding.
+/// Closes the gaps by Newton's method, q += M^-1 J^T lambda with A lambda = -C, to rounding.
 void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   constexpr int kMost = 20;
-  constexpr double kOpen = 1e-9;      // of the scene's length: what cannot be rounding
-  constexpr double kRoundings = 100;  // of a gap: what Newton's method may end with
+  constexpr double kOpen = 1e-9;      // of the scene's length: more cannot be rounding
+  constexpr double kRoundings = 100;  // of a gap: allowed at the end of Newton's method
   std::vector<Twist<double>>& shift = accelerations_;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
@@ -146,7 +146,7 @@ void EquationsOfMotion::shift_places(std::span<const Twist<double>> shift, Compe
   }
 }
 
-/// The widest gap of a joint, or of a contact that lasts, where bodies are placed, m: of angles at an arm of
+/// Returns the widest gap of a joint or a persistent contact at the bodies' poses, m; for angles at an arm of
 /// the scene's length.
 EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   WorstGap worst;
@@ -182,7 +182,7 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   return worst;
 }
 
-/// What gaps cannot be less than: the rounding of the positions that they are differences of.
+/// Returns the least possible gap: the rounding of the positions whose differences gaps are.
 double EquationsOfMotion::rounding_of_gaps() const {
   double extent = length_;
   for (const std::size_t body : bodies_) {

@@ -9,7 +9,7 @@
 namespace plumb::precise {
 
 Vec2d local_origin(const Scene& scene) {
-  /// How many times as far off as it is wide a scene may lie: six bits of its coordinates.
+  /// Distance from the origin, in extents, beyond which a scene is shifted: it costs six bits of coordinates.
   constexpr double kFar = 64;
   Vec2d lower{1e300, 1e300}, upper{-1e300, -1e300};
   for (const Body& body : scene.bodies) {
@@ -21,7 +21,7 @@ Vec2d local_origin(const Scene& scene) {
   const Vec2d centre = 0.5 * (lower + upper), size = upper - lower;
   const double extent = std::max({size.x, size.y, scales_of(scene, divide(scene)).length});
   if (std::max(std::abs(centre.x), std::abs(centre.y)) < kFar * extent) return {};
-  // Few bits, so that differences to it are exact.
+  // Rounded to float, so that differences to it are exact.
   const Vec2d origin{static_cast<float>(centre.x), static_cast<float>(centre.y)};
   return std::isfinite(origin.x) && std::isfinite(origin.y) ? origin : Vec2d{};
 }

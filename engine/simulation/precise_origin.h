@@ -7,14 +7,14 @@
 
 namespace plumb::precise {
 
-/// A point near the scene, where it lies so far off the origin that coordinates would lose digits to it;
-/// else zero.
+/// Returns a point near the scene if it lies so far from the origin that coordinates would lose digits;
+/// otherwise zero.
 Vec2d local_origin(const Scene& scene);
 
-/// The same scene seen from `origin`: all places in the world's frame are differences to it.
+/// Returns the scene relative to `origin`, which is subtracted from all positions in the world's frame.
 Scene seen_from(const Scene& scene, Vec2d origin);
 
-/// A driver of a scene that is `seen_from` a point, as one of the scene itself.
+/// Wraps the driver of a scene that is `seen_from` a point, as a driver of the scene itself.
 class OffsetDriver final : public Driver {
  public:
   OffsetDriver(std::unique_ptr<Driver> driver, Vec2d origin) : driver_(std::move(driver)), origin_(origin) {}

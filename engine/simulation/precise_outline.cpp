@@ -13,14 +13,14 @@ namespace {
 
 using Kind = Feature::Kind;
 
-/// Normals of a chain whose sine is less than this are one.
+/// Normals of a chain with a smaller sine between them count as equal.
 constexpr double kAlike = 1e-12;
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
 
-/// A feature seen from the side of its edge: corner and edge in either order are one case.
+/// A feature relative to its edge: corner and edge in either order are one case.
 struct EdgeView {
   const Outline *edged, *cornered;
   const Pose<double>*pose_e, *pose_c;
@@ -33,7 +33,7 @@ EdgeView edge_view(const Feature& f, const Outline& a, const Pose<double>& pose_
   return {&b, &a, &pose_b, &pose_a, f.b, f.a};
 }
 
-/// Height of a corner over the edge's line, both without their radii, m.
+/// Returns the height of a corner over the edge's line, both without their radii, m.
 double height(const EdgeView& v, int corner) {
   const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
   const Vec2d normal = v.pose_e->rotation * v.edged->corners[v.edge].normal;
@@ -46,7 +46,7 @@ double along_edge(const EdgeView& v, int corner) {
   return dot(direction, world(*v.pose_c, v.cornered->corners[corner].point) - start);
 }
 
-/// The least height of `cornered`'s corners over an edge of `edged`, and that corner.
+/// The least height of the corners of `cornered` over an edge of `edged`, and that corner.
 struct Lowest {
   double height = 0;
   int corner = 0;
@@ -86,7 +86,7 @@ CornerPair closest_corners(const Outline& a, const Pose<double>& pose_a, const O
   return best;
 }
 
-/// How far the hulls are apart along a direction from a to b.
+/// Returns the separation of the hulls along a direction from a to b.
 double apart_along(Vec2d n, const Outline& a, const Pose<double>& pose_a, const Outline& b,
                    const Pose<double>& pose_b) {
   double far_a = -std::numeric_limits<double>::infinity(), near_b = -far_a;
@@ -113,7 +113,7 @@ double Outline::edge_length(int edge) const {
 
 namespace {
 
-/// Corners of each geometry but chains, in its own frame, and its radius.
+/// Returns the corners of each geometry except chains, in its own frame, and sets its radius.
 struct CornersOf {
   double& radius;
 
@@ -134,14 +134,14 @@ struct CornersOf {
   Corners operator()(const Chain&) const { return {}; }
 };
 
-/// The segments of a chain.
+/// Returns the segments of a chain.
 std::vector<Outline> links_of(const Outline& common, const Chain& chain, const Pose<double>& pose) {
   std::vector<Outline> links;
   const std::size_t points = chain.points.size(), count = chain.closed ? points : points - 1;
   for (std::size_t i = 0; i < count; ++i) {
     Outline& link = links.emplace_back(common);
     const Vec2d from = world(pose, chain.points[i]), to = world(pose, chain.points[(i + 1) % points]);
-    link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the way
+    link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the direction of travel
     link.link.front_only = true;
     link.link.goes_on[0] = chain.closed || i > 0;
     link.link.goes_on[1] = chain.closed || i + 1 < count;
@@ -215,10 +215,9 @@ bool admits(const Feature& f, const Gap& gap, const Outline& a, const Pose<doubl
          side(b, pose_b, f.kind == Kind::CornerOfA, f.b, -gap.normal);
 }
 
-// With the normal n, its turning rate W, the contact point p and the velocities of the bodies v, w,
+// With the normal n, its turning rate W, the contact point p and the bodies' velocities v, w,
 //   gap' = n . (vb - va) + wb (p - xb) x n - wa (p - xa) x n,      n' = W t,   t' = -W n,
-// slip the same with t in place of n; p' is the velocity of the corner that makes the contact, and of its
-// radius.
+// and slip the same with t in place of n. p' is the velocity of the contact's corner, including its radius.
 ContactRows rows_of(const Feature& f, const Outline& a, const Pose<double>& pose_a,
                     const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
                     const Twist<double>& twist_b) {
@@ -275,7 +274,7 @@ Separation separation(const Outline& a, const Pose<double>& pose_a, const Outlin
   if (best.distance + radii > 0 || (a.edges() == 0 && b.edges() == 0)) {
     const CornerPair corners = closest_corners(a, pose_a, b, pose_b);
     const double apart = apart_along(corners.direction, a, pose_a, b, pose_b) - radii;
-    // Sharp corners touch nothing but edges: for them this is a bound on the distance alone.
+    // Sharp corners touch nothing but edges: for them this is only a bound on the distance.
     const bool touches = radii == 0 && corners.distance < 1e-9 * (a.reach + b.reach);
     if (apart > best.distance && !touches) {
       best.distance = apart;
@@ -292,7 +291,7 @@ Limits limits_of(const Feature& f, const Outline& a, const Pose<double>& pose_a,
                  const Pose<double>& pose_b) {
   Limits limits;
   if (f.kind == Kind::Corners) {
-    // The normal stays within the cones of both corners: it points away from their neighbours.
+    // The normal must stay within the cones of both corners: it points away from their neighbours.
     const Vec2d n = gap_of(f, a, pose_a, b, pose_b).normal;
     const auto cone = [&](const Outline& o, int corner, const Pose<double>& pose, Vec2d outward) {
       if (o.count() < 2) return;

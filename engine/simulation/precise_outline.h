@@ -10,8 +10,8 @@
 
 namespace plumb::precise {
 
-/// A shape as contacts see it: the convex hull of its corners (counter-clockwise, in the body's frame),
-/// rounded by a radius. One corner is a disc, two are a capsule; edge i leads from corner i to the next.
+/// A shape for contacts: the convex hull of its corners (counter-clockwise, in the body's frame), rounded by
+/// a radius. One corner is a disc, two are a capsule; edge i leads from corner i to the next.
 struct Outline {
   std::size_t body = 0;
   std::vector<Corner<double>> corners;
@@ -19,12 +19,12 @@ struct Outline {
   double reach = 0;   ///< m, of the farthest corner from the body's centre of mass
   double friction = 0, restitution = 0;
   Filter filter{};
-  /// Of a segment of a chain: its back, edge 1, touches nothing, and where the chain goes on its ends belong
-  /// to what touches the chain as a whole there (`admits`).
+  /// Data of a chain segment: its back, edge 1, touches nothing. Contacts at ends where the chain continues
+  /// belong to the whole chain (`admits`).
   struct Link {
     bool front_only = false;
-    bool goes_on[2] = {};  ///< by corner
-    Vec2d next_normal{};   ///< of the segment that follows; where it bends to the back, and zero else
+    bool goes_on[2] = {};  ///< by corner: the chain continues
+    Vec2d next_normal{};   ///< of the next segment if the chain bends to the back there; otherwise zero
   };
   Link link{};
 
@@ -35,13 +35,13 @@ struct Outline {
   double edge_length(int edge) const;
 };
 
-/// One outline; of a chain one for each segment.
+/// Returns one outline, or one per segment of a chain.
 std::vector<Outline> outlines_of(std::size_t body, const Shape& shape);
 
-/// Where two outlines touch, or come closest.
+/// Parts of two outlines that touch, or are closest.
 struct Feature {
   enum class Kind : int {
-    Corners,    ///< corner `a` and corner `b`, both rounded or one of them at least
+    Corners,    ///< corner `a` and corner `b`, at least one of them rounded
     CornerOfB,  ///< corner `b` on edge `a`
     CornerOfA,  ///< corner `a` on edge `b`
   };
@@ -50,7 +50,7 @@ struct Feature {
   friend bool operator==(const Feature&, const Feature&) = default;
 };
 
-/// A feature as it lies: gap and frame.
+/// Gap and frame of a feature at given poses.
 struct Gap {
   double value = 0;   ///< m, negative for an overlap
   Vec2d normal{};     ///< unit, from a to b
@@ -61,15 +61,15 @@ struct Gap {
 Gap gap_of(const Feature& feature, const Outline& a, const Pose<double>& pose_a, const Outline& b,
            const Pose<double>& pose_b);
 
-/// Whether a feature with this gap may push, as far as chains go: they are touched from the front, and at a
-/// vertex where they bend to the back along the normals between those of the two segments; it belongs to the
-/// first of them. `near`: what is no gap, m; what overlaps by much more came from the back.
+/// Returns true if chains allow a feature with this gap to push. Chains are touched from the front; at a
+/// vertex that bends to the back, along the normals between those of its two segments, as part of the first.
+/// `near`: gaps below count as touching, m; much deeper overlaps came from the back.
 bool admits(const Feature& feature, const Gap& gap, const Outline& a, const Pose<double>& pose_a,
             const Outline& b, const Pose<double>& pose_b, double near);
 
-/// The gap's rate and second derivative, and the slip's rate and derivative, as rows of the bodies' motions:
-/// `normal`: gap' = J v, gap'' = J a + bias; `tangent`: slip = J v, slip' = J a + bias, the velocity of b
-/// against a at the point of contact along the normal turned a quarter counter-clockwise.
+/// Rates and accelerations of gap and slip as rows of the bodies' motions. `normal`: gap' = J v, gap'' = J a
+/// + bias. `tangent`: slip = J v, slip' = J a + bias, the velocity of b relative to a at the point of contact
+/// along the normal turned a quarter counter-clockwise.
 struct ContactRows {
   Row<double> normal, tangent;
 };
@@ -77,9 +77,9 @@ ContactRows rows_of(const Feature& feature, const Outline& a, const Pose<double>
                     const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
                     const Twist<double>& twist_b);
 
-/// A direction along which two outlines are apart by at least `distance` (negative: they overlap by no more
-/// than that in any direction), and the feature that gives it. Of all edge normals and the closest corners
-/// the one that separates most.
+/// A direction along which two outlines are separated by at least `distance` (negative: the least overlap of
+/// all directions), and its feature. Of all edge normals and the closest corners it is the one of greatest
+/// separation.
 struct Separation {
   double distance = 0;
   Feature feature{};
@@ -88,19 +88,20 @@ struct Separation {
 Separation separation(const Outline& a, const Pose<double>& pose_a, const Outline& b,
                       const Pose<double>& pose_b);
 
-/// The one or two features at which outlines touch whose separation is `near` or less; two where edges lie on
-/// each other. Features of edges whose normal separates as well as any to within `near` and whose gap opens
-/// fastest are taken; with `velocities` of zero the first of them.
+/// Returns the one or two features at which outlines with a separation of at most `near` touch; two if edges
+/// lie on each other. Among edges whose normals separate equally well, to within `near`, those with the
+/// fastest opening gap are taken; with zero velocities the first of them.
 std::vector<Feature> touching_features(const Outline& a, const Pose<double>& pose_a,
                                        const Twist<double>& twist_a, const Outline& b,
                                        const Pose<double>& pose_b, const Twist<double>& twist_b, double near);
 
-/// How far a feature is from giving way to another one, m: zero where it does.
+/// Distances (m) of a feature from the transitions to other features: zero at the transition.
 struct Limits {
   static constexpr int kMost = 4;
   int count = 0;
   double value[kMost] = {};
-  bool comes_down[kMost] = {};  ///< another corner's gap over the edge; else the corner's or normal's range
+  bool comes_down[kMost] = {};  ///< true: another corner's gap over the edge; false: the corner's or normal's
+                                ///< range
 
   void add(double distance, bool gap) { value[count] = distance, comes_down[count] = gap, ++count; }
 };

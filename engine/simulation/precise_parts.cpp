@@ -22,7 +22,7 @@ Index index_of_bodies(const Scene& scene) {
   return index;
 }
 
-/// Whether a law's wrench on its body stays the same between switching times, however the body moves.
+/// Returns true if a law's wrench on its body is constant between switching times, however the body moves.
 bool is_constant(const LinearDrag& law, const Body&) { return law.coefficient == 0; }
 bool is_constant(const QuadraticDrag& law, const Body&) { return law.coefficient == 0; }
 bool is_constant(const PointForce& law, const Body& body) {
@@ -51,7 +51,7 @@ void sort_unique(auto& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Bodies by index that a joint or a law that is not constant acts on.
+/// Marks, by index, the bodies with a joint or with a law that is not constant.
 std::vector<char> not_flying(const Scene& scene, const Index& index) {
   std::vector<char> result(scene.bodies.size(), 0);
   const auto mark = [&](std::string_view name) {
@@ -87,7 +87,7 @@ std::vector<std::pair<std::size_t, std::size_t>> kept_apart(const Scene& scene, 
   return apart;
 }
 
-/// Whether `shape` of body `a` could touch any shape of another body; that other body, else `a`.
+/// Returns another body with a shape that `shape` of body `a` may touch, or `a` if there is none.
 std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const Shape& shape) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     for (const Shape& other : scene.bodies[b].shapes) {
@@ -99,7 +99,7 @@ std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
-/// What a law says of the scene's scales at the start: a length, and an acceleration that it gives.
+/// Scales that a law gives at the start: a length, and an acceleration.
 struct LawScale {
   double length = 0, acceleration = 0;
 };
@@ -144,7 +144,7 @@ class LawScales {
   const Index& index_;
 };
 
-/// m/s^2: what the springs of joints give at the start, to points at a distance of `arm` at most.
+/// Returns the acceleration (m/s^2) by the springs of joints at the start, of points up to `arm` away.
 double acceleration_by_springs(const Scene& scene, double arm) {
   const KindJoints joints(scene);
   if (!joints.has_springs()) return 0;

@@ -9,20 +9,20 @@
 
 namespace plumb::precise {
 
-/// How a body moves, with its acceleration.
+/// State of motion of a body, with its acceleration.
 struct Motion {
   BodyState state{};
   Vec2d acceleration{};             ///< m/s^2
   double angular_acceleration = 0;  ///< rad/s^2
 };
 
-/// Who is moved how: what `Precise` derives from the scene before anything is allocated.
+/// Partition of the scene's bodies by how they are moved, derived before anything is allocated.
 struct Parts {
   std::vector<std::size_t> flying;  ///< bodies on polynomials: static, kinematic, under constant forces alone
   std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
                                         ///< forces that depend on the motion
-  bool ballistic = false;  ///< contacts apart, nothing but constant forces acts on the integrated bodies
-  std::vector<Outline> outlines;  ///< of shapes that have a partner to touch
+  bool ballistic = false;               ///< contacts apart, only constant forces act on the integrated bodies
+  std::vector<Outline> outlines;        ///< of shapes that may touch another one
   std::vector<std::pair<std::size_t, std::size_t>>
       apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
   std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending
@@ -30,17 +30,17 @@ struct Parts {
 
 Parts divide(const Scene& scene);
 
-/// The scene with the laws alone that act on one of `bodies`, which ascend.
+/// Returns the scene with only the laws that act on one of `bodies`, which ascend.
 Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies);
 
-/// Whether the pair's shapes may touch as far as body types, filters and joints go.
+/// Returns true if body types, filters and joints allow the pair's shapes to touch.
 bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const Filter& a, std::size_t body_b,
               const Filter& b);
 
-/// The scene's own scales that errors are measured against.
+/// The scene's own scales, by which errors are measured.
 struct Scales {
   double length = 1;  ///< m: the largest extent of an integrated body, joint or lever
-  double speed = 1;   ///< m/s: what the scene's accelerations give over that length
+  double speed = 1;   ///< m/s: reached by the scene's accelerations over that length
 };
 
 Scales scales_of(const Scene& scene, const Parts& parts);

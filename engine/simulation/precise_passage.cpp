@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Of a row, what the others leave of it where it counts as lost: branches are that near there. The expected
-/// motion passes crossings within less.
+/// Fraction of a row left by the others below which it counts as lost: branches are that close there. The
+/// expected motion passes crossings within less.
 constexpr double kLost = 1e-7;
-/// Roundings of the scene's extent that a linkage may fail to close by at a crossing. Where it fails by more,
-/// branches do not meet: they come near and turn away, fast but smoothly.
+/// Allowed gap of a linkage at a crossing, in roundings of the scene's extent. If it is wider, the branches
+/// do not meet: they approach and turn away, fast but smoothly.
 constexpr double kRoundings = 16;
-/// Looks along the expected motion.
+/// Number of samples along the expected motion.
 constexpr int kLooks = 24;
 
 }  // namespace
@@ -51,10 +51,10 @@ std::span<const double> Passage::expected(double time) {
   return at_;
 }
 
-/// The distance from a crossing, but for its scale: rows lose with its square.
+/// Returns a measure proportional to the distance from a crossing: rows weaken with its square.
 double Passage::strength(double time) { return std::sqrt(equations_.weakness(time, expected(time))); }
 
-/// The golden section, to a millionth of what is asked.
+/// Minimises by golden-section search, to a millionth of the interval.
 double Passage::least_between(double low, double high) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr int kMost = 32;
@@ -81,7 +81,7 @@ std::optional<Passage::Crossing> Passage::crossing(double from, double to) {
     times[1] = times[2], values[1] = values[2];
     times[2] = from + (to - from) * k / kLooks;
     values[2] = strength(times[2]);
-    // The lowest look is beside the least, but for one between the first two.
+    // The lowest sample is next to the minimum, except for a minimum between the first two.
     const bool low = k == 1 ? values[1] <= values[2] : values[1] <= values[2] && values[1] <= values[0];
     if (!low) continue;
     const double time = least_between(times[0], times[2]);

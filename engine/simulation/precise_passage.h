@@ -10,25 +10,25 @@
 
 namespace plumb::precise {
 
-/// A closed linkage on its way through a place where it is singular: where joints' rows depend on each other
-/// (a four-bar that lies in one line), two branches of its manifold cross. The motion along its own branch is
-/// smooth there, but the equations of motion are not: off the manifold by d, at a distance s from the
-/// crossing, accelerations are off by d / s. As a flow this is
+/// A closed linkage that passes a kinematic singularity, where joints' rows become dependent (a four-bar that
+/// lies in one line) and two branches of its manifold cross. The motion along its own branch is smooth there,
+/// but the equations of motion are not: off the manifold by d, at a distance s from the crossing,
+/// accelerations are off by d / s. As a flow this is
 ///   dy/dt = f(P(y)),
-/// f the equations of motion and P the nearest place on the branch, which is as smooth as the branch itself:
-/// a step whose stages lie on either side of the crossing keeps its order. Which branch is the one, the
-/// motion so far says: P starts from its polynomial carried on.
+/// f the equations of motion and P the nearest point on the branch, which is as smooth as the branch itself:
+/// a step with stages on both sides of the crossing keeps its order. The motion so far selects the branch: P
+/// starts from its extrapolated polynomial.
 class Passage final : public Flow {
  public:
   explicit Passage(EquationsOfMotion& equations);
 
-  /// The motion is expected to go on as over the step from `start` to `end`, with y where that began.
+  /// Sets the expected motion: the extrapolated step from `start` to `end`, with y at its beginning.
   void expect(const StepPolynomial& path, double start, double end, std::span<const double> y);
-  /// Or from y at `time` by the rates there.
+  /// Sets the expected motion from y at `time` by the rates there.
   void expect(double time, std::span<const double> y, std::span<const double> rate);
 
-  /// Where the expected motion passes a crossing next, from `from` (alone) to `to`. It `meets` there unless
-  /// lengths differ by more than rounding: then its branches come near, and turn away from each other.
+  /// Finds the next crossing on the expected motion, after `from` and up to `to`. The branches meet (`meets`)
+  /// unless lengths differ by more than rounding: then they approach, and turn away from each other.
   struct Crossing {
     double time = 0;
     bool meets = true;

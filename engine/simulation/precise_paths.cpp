@@ -9,7 +9,8 @@ namespace plumb::precise {
 namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
-/// Bounds are widened by this share: positions and velocities are two polynomials, equal to the step's error.
+/// Bounds are widened by this fraction: positions and velocities are two polynomials that agree to the step's
+/// error.
 constexpr double kMargin = 1e-3;
 
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
@@ -94,7 +95,7 @@ void StepPaths::follow_integrated(std::size_t body, int slot, SmoothMotion& moti
 void StepPaths::follow_parabola(std::size_t body, const BodyState& from, const BodyState& to) {
   Path& p = paths_[body];
   const double h = end_ - start_;
-  // The Bernstein points of a parabola: its ends, and where its end tangents meet.
+  // The Bernstein points of a parabola: its ends, and the intersection of its end tangents.
   const Vec2d a = from.position, b = to.position, middle = a + (0.5 * h) * from.velocity;
   p.hull = {{std::min({a.x, b.x, middle.x}), std::min({a.y, b.y, middle.y})},
             {std::max({a.x, b.x, middle.x}), std::max({a.y, b.y, middle.y})}};

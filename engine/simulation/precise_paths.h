@@ -14,12 +14,12 @@
 
 namespace plumb::precise {
 
-/// How all bodies move during one step, with bounds that hold throughout.
+/// Motion of all bodies during one step, with bounds that hold throughout.
 class StepPaths {
  public:
   StepPaths(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
 
-  /// The last step of `motion`; valid until its next one.
+  /// Takes the last step of `motion`; valid until its next one.
   void take(SmoothMotion& motion);
 
   double start() const { return start_; }
@@ -31,7 +31,7 @@ class StepPaths {
   };
   Placed at(std::size_t body, double time) const;
 
-  /// Bounds over the step, on one body's turning and on two bodies' motion against each other.
+  /// Bounds over the step: on one body's rotation, and on the relative motion of two bodies.
   struct Turning {
     double speed = 0;         ///< rad/s
     double acceleration = 0;  ///< rad/s^2
@@ -43,7 +43,7 @@ class StepPaths {
   };
   Relative relative(std::size_t a, std::size_t b) const;
 
-  /// The same where a body may be `kFixedFrame`.
+  /// The same for a body that may be `kFixedFrame`.
   Placed placed(int body, double time) const {
     return body == kFixedFrame ? Placed{} : at(static_cast<std::size_t>(body), time);
   }
@@ -52,7 +52,7 @@ class StepPaths {
   }
   Relative relative_of(int a, int b) const;
 
-  /// A box that the outline stays in.
+  /// Returns a box that contains the outline during the step.
   Aabb<double> swept(const Outline& outline) const;
 
  private:
@@ -60,7 +60,7 @@ class StepPaths {
   struct Path {
     Bernstein<kControls> vx{}, vy{};
     Aabb<double> hull{};  // of the centre of mass
-    double turned = 0;    // rad, at most away from the start
+    double turned = 0;    // rad, largest rotation away from the start
   };
 
   Relative bounds(const Path& p, const Path& q) const;

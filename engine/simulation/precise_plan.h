@@ -6,7 +6,7 @@
 
 namespace plumb::precise {
 
-/// The stages in the order in which a step runs them: their places in the plan.
+/// The stages in the order in which a step runs them: indices into the plan.
 enum StageIndex : int {
   kContacts,
   kForces,
@@ -18,7 +18,7 @@ enum StageIndex : int {
   kStageCount,
 };
 
-/// Which stages the scene needs, and why; `every_stage` switches all of them on.
+/// Returns the stages that the scene needs, with reasons; `every_stage` activates all of them.
 Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage);
 
 }  // namespace plumb::precise

@@ -3,7 +3,7 @@
 
 #include "engine/simulation/precise_motion.h"
 
-// Forces of joints and of contacts that last, for those who ask.
+// Computes the forces of joints and of persistent contacts on request.
 namespace plumb::precise {
 
 std::vector<EquationsOfMotion::JointEnd> EquationsOfMotion::ends_of_joints(const Scene& scene) {
@@ -21,8 +21,8 @@ std::vector<EquationsOfMotion::JointEnd> EquationsOfMotion::ends_of_joints(const
   return ends;
 }
 
-/// The joints' multipliers under the forces of contacts and stops of the last evaluation: those of `press`
-/// are added up by response, where nobody needs the joints' own.
+/// Computes the joints' multipliers under the forces of contacts and stops of the last evaluation: `press`
+/// only sums responses, without the joints' own multipliers.
 void EquationsOfMotion::find_multipliers_beside_contacts(double time, std::span<const double> y) {
   accelerate_freely(time, y, accelerations_);
   for (std::size_t k = 0; k < active_response_.rows.size(); ++k) {

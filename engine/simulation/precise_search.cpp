@@ -27,8 +27,8 @@ CornerMotion corner_motion(const Outline& o, int corner, const StepPaths::Placed
   return {at.pose.position + arm, at.twist.velocity + cross(at.twist.angular_velocity, arm)};
 }
 
-/// Heights over an edge of `e`, whose normal turns with it: f = n . (c - p), so that with the corner's motion
-/// against the edge's body, r from its centre,
+/// Time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p). With the
+/// corner's motion relative to the edge's body, r from its centre,
 ///   f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
 double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, double left) {
   const Outline &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
@@ -47,7 +47,7 @@ double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, do
   for (int k = 0; k < c.count(); ++k) {
     const CornerMotion corner = corner_motion(c, k, at_c);
     const double f = dot(n, corner.position - start.position) - v.a.radius - v.b.radius;
-    // The edge's own motion at the corner's foot, which it carries along.
+    // The edge's own motion at the foot of the corner.
     const Vec2d carried =
         at_e.twist.velocity + cross(at_e.twist.angular_velocity, corner.position - at_e.pose.position);
     shortest_time = std::min(shortest_time, lasts(f, dot(n, corner.velocity - carried), fall));
@@ -55,7 +55,7 @@ double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, do
   return shortest_time;
 }
 
-/// Heights along a fixed direction, of every corner of b over every corner of a.
+/// The same along a fixed direction, for every corner of b over every corner of a.
 double direction_lasts(const View& v, const StepPaths& paths, Vec2d n) {
   const auto swing = [&](const Outline& o) {
     const StepPaths::Turning turn = paths.turning(o.body);
@@ -109,7 +109,7 @@ std::optional<double> ContactSearch::first(const OutlinePair& pair, double from,
     }
     const double next = time + step;
     if (!(next < until)) {
-      // Up to the step's end nothing; there the state is known.
+      // No contact before the step's end; the state there is known.
       return time < until && distance(pair, until) <= near ? std::optional(until) : std::nullopt;
     }
     time = next > time ? next : std::nextafter(time, until);
@@ -133,7 +133,7 @@ ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, doubl
       return found;
     }
     if (overlap == Overlap::Pressed && d < deepest) {
-      // The first time that it is as deep, to rounding.
+      // The first time of this depth, to rounding.
       double low = before, high = time;
       for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
         (distance(pair, middle) < deepest ? high : low) = middle;

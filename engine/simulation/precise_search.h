@@ -18,25 +18,25 @@ struct OutlinePair {
   friend auto operator<=>(const OutlinePair&, const OutlinePair&) = default;
 };
 
-/// How long f + f' s - A s^2 / 2 stays above zero, s.
+/// Returns how long f + f' s - A s^2 / 2 stays above zero, s.
 double lasts(double f, double rate, double most_fall);
 
-/// When two outlines first touch during a step. The search advances by what no motion within the step's
-/// bounds can overtake: along a separating direction every corner's height f obeys
+/// Finds when two outlines first touch during a step, by conservative advancement with acceleration bounds.
+/// Along a separating direction every corner's height f obeys
 ///   f(t + s) >= f + f' s - A s^2 / 2,
 /// A a bound on f'' from the step's polynomials, so that nothing is missed at any speed or spin.
 class ContactSearch {
  public:
-  /// `steps`: what one search may take at most; beyond, `Error` (Run).
+  /// `steps`: limit on the steps of one search; beyond it, `Error` (Run).
   ContactSearch(std::span<const Outline> outlines, const StepPaths& paths, long steps = 200000)
       : outlines_(outlines), paths_(paths), most_(steps) {}
 
-  /// The first time in [from, until] at which the pair is `near` (m) or closer.
+  /// Returns the first time in [from, until] at which the pair is `near` (m) or closer.
   std::optional<double> first(const OutlinePair& pair, double from, double until, double near) const;
 
-  /// For a pair that touches at the step's start without being held: when it is free of contact, `near` and
-  /// more apart; nothing when it never is within the step. `pressed` is set where it goes `near` deeper
-  /// before.
+  /// For a pair that touches at the step's start without being held: `apart` is the time at which its
+  /// separation exceeds `near`, if within the step. `pressed` is set if the overlap grows by `near` before
+  /// that.
   struct Departure {
     std::optional<double> apart, pressed;
   };
@@ -44,7 +44,7 @@ class ContactSearch {
   Departure departure(const OutlinePair& pair, double until, double near,
                       Overlap overlap = Overlap::Pressed) const;
 
-  /// The separation at a time.
+  /// Returns the separation at a time.
   double distance(const OutlinePair& pair, double time) const;
 
  private:
@@ -53,7 +53,8 @@ class ContactSearch {
   long most_;
 };
 
-/// Pairs whose boxes overlap and that `may_meet` lets meet, in ascending order, by sweep and prune along x.
+/// Returns the pairs whose boxes overlap and for which `may_meet` is true, in ascending order, by sweep and
+/// prune along x.
 template <class MayMeet>
 std::vector<OutlinePair> pairs_of_boxes(std::span<const Aabb<double>> boxes, const MayMeet& may_meet) {
   std::vector<std::size_t> order(boxes.size());

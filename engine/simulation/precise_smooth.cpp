@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// A step is at most this many times as long as the scene's accelerations take over its length: where nothing
-/// moves, nothing else would bound it.
+/// Longest step, in the time that the scene's accelerations take over its length: nothing else bounds it when
+/// all bodies are at rest.
 constexpr double kLongestStep = 1e6;
-/// After a jump, a step is at most this many times as long as a first step would be.
+/// After a jump, the longest step as a multiple of a first step.
 constexpr double kAfterJump = 1000;
-/// The error of a step whose stages were not found: the next try is a fifth as long.
+/// Error of a step whose stages did not converge: the next try is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -55,9 +55,9 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
   redundant_joints_ = equations_.redundant_joints(0, y_.value());
 }
 
-/// The end of the last step becomes the start of the next.
+/// Makes the end of the last step the start of the next.
 void SmoothMotion::begin() {
-  equations_.set_window(time_, time_);  // what is switched on now stays on to the end of the step
+  equations_.set_window(time_, time_);  // forces switched on now stay on to the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
     now().method.advance();
@@ -116,7 +116,7 @@ double SmoothMotion::step(double limit) {
   }
 }
 
-/// Under constant forces alone a step is its parabola, of any length, and the accelerations stay.
+/// Under constant forces alone a step is a parabola of any length, with constant accelerations.
 void SmoothMotion::fly(double end) {
   const double h = end - start_;
   const std::span<const double> rate = rate_at_start();
@@ -126,7 +126,7 @@ void SmoothMotion::fly(double end) {
   y_ = y0_;
   for (std::size_t i = 0; i < y_.size(); ++i) {
     const bool place = i % kPerBody < 3;
-    const double gained = place ? h * rate[i + 3] : 0;  // of speed
+    const double gained = place ? h * rate[i + 3] : 0;  // change of speed
     bend[i] = 0.5 * h * gained;
     whole[i] = h * rate[i] + bend[i];
     last[i] = rate[i] + gained;
@@ -138,8 +138,8 @@ void SmoothMotion::fly(double end) {
   polynomial_known_ = rate_known_ = true;
 }
 
-/// The error of a step to `end`, 1 at most when it may be accepted. `again`: there was none before, or it
-/// failed.
+/// Returns the error of a step to `end`; up to 1 it may be accepted. `again`: first step, or after a failed
+/// one.
 double SmoothMotion::try_step(double end, bool again) {
   const double h = end - start_;
   if (!stiff_) {
@@ -153,7 +153,7 @@ double SmoothMotion::try_step(double end, bool again) {
   return implicit_.error(stiff_motion_, start_, h, y0_.value(), rate_at_start(), scale, again);
 }
 
-/// The step just taken, of length h.
+/// Accepts the last step, of length h.
 void SmoothMotion::accept(double h, double error) {
   const double factor = stiff_ ? StepControl::sixth_order(error) : control_.after_acceptance(error);
   const double next = std::min(h * factor, longest_step_);
@@ -163,7 +163,8 @@ void SmoothMotion::accept(double h, double error) {
   if (method_ == MotionMethod::Automatic && !equations_.holds_anything()) watch_stiffness();
 }
 
-/// The proposed step, or an equal share of the way to `limit`: no short last step.
+/// Returns the end of the proposed step, or of equal parts of the time to `limit`, which avoids a short last
+/// step.
 double SmoothMotion::end_of_step(double limit) const {
   const double left = limit - start_;
   const double parts = std::ceil(left / proposed_step_);
@@ -171,7 +172,7 @@ double SmoothMotion::end_of_step(double limit) const {
   return start_ + (parts < 100 ? left / parts : proposed_step_);
 }
 
-/// y = y0 + increment, with joints closed.
+/// Sets y = y0 + increment, with joints closed.
 void SmoothMotion::take_increment(double end) {
   y_ = y0_;
   const std::span<const double> increment =
@@ -248,7 +249,7 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
   }
   if (!project_too && !was_in_angles()) return;
   if (last_near_) {
-    // What rounding would make of weak rows is more than the polynomial's own error.
+    // The error of weak rows by rounding would exceed the polynomial's own error.
     constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
     const double tolerance = kSteps * tolerance_;
     equations_.hold_only_above(std::min(kRounding / tolerance, 0.1), tolerance * scales_.length);
@@ -288,8 +289,8 @@ void SmoothMotion::restart() {
   polynomial_known_ = rate_known_ = false;
   jumped_ = true;
   implicit_.forget();
-  // The implicit method's Jacobian knows joints and forces, not contacts: while those last, steps are
-  // explicit.
+  // The implicit method's Jacobian contains joints and forces, but not contacts: while contacts persist,
+  // steps are explicit.
   if (equations_.holds_anything()) {
     stiff_ = false;
   } else if (method_ == MotionMethod::Implicit) {

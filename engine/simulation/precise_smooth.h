@@ -24,73 +24,73 @@
 
 namespace plumb::precise {
 
-/// The motion of the integrated bodies between events: steps whose error meets the tolerance, and the state
-/// at any time within the last one. Where events lie is the caller's to know: a step is made first and looked
-/// at then, and events are looked for inside it; `cut` ends it at one, and after a jump `restart` is due.
+/// Integrates the integrated bodies between events: steps whose error meets the tolerance, and the state at
+/// any time within the last one. The caller handles events: it makes a step, locates events inside it, and
+/// ends it at one by `cut`; after a jump it must call `restart`.
 class SmoothMotion {
  public:
   SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);
 
-  double time() const { return time_; }                ///< s: where the last step ended
-  const Compensated& state() const { return y_; }      ///< there, joints closed
+  double time() const { return time_; }                ///< s: end of the last step
+  const Compensated& state() const { return y_; }      ///< at that time, joints closed
   std::size_t dimension() const { return y_.size(); }  ///< 0: nothing is integrated
 
-  /// Nothing but constant forces acts until the next event: steps are parabolas.
+  /// Returns true if only constant forces act until the next event: steps are then parabolas.
   bool flies() const { return ballistic_ && !equations_.holds_anything(); }
 
-  /// One step that meets the tolerance, from `time` to at most `limit` (may be infinite) and to at most the
-  /// next time at which a force is switched; returns where it ends. Throws `Error` (Run) that names the body
-  /// when no step is small enough. With nothing to integrate, it ends as far as it may: `limit` is then
-  /// finite.
+  /// Makes one step that meets the tolerance, from `time` to at most `limit` (may be infinite) and to at most
+  /// the next switching time of a force; returns its end. Throws `Error` (Run) that names the body when no
+  /// step is small enough. With nothing to integrate, the step ends at its limit, which must then be finite.
   double step(double limit);
 
-  /// What forces other than gravity have put into the motion over the last step, J, to the step's accuracy;
-  /// nothing where it is not known, of implicit steps under such forces, and of symplectic ones, whose energy
-  /// swings within its own bound.
+  /// Returns the work of forces other than gravity over the last step, J, to the step's accuracy. Returns
+  /// nothing if unknown: for implicit steps with such forces, and for symplectic steps, whose energy
+  /// oscillates within its own bound.
   std::optional<double> work() const;
 
-  double start() const { return start_; }  ///< s: where the last step began
+  double start() const { return start_; }  ///< s: start of the last step
   const Compensated& state_at_start() const { return y0_; }
 
-  /// The polynomial over the last step, as the state's distance from `state_at_start` with s = (t - start) /
-  /// (time - start). Of order 7; made when first asked for after a step. Where shapes may touch and limits of
-  /// joints be met, all coordinates have one.
+  /// Returns the polynomial over the last step, relative to `state_at_start`, with s = (t - start) / (time -
+  /// start). Of order 7; computed on the first call after a step. If shapes may touch or limits of joints be
+  /// reached, it covers all coordinates.
   const StepPolynomial& polynomial();
 
-  /// The state at a time within the last step, by its polynomial. `project` closes the joints there too.
+  /// Computes the state at a time within the last step, by its polynomial. `project` closes the joints there
+  /// too.
   void at(double time, bool project, Compensated& out);
 
-  /// Makes the last step end at `time`, within it, as a step of its own: with the method's own order.
+  /// Ends the last step at `time`, within it, as a step of its own: with the method's own order.
   void cut(double time);
 
-  /// Goes back to a time within the last step: what was found beyond it is forgotten.
+  /// Goes back to a time within the last step and discards the motion beyond it.
   void rewind(double time);
 
-  /// The state at `time`, to be changed; `restart` (or `start_anew`) is due afterwards.
+  /// Returns the state at `time` for changes; `restart` (or `start_anew`) must follow.
   Compensated& change() { return y_; }
-  /// After a jump of velocities or of forces: the next step begins from `change` as it is.
+  /// Continues after a jump of velocities or of forces: the next step begins from the changed state.
   void restart();
-  /// After bodies were moved from outside: closes joints, and the length of steps is found anew.
+  /// Continues after bodies were changed from outside: closes joints and resets the step length.
   void start_anew();
 
   std::int64_t rejected() const { return rejected_; }
   std::int64_t implicit_steps() const { return implicit_steps_; }
-  /// Steps that were carried over a singular place of the mechanism.
+  /// Returns the number of steps over a kinematic singularity.
   std::int64_t leaps() const { return leaps_; }
-  /// Joints some of whose rows follow from others at the start.
+  /// Returns the joints with rows that follow from others at the start.
   const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
 
   /// Throws `Error` (Run) that names the body whose motion changes fastest.
   [[noreturn]] void blame_fastest() const;
 
-  /// All that later steps and states from `sampled` on depend on.
+  /// Saves all data on which later steps and states from `sampled` on depend.
   void save(double sampled, SnapshotWriter& out);
   void restore(SnapshotReader& in);
 
   double projection_nanoseconds = 0;  ///< spent closing joints, while `equations.cost.on`
 
  private:
-  /// What explicit steps are made in: all coordinates, or angles alone where these say where all is.
+  /// Coordinates of explicit steps: all of them, or only the angles of hanging trees.
   struct Coordinates {
     Coordinates(Flow& its_flow, std::size_t dimension)
         : flow(its_flow), method(dimension), polynomial(dimension), error_scale(dimension, 1.0) {}
@@ -111,7 +111,7 @@ class SmoothMotion {
 
   void begin();
   void fly(double end);
-  // Near places where closed linkages are singular (precise_smooth_passage.cpp).
+  // Near kinematic singularities of closed linkages (precise_smooth_passage.cpp).
   bool is_near_crossing();
   void expect_passage();
   void look_at_rows();
@@ -133,9 +133,8 @@ class SmoothMotion {
   void set_error_scale();
   void project(double time, Compensated& y);
 
-  /// Steps that may err by `Precise::tolerance` together: each by one part of so many. Errors add up over
-  /// thousands of steps and grow along chaotic motion; a method of order 8 pays 2.4 times the steps for these
-  /// three digits.
+  /// Number of steps whose errors together equal `Precise::tolerance`. Errors add up over thousands of steps
+  /// and grow along chaotic motion; a method of order 8 needs 2.4 times the steps for these three digits.
   static constexpr double kSteps = 1000;
 
   const double tolerance_;
@@ -147,7 +146,7 @@ class SmoothMotion {
   std::vector<std::string> redundant_joints_;
   EquationsOfMotion& equations_;
   const MotionMethod method_;
-  const bool ballistic_;  // but for contacts
+  const bool ballistic_;  // contacts apart
   HangingTree hanging_;
   Coordinates all_, angles_;
   Radau implicit_;
@@ -160,18 +159,18 @@ class SmoothMotion {
   bool last_flew_ = false;                      // the last step was a parabola
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
-  Compensated y0_, y_;                                  // where the last step began and ended
+  Compensated y0_, y_;                                  // at the start and end of the last step
   bool polynomial_known_ = false, rate_known_ = false;  // of the last step; at its end
   double proposed_step_ = 0;                            // s; 0: none yet
   struct Rank {
     double weakest = 1;
     int dependent = 0;
   };
-  Rank rank_at_start_;         // of the joints' rows, where the next step begins
-  double weakest_before_ = 1;  // and where the last one did
-  bool near_ = false;          // the next step is near a place where a closed linkage is singular
+  Rank rank_at_start_;         // of the joints' rows, at the start of the next step
+  double weakest_before_ = 1;  // and of the last one
+  bool near_ = false;          // the next step is near a kinematic singularity
   bool last_near_ = false;     // the last one was
-  bool expects_ = false;       // its passage is expected by the step before
+  bool expects_ = false;       // the step before provides its expected passage
   std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 

@@ -7,35 +7,36 @@
 #include "engine/scene/text.h"
 #include "engine/simulation/precise_smooth.h"
 
-// Steps of closed linkages near places where they are singular, and over these.
+// Steps of closed linkages near kinematic singularities, and across these.
 namespace plumb::precise {
 namespace {
 
-/// A crossing that is farther off than so many steps is no concern yet.
+/// Distance in steps beyond which a crossing is ignored.
 constexpr double kNear = 5;
-/// How far ahead is looked, in steps: a step that ends before a crossing leaves room for the one over it.
+/// Look-ahead in steps: a step that ends before a crossing leaves room for the one across it.
 constexpr double kAhead = 2.2;
-/// Where in a step over a crossing that lies, in order of preference, as shares of the step: far from the
-/// method's stages, which are lost to rounding near it. And where the step begins close before one.
+/// Positions of the crossing within a step across it, as fractions of the step, in order of preference: far
+/// from the method's stages, which rounding spoils near it. kSoon: for steps that start close to one.
 constexpr double kBetween[] = {0.465, 0.45, 0.48, 0.43, 0.5, 0.4, 0.55, 0.715, 0.7, 0.15, 0.16};
 constexpr double kSoon[] = {0.15, 0.16, 0.14, 0.225, 0.065, 0.03, 0.02, 0.465, 0.43, 0.5};
-/// Of steps, from where on which: a crossing within this is passed, within less it is close.
+/// Distances to a crossing, in steps. Within kPass the step goes across it, and within kClose by kSoon's
+/// positions. Farther off it ends before it: by half a step, or beyond kFar by at least half of kFar.
 constexpr double kFar = 1.1, kPass = 0.75, kClose = 0.3;
-/// The shortest and the longest step over a crossing, in steps.
+/// The shortest and the longest step across a crossing, in steps.
 constexpr double kShortestOver = 0.2, kLongestOver = 2.5;
-/// Near crossings steps err by no more than this in their units: it is by the motion so far that its branch
-/// is known.
+/// Error bound of steps near crossings, in their units: the motion so far selects the branch, so it must be
+/// accurate.
 constexpr double kTight = 1e-11;
-/// Of the tolerance: what a step over a crossing may err by, where rounding leaves no better.
+/// Error bound of a step across a crossing, in tolerances, if rounding allows no less.
 constexpr double kLoose = 1;
-/// Steps that have shrunk to less of the time that the scene's accelerations take over its length do not
-/// pass.
+/// Steps shorter than this fraction of the time that the scene's accelerations take over its length give up.
 constexpr double kShortest = 1e-5;
 
 }  // namespace
 
-/// Whether the linkage comes near a singular place or leaves one: its weakest row's strength, which goes to
-/// zero there with the distance, would be at zero within a few steps. `start_` to `time_` is the last step.
+/// Returns true if the linkage approaches or leaves a singularity: extrapolated, the strength of its weakest
+/// row would reach zero within a few steps. It is proportional to the distance from there. The last step is
+/// from `start_` to `time_`.
 bool SmoothMotion::is_near_crossing() {
   if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic || equations_.holds_anything())
     return false;
@@ -45,7 +46,7 @@ bool SmoothMotion::is_near_crossing() {
   return now * h < std::abs(now - before) * kNear * std::max(proposed_step_, h);
 }
 
-/// Before a step: what is known of the motion so far.
+/// Before a step: sets the expected motion from the motion so far.
 void SmoothMotion::expect_passage() {
   const bool near = is_near_crossing();
   if (near && !near_) {
@@ -60,7 +61,7 @@ void SmoothMotion::expect_passage() {
   passage_.expect(path, start_, time_, y0_.value());
 }
 
-/// Where there is no last step, the rows themselves say.
+/// Without a last step, decides by the rows themselves.
 void SmoothMotion::look_at_rows() {
   constexpr double kWeak = 0.01;
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
@@ -105,7 +106,7 @@ double SmoothMotion::step_near_crossing(double limit) {
         ++leaps_;
         return accept_near_crossing(std::min(error / strict, 1.0));
       }
-      if (limit < start_ + left / 0.55) {  // something else happens on the way
+      if (limit < start_ + left / 0.55) {  // another event comes first
         error = try_near_crossing(limit);
         if (error <= loose) return accept_near_crossing(std::min(error / strict, 1.0));
       }
@@ -125,8 +126,8 @@ double SmoothMotion::accept_near_crossing(double error) {
   return time_;
 }
 
-/// The error of a step to `end`, in what joints allow alone: what they do not is taken away there. y is at
-/// that end then.
+/// Returns the error of a step to `end`, without the part that joints do not allow, which is removed there.
+/// Leaves y at that end.
 double SmoothMotion::try_near_crossing(double end) {
   const double h = end - start_;
   constexpr double kLost = std::numeric_limits<double>::infinity();
@@ -142,13 +143,13 @@ double SmoothMotion::try_near_crossing(double end) {
   for (std::size_t i = 0; i < raw.size(); ++i) raw[i] += all_.method.increment()[i];
   try {
     take_increment(end);
-  } catch (const Error&) {  // not from so far
+  } catch (const Error&) {  // cannot be projected from so far
     return kLost;
   }
   equations_.keep_allowed(fifth);
   equations_.keep_allowed(third);
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    // Farther off than the tolerance, it may have been put onto another branch.
+    // Beyond the tolerance, the projection may have reached another branch.
     if (i % EquationsOfMotion::kPerBody < 3 &&
         !(std::abs(y_[i] - raw[i]) <= kSteps * std::max(1.0, kTight / tolerance_) * all_.error_scale[i]))
       return kLost;

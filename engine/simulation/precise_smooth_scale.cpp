@@ -8,19 +8,19 @@
 #include "engine/scene/text.h"
 #include "engine/simulation/precise_smooth.h"
 
-// What errors are measured by, and the first step from it.
+// Scales of the errors, and the first step derived from them.
 namespace plumb::precise {
 namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
-/// Where angles alone are followed, the errors of places and velocities are not looked at beside theirs:
-/// angles are held to this share instead.
+/// If only angles are integrated, errors of positions and velocities are not checked: the bound on angles is
+/// reduced to this fraction instead.
 constexpr double kAngles = 0.5;
 
 }  // namespace
 
-/// What an error of 1 is, by component: the tolerance times the scene's length and speed, a body's own speed
-/// where that is more, and one radian.
+/// Sets the unit of the error by component: the tolerance times the scene's length and speed, a body's own
+/// speed if that is more, and one radian.
 void SmoothMotion::set_error_scale() {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = EquationsOfMotion::state(y_.value(), slot);
@@ -37,7 +37,7 @@ void SmoothMotion::set_error_scale() {
   }
 }
 
-/// A tenth of the time in which anything changes by its scale.
+/// Returns a tenth of the time in which any component changes by its scale.
 double SmoothMotion::first_step() const {
   double fastest = 0;
   const std::span<const double> rate = rate_at_start();

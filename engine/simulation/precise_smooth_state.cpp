@@ -3,12 +3,12 @@
 
 #include "engine/simulation/precise_smooth.h"
 
-// Saving and restoring of the motion.
+// Saves and restores the motion.
 namespace plumb::precise {
 
 void SmoothMotion::save(double sampled, SnapshotWriter& out) {
-  // A flight is read before its last step, too, where an impact was a little later than it had seemed: that
-  // little is a step, and the parabola is the same.
+  // A flight may also be read before its last step, if an impact was slightly later than located: the
+  // difference is a step of its own, with the same parabola.
   const bool within = sampled < time_ && sampled != start_ && y_.size() > 0;
   const bool goes_by_it = equations_.has_loops() && start_ < time_ && y_.size() > 0;
   const bool with_polynomial = (within || goes_by_it) && method_ != MotionMethod::Symplectic;

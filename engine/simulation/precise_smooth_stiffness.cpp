@@ -6,13 +6,13 @@
 
 #include "engine/simulation/precise_smooth.h"
 
-// When the explicit method gives way to the implicit one, and the other way round.
+// Switches between the explicit and the implicit method.
 namespace plumb::precise {
 
-/// Steps are held short by stability alone: go on with the implicit method. They have become so long that the
-/// explicit one would have to be as short as they are: go on with that.
+/// Switches to the implicit method when only stability limits the steps. Switches back when steps are so
+/// short that the explicit method could make them as well.
 void SmoothMotion::watch_stiffness() {
-  constexpr double kStable = 6.1;  // of DOP853, in lengths of step times rates
+  constexpr double kStable = 6.1;  // stability limit of DOP853, in step length times rate
   constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
   const double h = time_ - start_;
   if (!stiff_) {
@@ -36,14 +36,14 @@ void SmoothMotion::watch_stiffness() {
   implicit_.forget();
 }
 
-/// About the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
-/// rates: two applications at a time, because positions and velocities take turns in an oscillation.
+/// Estimates the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
+/// rates: two applications at a time, because positions and velocities alternate in an oscillation.
 double SmoothMotion::fastest_rate() {
   constexpr double kShift = 1e-7;
   constexpr int kPairs = 3;
   const std::span<const double> rate = rate_at_end();
   std::vector<double> y(y_.size()), out(y_.size()), direction(y_.size());
-  for (std::size_t i = 0; i < direction.size(); ++i) {  // any that has a part of every mode
+  for (std::size_t i = 0; i < direction.size(); ++i) {  // arbitrary, with a part of every mode
     const double mixed = static_cast<double>(static_cast<std::uint32_t>(i + 1) * 2654435761u) / 4294967296.0;
     direction[i] = all_.error_scale[i] * (mixed - 0.5);
   }

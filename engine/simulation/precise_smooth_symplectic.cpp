@@ -4,10 +4,10 @@
 #include "engine/scene/error.h"
 #include "engine/simulation/precise_smooth.h"
 
-// Steps of the symplectic method, and how long they are.
+// Steps of the symplectic method, and their length.
 namespace plumb::precise {
 
-/// Fixed steps, shorter only where they would go beyond `limit`.
+/// Makes a step of fixed length, shorter only if it would go beyond `limit`.
 double SmoothMotion::symplectic_step(double limit) {
   if (proposed_step_ == 0) proposed_step_ = longest_symplectic_step();
   const double end = std::min(start_ + proposed_step_, limit);
@@ -17,7 +17,7 @@ double SmoothMotion::symplectic_step(double limit) {
   return end;
 }
 
-/// A step that meets the tolerance from here on: its error is the difference to two steps of half its length.
+/// Finds a step length that meets the tolerance from here on: the error is the difference to two half steps.
 double SmoothMotion::longest_symplectic_step() {
   constexpr double kFewest = 1e-12;
   const auto fits = [&](double h) {
@@ -33,11 +33,11 @@ double SmoothMotion::longest_symplectic_step() {
   const auto meets = [&](double h) {
     try {
       return fits(h);
-    } catch (const Error&) {  // joints that do not close over so long a step
+    } catch (const Error&) {  // joints do not close over so long a step
       return false;
     }
   };
-  // Few bits, so that times are sums without rounding.
+  // Rounded to float, so that sums of steps are exact.
   double h = static_cast<float>(first_step());
   const double least = kFewest * h;
   while (!meets(h) && h > least) h *= 0.5;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// What holds a multiplier that rows depending on each other leave free, relative to what a row's own impulse
-/// moves.
+/// Regularisation that fixes the free multipliers of dependent rows, relative to the response to a row's own
+/// impulse.
 constexpr double kRedundant = 1e-12;
 
 }  // namespace
@@ -44,10 +44,10 @@ ForceBlock& StiffMotion::block(int on, int by) {
   return blocks_.back();
 }
 
-/// Joint forces with constant multipliers, as laws of force. A revolute joint pushes with f at r_b and -f at
-/// r_a: the torques r x f change by -r . f as r turns. A distance joint's force l u turns with its direction
-/// u too: with s = -u_y, u_x across it and p = (s, r x s) how the anchors move across it, the change is l/d p
-/// p^T.
+/// Adds joint forces with constant multipliers as laws of force. A revolute joint pushes with f at r_b and -f
+/// at r_a: the torques r x f change by -r . f as r turns. The force l u of a distance joint also turns with
+/// its direction u. With s = (-u_y, u_x) across it and p = (s, r x s) the anchors' motion across it, the
+/// change is l / d times p p^T.
 void StiffMotion::add_tension() {
   const std::span<const double> multipliers = equations_.multipliers();
   const std::span<const Pose<double>> poses = equations_.poses();
@@ -102,8 +102,8 @@ bool StiffMotion::order_is_known() const {
   return true;
 }
 
-/// Bodies breadth first from one with few neighbours (E. Cuthill, J. McKee 1969), each followed by the rows
-/// that it has with later ones.
+/// Orders bodies breadth first from one with few neighbours (E. Cuthill, J. McKee 1969), each followed by the
+/// rows that it shares with later ones.
 void StiffMotion::find_order() {
   const std::size_t bodies = inverse_mass_.size();
   std::vector<std::vector<int>> neighbours(bodies), rows_of(bodies);
@@ -163,7 +163,7 @@ void StiffMotion::find_order() {
   for (System& system : systems_) system.stages = 0;
 }
 
-/// Gives the matrix its size and band.
+/// Sets the size and the bandwidth of the matrix.
 void StiffMotion::fit(System& system, int stages) const {
   std::size_t width = 3;
   const auto reach = [&](std::size_t a, std::size_t size_a, std::size_t b, std::size_t size_b) {
@@ -192,7 +192,7 @@ bool StiffMotion::factor(Use use, std::span<const double> a, int stages, double 
   system.h = h;
   BandedLu& matrix = system.matrix;
   matrix.clear();
-  const auto at = [&](std::size_t place, int size, int stage, int i) {  // an unknown of a body or row
+  const auto at = [&](std::size_t place, int size, int stage, int i) {  // index of an unknown
     return static_cast<std::size_t>(stages) * place + static_cast<std::size_t>(stage * size + i);
   };
   for (std::size_t slot = 0; slot < inverse_mass_.size(); ++slot) {
@@ -251,7 +251,7 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   const double h = system.h;
   std::vector<double>& g = system.right_side;
   std::fill(g.begin(), g.end(), 0.0);
-  // How far positions move when accelerations are those on the right side: u_j = r_q,j + h sum_k a_jk r_v,k.
+  // Change of positions by the accelerations on the right side: u_j = r_q,j + h sum_k a_jk r_v,k.
   moved_.resize(stages * n);
   const auto move = [&] {
     for (int j = 0; j < stages; ++j) {

@@ -14,12 +14,12 @@
 
 namespace plumb::precise {
 
-/// The equations of motion as an implicit method needs them. With force derivatives K = dF/dq, D = dF/dv, a
-/// change of the stages' accelerations x_i obeys
+/// The equations of motion for an implicit method. With force derivatives K = dF/dq, D = dF/dv, a change of
+/// the stages' accelerations x_i obeys
 ///   M x_i - sum_k (h^2 (A A)_ik K + h a_ik D) x_k - J^T mu_i = g_i,   J x_i = 0,
 /// one banded system for all stages, bodies and rows, with neighbours in the mechanism next to each other:
-/// its cost is linear in the length of a chain. K includes what joint forces do when their levers turn (the
-/// stiffness that tension gives); the curvature of the joints' paths is left to Newton's iterations.
+/// its cost is linear in the length of a chain. K includes the geometric stiffness of joint forces, as their
+/// levers turn; the curvature of the joints' paths is left to Newton's iterations.
 class StiffMotion final : public StiffFlow {
  public:
   StiffMotion(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
@@ -55,9 +55,9 @@ class StiffMotion final : public StiffFlow {
   std::vector<Row<double>> rows_;
   std::vector<ForceBlock> blocks_;
 
-  // Where the unknowns of a body or row begin, for one stage.
+  // Index of a body's or row's first unknown, for one stage.
   std::vector<std::size_t> body_place_, row_place_;
-  std::vector<std::array<int, 2>> ordered_rows_, ordered_blocks_;  // what that order was found for
+  std::vector<std::array<int, 2>> ordered_rows_, ordered_blocks_;  // structure for which the order was found
   std::array<System, 2> systems_;                                  // by Use
   std::vector<double> moved_;                                      // work space of `solve`
 };

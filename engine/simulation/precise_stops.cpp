@@ -6,11 +6,11 @@
 namespace plumb::precise {
 namespace {
 
-/// Forces may be this much beyond their bound before it counts, of the largest of them.
+/// Excess over its bound at which a force counts as an event, as a fraction of the largest force.
 constexpr double kForceNoise = 3e-11;
-/// Of the scene's speed: what rounding can make of a rate.
+/// Fraction of the scene's speed: rounding of a rate.
 constexpr double kQuiet = 1e-12;
-/// Of the scene's length, or of a radian: what is no gap.
+/// Fraction of the scene's length, or of a radian: smaller gaps count as zero.
 constexpr double kNear = 1e-13;
 
 }  // namespace
@@ -40,7 +40,7 @@ void Stops::find(double time, std::span<const double> y, const TouchFinder& find
   }
 }
 
-/// How much a motor is too slow.
+/// Returns the speed that a motor lacks.
 double Stops::lacking(std::size_t k, std::span<const Twist<double>> twists) const {
   return stop(k).speed - rate_along(rows_[k], twists);
 }
@@ -119,7 +119,7 @@ Stops::Approach Stops::approach(std::size_t limit, double time, std::span<const 
   return {row.residual, rate_along(row, equations_.twists())};
 }
 
-/// How long a limit is certainly not met from `time` on.
+/// Returns a time from `time` on during which a limit is certainly not reached.
 double Stops::safe_step(std::size_t k, const Approach& now, const StepPaths& paths, double time,
                         double until) const {
   const KindJoints::Stop& s = stop(k);
@@ -143,7 +143,7 @@ double Stops::safe_step(std::size_t k, const Approach& now, const StepPaths& pat
     const double far = apart + (until - time) * speed;
     return lasts(f, now.rate, acceleration + 2 * turn_a.speed * speed + swing(turn_a) * far);
   }
-  // |d|'' is at most |d''| + |d'|^2 / |d|, and |d| no less than its half for a while.
+  // |d|'' is at most |d''| + |d'|^2 / |d|, as long as |d| is at least half of its present value.
   if (!(speed > 0)) return until - time;
   const double half = apart / (2 * speed);
   const double bent = apart > 0 ? lasts(f, now.rate, acceleration + 2 * speed * speed / apart) : 0;
@@ -160,7 +160,7 @@ std::optional<double> Stops::first_time(std::size_t k, const StepPaths& paths, S
   };
   double time = start;
   Approach now = look(time);
-  // One that starts where it is met, opening or about to: from where it is open on.
+  // If the limit is reached at the start, and opening or about to: start when it is open.
   const double deepest = std::min(now.gap, 0.0) - tolerance(k);
   for (double share = 1e-8; now.gap + tolerance(k) <= there && time < until; share *= 4) {
     time = std::min(start + share * h, until);

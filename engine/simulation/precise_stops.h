@@ -14,51 +14,52 @@
 
 namespace plumb::precise {
 
-/// Limits and motors of joints. They take part in what is decided for contacts: a limit that is met is a
-/// touch without friction and without restitution, and a constraint for as long as it pushes; a motor is a
-/// constraint at its speed for as long as its force suffices (a `Brake`), and a constant force else.
+/// Limits and motors of joints. They take part in the decisions about contacts. A limit that is reached is a
+/// touch without friction and restitution, and a constraint for as long as it pushes. A motor is a constraint
+/// at its speed for as long as its force suffices (a `Brake`), and a constant force otherwise.
 class Stops {
  public:
   Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
 
   bool empty() const { return modes_.empty(); }
 
-  /// Takes the rows at a state, bodies' velocities besides; adds the limits that are met there.
+  /// Computes the rows at a state, with the bodies' velocities; appends the limits that are reached there to
+  /// `touches`.
   void find(double time, std::span<const double> y, const TouchFinder& finder,
             std::span<const BodyState> states, std::vector<Touch>& touches);
 
-  /// After impacts: takes the rows anew, those of `touches` too. Motors that are off their speed push from
-  /// now on; returns those that are at it.
+  /// After impacts: updates the rows, including those of `touches`. Motors off their speed push from now on;
+  /// returns those at their speed.
   std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
                           std::vector<Touch>& touches);
 
-  /// What was decided: how limits, and brakes (by mode: 0 holds, +1 and -1 gives way in that direction), act
-  /// from now on; `force` is the largest of theirs.
+  /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
+  /// `force` is the largest of their forces.
   void hold(std::size_t limit);
   void take(const Brake& brake, int mode);
   void act(double force);
 
-  /// What is watched while they act: of limits that are free and pass what is theirs, of forces, of what
-  /// motors lack of their speed. Negative, beyond the tolerance, is an event.
+  /// The monitored values: gaps of free limits, force margins of held stops, the speed that motors lack.
+  /// Negative, beyond the tolerance, is an event.
   double tolerance(std::size_t stop) const;
   void evaluate(double time, std::span<const double> y, std::span<double> values);
   std::size_t count() const { return modes_.size(); }
 
-  /// Whether the step just made ended where this limit is met: it is met whatever rounding says.
+  /// Declares that the last step ended at this limit: it counts as reached whatever rounding says.
   void meet(std::optional<std::size_t> limit) { met_ = limit; }
   bool is_free_limit(std::size_t stop) const;
 
-  /// The first limit that is met within the step just made, up to `until`, and when. C obeys
+  /// Finds the first limit that is reached within the last step, up to `until`, and the time. C obeys
   ///   C(t + s) >= C + C' s - A s^2 / 2,
-  /// A a bound on C'' from the step's polynomials: nothing is missed, but what is passed and left again
-  /// within 1/4096 of a step by less than that allows for.
+  /// A a bound on C'' from the step's polynomials. Only limits that are passed and left again within 1/4096
+  /// of a step may be missed.
   struct Met {
     double time = 0;
     std::size_t limit = 0;
   };
   std::optional<Met> first_met(const StepPaths& paths, SmoothMotion& smooth, double until);
 
-  /// Of a limit at a state: how far it is off, and how fast that changes.
+  /// The gap of a limit at a state, and its rate.
   struct Approach {
     double gap = 0, rate = 0;
   };
@@ -79,7 +80,7 @@ class Stops {
   EquationsOfMotion& equations_;
   double length_, speed_;  // the scene's
   std::vector<Mode> modes_;
-  std::optional<std::size_t> met_;  // the limit that the last step ended at
+  std::optional<std::size_t> met_;  // the limit at which the last step ended
   std::vector<Row<double>> rows_;   // at the motion's time
   std::vector<Twist<double>> twists_;
   double force_scale_ = 0;

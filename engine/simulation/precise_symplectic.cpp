@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// Lengths of the stages: these, the middle, these backwards.
+/// Lengths of the stages: kGamma, kMiddle, and kGamma backwards.
 constexpr int kHalf = 8;
 constexpr double kGamma[kHalf] = {0.13020248308889008087881763,  0.56116298177510838456196441,
                                   -0.38947496264484728640807860, 0.15884190655515560089621075,
@@ -39,9 +39,9 @@ void SymplecticMotion::step(double time, double h, Compensated& y) {
   for (int i = kHalf; i-- > 0;) go(kGamma[i]);
 }
 
-/// One RATTLE step: half a kick, the drift with the joints' impulses that close them at its end, the other
-/// half with those that keep them closed. Starts with the accelerations and the Jacobian where y is, and
-/// leaves them so.
+/// One RATTLE step: half a kick, the drift with the joints' impulses that close them at its end, then the
+/// other half kick with the impulses that keep them closed. Starts with the accelerations and the Jacobian at
+/// y, and ends with those at the new y.
 void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(0.5 * h, acceleration_, y);
   drift(time, h, y);
@@ -52,7 +52,7 @@ void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(1, push_, y);
 }
 
-/// q += h v, then q += M^-1 J^T lambda with J of the start until C(q) = 0, and v along.
+/// Sets q += h v, then q += M^-1 J^T lambda with J of the start until C(q) = 0, and corrects v accordingly.
 void SymplecticMotion::drift(double time, double h, Compensated& y) {
   constexpr int kMost = 50;
   const std::span<const std::size_t> bodies = equations_.bodies();

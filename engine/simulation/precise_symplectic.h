@@ -16,7 +16,7 @@ class SymplecticMotion {
  public:
   explicit SymplecticMotion(EquationsOfMotion& equations);
 
-  /// Moves y from `time` over `h`. Joints are closed, and stay so.
+  /// Steps y from `time` over `h`. Joints must be closed, and stay so.
   void step(double time, double h, Compensated& y);
 
  private:

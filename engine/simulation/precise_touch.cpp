@@ -113,7 +113,7 @@ void TouchFinder::measure(std::span<const BodyState> states, Touch& touch) const
   touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
 }
 
-/// Of a limit: its row stays as it is while bodies do not move.
+/// Measures a limit: its row stays the same while bodies do not move.
 void TouchFinder::measure_stop(std::span<const BodyState> states, Touch& touch) const {
   const Row<double>& row = touch.rows[0].normal;
   double around = 0;

@@ -12,21 +12,21 @@
 
 namespace plumb::precise {
 
-/// Two shapes that touch at an instant, in one or two points, and how they move against each other there; or
-/// a limit of a joint that is met, in one.
+/// Two shapes that touch at an instant, in one or two points, with their relative motion there; or a limit of
+/// a joint that is reached, with one point.
 struct Touch {
   OutlinePair pair{};
-  std::optional<std::size_t> stop{};  ///< of the equations' stops: the limit; without shapes then
+  std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
   double friction = 0, restitution = 0;
   int count = 0;
   Feature features[2] = {};
   ContactRows rows[2] = {};
   double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
   double slip = 0;         ///< m/s, of b against a along the tangent
-  double quiet = 0;        ///< m/s, what rounding can make of these
+  double quiet = 0;        ///< m/s, noise floor of these by rounding
 };
 
-/// The outlines of a scene that may touch, and what touches at an instant.
+/// The outlines of a scene that may touch; finds those that touch at an instant.
 class TouchFinder {
  public:
   TouchFinder(const Scene& scene, const Parts& parts);
@@ -39,15 +39,15 @@ class TouchFinder {
   double scale_of_speed() const { return speed_; }
   double scale_of_length() const { return length_; }
 
-  /// What rounding can make of a gap, m, with bodies at the given states.
+  /// Returns the rounding error of a gap, m, with bodies at the given states.
   double near(std::span<const BodyState> states) const;
 
-  /// What touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs that
-  /// touch where a chain may not push: at its back, and where an end belongs to the next segment.
+  /// Returns the touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs
+  /// that touch where a chain may not push: at its back, and at an end that belongs to the next segment.
   std::vector<Touch> touches(std::span<const BodyState> states, double near,
                              std::vector<OutlinePair>& passing) const;
 
-  /// Rates of a touch anew, after velocities have changed.
+  /// Updates the rates of a touch after velocities have changed.
   void measure(std::span<const BodyState> states, Touch& touch) const;
 
  private:
@@ -60,7 +60,7 @@ class TouchFinder {
   double speed_ = 1, length_ = 1;
 };
 
-/// The wide net of a step: boxes that bodies stay in, and the pairs whose boxes overlap.
+/// Broad phase of a step: returns the pairs whose swept boxes overlap.
 std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepPaths& paths);
 
 }  // namespace plumb::precise

@@ -11,7 +11,7 @@
 namespace plumb {
 namespace {
 
-/// What Precise lacks of a joint, or nothing.
+/// Returns the feature of a joint that Precise lacks, or nothing.
 std::string missing_in(const Joint& joint) {
   std::string found;
   std::visit(
@@ -39,7 +39,7 @@ std::string precise_unsupported(const Scene& scene) {
     return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
            kElsewhere;
   }
-  // Every evaluation looks at all contacts at once: its cost goes with the square of their number and more.
+  // Every evaluation involves all contacts at once: its cost grows at least with the square of their number.
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(scene);
   std::vector<char> touches(scene.bodies.size(), 0);

@@ -41,19 +41,19 @@ void require_body(std::size_t body, std::size_t count) {
               "there are " + std::to_string(count) + " bodies");
 }
 
-/// As a scene's own numbers.
+/// Checks a number against the limit for a scene's numbers.
 void require_number(const std::string& subject, const char* field, double value) {
   if (std::abs(value) <= kLargest) return;
   throw Error(Error::Kind::Value, subject, field, shortest(value),
               "must be a number of at most " + shortest(kLargest) + " in magnitude");
 }
 
-/// What every snapshot starts with.
+/// The header of every snapshot.
 struct SnapshotHeader {
   char magic[8] = {'p', 'l', 'u', 'm', 'b', 's', '0', '1'};
   std::uint64_t identity = 0;
   std::uint64_t size = 0;      // bytes that follow
-  std::uint64_t checksum = 0;  // of them
+  std::uint64_t checksum = 0;  // of those bytes
 };
 
 }  // namespace

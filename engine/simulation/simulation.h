@@ -13,7 +13,7 @@
 
 namespace plumb {
 
-/// A compiled scene that moves. Made by `compile`; movable, not copyable (use `save` and `restore`).
+/// A compiled scene that can be stepped. Made by `compile`; movable, not copyable (use `save` and `restore`).
 class Simulation {
  public:
   /// Advances by dt (Realtime) or max_dt (Precise), `count` times. Throws Error (Value) for a negative count.
@@ -25,24 +25,24 @@ class Simulation {
   void read(std::span<BodyState> out) const;  ///< `out` has `body_count()` elements, in the scene's order
   void set_state(std::size_t body, const BodyState& state);  ///< Error (Value) beyond 1e100
 
-  /// The forces of joints and lasting contacts at `time`, of Precise; throws `Error` (Unsupported) where the
-  /// accuracy is Realtime, which has impulses alone. Contacts have some from the first step on. Of joints
-  /// that repeat what others hold, one of many answers: the first carry all.
+  /// Returns the forces of joints and persistent contacts at `time`, for Precise; throws `Error`
+  /// (Unsupported) for Realtime, which has only impulses. Contacts have forces from the first step on. Of
+  /// redundant joints, the first carry all: one of many solutions.
   Reactions forces() const;
 
-  /// 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for the same
-  /// run.
+  /// Returns the 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for
+  /// the same run.
   std::uint64_t hash() const;
 
   std::vector<std::byte> save() const;
-  /// Throws `Error` (Value) when `snapshot` is not of this scene and accuracy, and changes nothing.
+  /// Throws `Error` (Value) when `snapshot` is not of this scene and accuracy, and then changes nothing.
   void restore(std::span<const std::byte> snapshot);
 
   const Plan& plan() const;
   void profile(bool on);
   Statistics statistics() const;
-  /// With `OnDoubt::Report`: the first thing that a step did not keep as promised, or null. Until the next
-  /// call of `step`, `set_state` or `restore`.
+  /// With `OnDoubt::Report`: returns the first violation of a promise by a step, or null. Valid until the
+  /// next call of `step`, `set_state` or `restore`.
   const Error* doubt() const;
 
  private:
@@ -56,13 +56,13 @@ class Simulation {
 };
 
 struct CompileOptions {
-  bool every_stage = false;  ///< run stages that the scene does not need as well; the bits stay the same
+  bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
 };
 
 /// Validates `scene` and `accuracy`, derives the plan and allocates what it needs. Throws `Error`.
 Simulation compile(const Scene& scene, const Accuracy& accuracy = Realtime{}, CompileOptions options = {});
 
-/// Empty, or the reason why `accuracy` cannot run `scene` (a valid one).
+/// Returns an empty string, or the reason why `accuracy` cannot run `scene` (a valid one).
 std::string unsupported(const Scene& scene, const Accuracy& accuracy);
 
 }  // namespace plumb

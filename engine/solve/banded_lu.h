@@ -6,29 +6,29 @@
 
 namespace plumb {
 
-/// A square matrix with entries near its diagonal alone, factorised as P L U with partial pivoting (G. H.
-/// Golub, C. F. Van Loan, Matrix Computations, 4.3). Costs n w^2 with w the width of the band.
+/// A square matrix whose entries lie near its diagonal, factorised as P L U with partial pivoting (G. H.
+/// Golub, C. F. Van Loan, Matrix Computations, 4.3). Costs n w^2 with w the band width.
 class BandedLu {
  public:
-  /// `below` and `above`: how far entries lie from the diagonal at most. All entries become zero.
+  /// `below` and `above`: largest distance of entries from the diagonal. Sets all entries to zero.
   void reset(std::size_t size, std::size_t below, std::size_t above);
 
   std::size_t size() const { return size_; }
   void clear();
   double& at(std::size_t row, std::size_t column) { return entries_[row * width_ + column + below_ - row]; }
 
-  /// False when the matrix is singular, or not finite.
+  /// Returns false if the matrix is singular or not finite.
   bool factor();
 
-  /// Solves for `x` in place, with the last factorisation.
+  /// Solves for `x` in place with the last factorisation.
   void solve(std::span<double> x) const;
 
  private:
   std::size_t last_in(std::size_t row) const { return row + reach_ < size_ ? row + reach_ : size_ - 1; }
 
   std::size_t size_ = 0, below_ = 0, reach_ = 0,
-              width_ = 1;        // reach_: of rows of U, which pivoting lengthens
-  std::vector<double> entries_;  // row after row, from `below_` before the diagonal
+              width_ = 1;        // reach_: upper band width of U, which pivoting enlarges
+  std::vector<double> entries_;  // row by row, from `below_` before the diagonal
   std::vector<double> lower_;    // multipliers, `below_` a column
   std::vector<std::size_t> pivot_;
 };

@@ -15,7 +15,7 @@ void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
       neighbours_[ends_[j].second].push_back(ends_[i].second);
     }
   }
-  // Breadth first from a block at the edge; the last one found from any start is one.
+  // Breadth first from a block at the edge. The last block of a search from any start is such a block.
   degree_.assign(blocks, 0);
   const auto walk = [&](int start, int mark) {
     const std::size_t begin = sequence_.size();

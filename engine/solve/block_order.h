@@ -7,20 +7,20 @@
 
 namespace plumb {
 
-/// The order in which blocks of constraint rows are eliminated: Cuthill and McKee (1969), reversed, on the
-/// graph whose edges join blocks that share a body.
+/// Elimination order of blocks of constraint rows: reverse Cuthill-McKee (1969) on the graph whose edges join
+/// blocks that share a body.
 class BlockOrder {
  public:
   explicit BlockOrder(std::pmr::memory_resource* room = std::pmr::get_default_resource())
       : ends_(room), neighbours_(room), sequence_(room), degree_(room) {}
 
-  /// `ends`: body and block, for each body of each block that gives way.
+  /// `ends`: body and block, for each dynamic body of each block.
   void find(int blocks, std::span<const std::pair<int, int>> ends);
 
-  /// Blocks, first eliminated first.
+  /// Blocks in elimination order.
   std::span<const int> sequence() const { return sequence_; }
   std::span<const int> neighbours(int block) const { return neighbours_[block]; }
-  /// Body and block, by body.
+  /// Pairs of body and block, sorted by body.
   std::span<const std::pair<int, int>> ends() const { return ends_; }
 
  private:

@@ -6,14 +6,14 @@
 
 namespace plumb {
 
-/// What a solver of the real-time world reads and writes of a body: half a cache line in float. Bodies that
-/// are not dynamic have no inverse mass; they move as they are told.
+/// Solver body of the real-time world: the part of a body that solvers read and write, half a cache line in
+/// float. Only dynamic bodies have an inverse mass; kinematic ones follow their given velocity.
 template <class Real>
 struct alignas(16) BodyMotion {
   Vec2<Real> velocity{};      ///< m/s, of the centre of mass
   Real angular_velocity = 0;  ///< rad/s
-  Vec2<Real> moved{};         ///< m, of the centre of mass since the step's start
-  Real turned = 0;            ///< rad, since the step's start
+  Vec2<Real> moved{};         ///< m, of the centre of mass since the start of the step
+  Real turned = 0;            ///< rad, since the start of the step
   Real inverse_mass = 0;      ///< 1/kg
   Real inverse_inertia = 0;   ///< 1/(kg m^2)
 
@@ -23,24 +23,23 @@ struct alignas(16) BodyMotion {
   }
 };
 
-/// Whether impulses change the body's velocity.
+/// Returns true if impulses change the body's velocity.
 template <class Real>
 bool gives_way(const BodyMotion<Real>& motion) {
   return motion.inverse_mass + motion.inverse_inertia > 0;
 }
 
-/// The bodies of a world as solvers see them, indexed by body: awake ones, static ones and all others alike.
+/// The solver bodies of a world, indexed by body: awake, static and all others.
 template <class Real>
 struct SolverBodies {
   BodyMotion<Real>* motion = nullptr;
-  const Rotation<Real>* rotation =
-      nullptr;                      ///< from the body's frame to the world's, now (kept up every substep)
-  const Vec2d* position = nullptr;  ///< m, centres of mass at the step's start, in double: far from the
-                                    ///< origin only differences may be rounded
+  const Rotation<Real>* rotation = nullptr;  ///< from the body's frame to the world's, updated every substep
+  const Vec2d* position = nullptr;  ///< m, centres of mass at the start of the step. In double, because far
+                                    ///< from the origin only differences may be rounded
 };
 
-/// A constraint that is a damped spring, ready for a substep h (Catto, Soft Constraints, 2011):
-/// lambda' = -mass (mass_scale (Jv + bias_rate C)) - impulse_scale lambda. The rigid one is {0, 1, 0}.
+/// A soft constraint's coefficients for a substep h (Catto, Soft Constraints, 2011):
+/// lambda' = -mass (mass_scale (Jv + bias_rate C)) - impulse_scale lambda. A rigid constraint has {0, 1, 0}.
 template <class Real>
 struct Softness {
   Real bias_rate = 0;  ///< 1/s
@@ -48,8 +47,8 @@ struct Softness {
   Real impulse_scale = 0;
 };
 
-/// omega = 2 pi hertz: bias_rate = omega / (2 zeta + h omega), mass_scale = c / (1 + c), impulse_scale = 1 /
-/// (1 + c), c = h omega (2 zeta + h omega).
+/// Returns the softness for omega = 2 pi hertz and c = h omega (2 zeta + h omega):
+/// bias_rate = omega / (2 zeta + h omega), mass_scale = c / (1 + c), impulse_scale = 1 / (1 + c).
 template <class Real>
 Softness<Real> softness(double hertz, double damping_ratio, double h) {
   if (!(hertz > 0)) return {};

@@ -9,17 +9,18 @@
 namespace plumb {
 namespace {
 
-// Impacts closer in time than this share of a substep come at once.
+// Impacts closer in time than this fraction of a substep are simultaneous.
 constexpr double kAtOnce = 1e-3;
-// Approaches below this share of the fastest are left to the sweeps, which stop them.
+// Approaches below this fraction of the fastest are left to the solver's iterations, which stop them.
 constexpr double kSlow = 1e-4;
-// Sweeps of a round end when no velocity changes by more than this share of the fastest.
+// The iterations of a round end when no velocity changes by more than this fraction of the fastest.
 constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
-// Most bounces that are looked at in all rounds of a substep.
+// Maximum number of contacts examined in all rounds of a substep.
 constexpr int kLooks = 1 << 17;
-// Most rounds of a substep in which no time passes, and as many more for each bounce of the crowd: to the far
-// end and back in a few of them. More is a body that friction or a second wall presses back at once.
+// Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
+// An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
+// presses a body back at once.
 constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 template <class Real>
@@ -27,7 +28,7 @@ bool has_mass(const BodyMotion<Real>& body) {
   return body.inverse_mass > 0;
 }
 
-// m, of a point now.
+// Returns the present separation of a point, m.
 template <class Real>
 Real separation_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
   const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
@@ -50,7 +51,7 @@ bool is_struck(const Bounce<Real>& bounce) {
   return bounce.strikes[0] || bounce.strikes[1];
 }
 
-// The fastest approach of what is struck, m/s.
+// Returns the fastest approach of a point that has an impact, m/s.
 template <class Real>
 Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<Bounce<Real>>& bounces) {
   Real fastest = 0;
@@ -78,7 +79,7 @@ void clear_room(const std::vector<Bounce<Real>>& bounces, CrowdRoom<Real>& room)
   room.crowd.clear();
 }
 
-// Notes that impacts may be handed on to the contact's bodies; whether that is new of one of them.
+// Marks the contact's bodies as reachable by impact propagation. Returns true if one was not marked before.
 template <class Real>
 bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, CrowdRoom<Real>& room) {
   bool more = false;
@@ -90,7 +91,7 @@ bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Cro
   return more;
 }
 
-// The crowd: bounces that are struck, and all that the impacts may be handed on to.
+// Collects the contacts with impacts and all contacts to which these may propagate.
 template <class Real>
 void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces, Real within,
                 CrowdRoom<Real>& room) {
@@ -116,7 +117,7 @@ void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounc
   }
 }
 
-// The points that are struck next: of each body those of its earliest impact.
+// Finds the points of the next impacts: for each body those of its earliest one.
 template <class Real>
 void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<Real>& room) {
   room.struck.clear();
@@ -132,8 +133,8 @@ void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<R
       const Real s = std::max(separation_of(motion, c, i), Real(0));
       if (!(closing > least) || s > closing * h) continue;
       const Real time = std::max(s / closing, start);
-      // Whoever has not been struck yet bounces as `place_bounces` has it, with what gravity does before and
-      // after.
+      // A point without an earlier impact bounces as `place_bounces` set it, with the effect of gravity
+      // before and after.
       const bool placed = start == 0 && bounce->strikes[i];
       const Real wanted = placed ? bounce->speed[i] : c.restitution * closing;
       room.struck.push_back({bounce, i, time, wanted, -closing, 0});
@@ -148,7 +149,7 @@ void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<R
   });
 }
 
-// lambda >= 0 with n.v >= wanted, by sweeps, such that no energy is gained.
+// Solves lambda >= 0 with n.v >= wanted by sequential impulses, such that no energy is gained.
 template <class Real>
 void exchange(BodyMotion<Real>* motion, std::vector<StruckPoint<Real>>& struck, Real fastest) {
   bool changes = true;
@@ -178,7 +179,8 @@ void exchange(BodyMotion<Real>* motion, std::vector<StruckPoint<Real>>& struck, 
   }
 }
 
-// Friction of a point that has been struck, and the way that both impulses have too much of in the substep.
+// Applies friction to a point after its impact and corrects the displacement. Both impulses act only from the
+// time of impact on, not over the whole substep.
 template <class Real>
 void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
                    CrowdRoom<Real>& room) {
@@ -207,7 +209,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
 }
 
-// Whether what is struck next comes after what was struck before.
+// Returns true if a next impact comes after the last impacts of its bodies.
 template <class Real>
 bool time_passes(const CrowdRoom<Real>& room) {
   return std::any_of(room.struck.begin(), room.struck.end(), [&](const StruckPoint<Real>& at) {
@@ -238,7 +240,7 @@ int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vect
   }
   for (Bounce<Real>* bounce : room.crowd) {
     ContactConstraint<Real>& c = *bounce->contact;
-    // What is left comes too slowly, or not within this substep.
+    // The remaining approaches are too slow or do not touch within this substep.
     bounce->closes = false;
     bool open = true;
     for (int i = 0; i < c.count; ++i) {

@@ -7,7 +7,7 @@
 namespace plumb {
 namespace {
 
-// Exchanges the contact's masses with what is kept of them.
+// Exchanges the contact's masses with the stored ones.
 template <class Real>
 void swap_masses(Bounce<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
@@ -16,7 +16,7 @@ void swap_masses(Bounce<Real>& bounce) {
   std::swap(bounce.masses[4], c.inverse_qq);
 }
 
-// A contact without masses gives no impulses.
+// Disables the contact: without masses it gives no impulses.
 template <class Real>
 void let_through(Bounce<Real>& bounce) {
   bounce.passes = true;
@@ -79,7 +79,8 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
       const Real u = -bounce.before[i], a = (closing - u) * step.inverse_h;
       const Real strike = std::sqrt(std::max(u * u + 2 * a * s, Real(0)));
       bounce.closes = bounce.closes || closing > step.bounce_threshold;
-      // Sooner than not: whether it is pressed decides in the end, and must not be missed by rounding.
+      // Err on the side of "in time" (factor 0.999): the solved impulse decides in the end, and rounding must
+      // not exclude an impact.
       const bool in_time = closing * h > Real(0.999) * s;
       bounce.strikes[i] = in_time && strike > step.bounce_threshold;
       arrives = arrives || in_time;

@@ -7,16 +7,17 @@
 namespace plumb {
 namespace {
 
-// Added to the mobility of each row, as a share of it: rows that depend on each other share their load. What
-// rows miss for it is taken back by refinement.
+// Regularisation: added to the mobility of each row, as a fraction of it, so that redundant rows share their
+// load. Iterative refinement removes the error that it causes.
 constexpr double kSharing = 1e-10;
 constexpr int kRefinements = 2;
-// What rows may miss, and by how much they may be on the wrong side, relative to the row with the largest
-// energy v^2 / mobility: speeds of rows along lines and of angles have different units.
+// Tolerated residual of a row, and tolerated violation of its inequality, relative to the row with the
+// largest energy v^2 / mobility: speeds of linear and of angular rows have different units.
 constexpr double kExact = 1e-11, kSlack = 1e-9;
-// Block pivots: of systems that they end for, nine in ten need no more.
+// Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
 constexpr int kPivots = 4;
-// Rounds of descent after that, the sweeps in each, and those at the end when rounds run out.
+// Rounds of descent after that, the iterations in each, and the last iterations if the rounds do not
+// converge.
 constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
 
 double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {
@@ -151,7 +152,7 @@ void BoundedRows::factorise() {
   matrix_.factorise();
 }
 
-// What a row misses of what it wants, at the velocities as they are.
+// Returns the residual of a row at the present velocities.
 double BoundedRows::residual(int i) const {
   const BoundedRow& row = rows[i];
   double missing = row.wanted - along(row) - row.compliance * row.impulse;
@@ -166,13 +167,13 @@ bool BoundedRows::matters(int i, double speed, double share) const {
   return speed * speed > share * share * largest_ * mobility_[i];
 }
 
-// The bodies' velocities with all impulses as they stand.
+// Sets the bodies' velocities from all present impulses.
 void BoundedRows::apply_all() {
   std::copy(start_.begin(), start_.end(), bodies.begin());
   for (const BoundedRow& row : rows) push(row, row.impulse);
 }
 
-// Impulses of the free rows for those of the others as they stand.
+// Solves for the impulses of the free rows, given those of the others.
 void BoundedRows::find_free() {
   for (BoundedRow& row : rows) {
     if (row.state == BoundedRow::kFree) {
@@ -223,7 +224,7 @@ int BoundedRows::count_wrong() {
   return count;
 }
 
-// Work of the impulses on what is wanted, x . (wanted - J v), and on the way that they make, x . A x.
+// Returns the work x . (wanted - J v) of the impulses on the wanted velocities, and x . A x on their own.
 BoundedRows::Work BoundedRows::work() const {
   Work out;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
@@ -239,14 +240,14 @@ BoundedRows::Work BoundedRows::work() const {
   return out;
 }
 
-// 1/2 x A x - x (wanted - J v), which solutions minimise.
+// Returns 1/2 x A x - x (wanted - J v), which solutions minimise.
 double BoundedRows::energy() const {
   const Work w = work();
   return 0.5 * w.own - w.wanted;
 }
 
-// Makes all impulses smaller by the share that minimises the energy. Then x A x = x (wanted - J v): however
-// far they are from the solution, they gain no energy.
+// Scales all impulses by the factor that minimises the energy. Then x A x = x (wanted - J v): even far from
+// the solution they gain no energy.
 void BoundedRows::shrink() {
   const Work w = work();
   if (!(w.own > w.wanted)) return;
@@ -255,7 +256,7 @@ void BoundedRows::shrink() {
   apply_all();
 }
 
-// Projected Gauss-Seidel: each pass lowers the energy.
+// Runs passes of projected Gauss-Seidel, each of which lowers the energy.
 void BoundedRows::sweep(int passes) {
   for (int pass = 0; pass < passes; ++pass) {
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
@@ -269,7 +270,7 @@ void BoundedRows::sweep(int passes) {
   }
 }
 
-// Goes a share of the way x_ of the free rows.
+// Adds a fraction of the step x_ to the free rows.
 void BoundedRows::advance(double share) {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     BoundedRow& row = rows[free_[k]];
@@ -279,8 +280,7 @@ void BoundedRows::advance(double share) {
   }
 }
 
-// The minimum over the rows that are between their bounds, or as far on the way to there as lowers the
-// energy.
+// Goes to the minimum over the rows between their bounds, or towards it as far as the energy falls.
 void BoundedRows::minimise_free() {
   for (BoundedRow& row : rows)
     row.state = row.impulse <= row.lower   ? BoundedRow::kLower
@@ -301,7 +301,7 @@ void BoundedRows::minimise_free() {
       advance(1);
       continue;
     }
-    // All of the way, cut off at the bounds, where that is better than up to the first bound.
+    // Try the whole step, clamped at the bounds; keep it if it is better than the step to the first bound.
     for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
     advance(share);
     const double near = energy();
@@ -315,7 +315,7 @@ void BoundedRows::minimise_free() {
   }
 }
 
-// From the best impulses that are known.
+// Minimises by gradient projection, from the best impulses known.
 void BoundedRows::descend() {
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i].impulse = std::min(std::max(best_[i], rows[i].lower), rows[i].upper);
@@ -330,7 +330,7 @@ void BoundedRows::descend() {
   shrink();
 }
 
-// Whether block pivots end.
+// Runs block pivots; returns true if they end in a solution.
 bool BoundedRows::pivot() {
   int least = std::numeric_limits<int>::max();
   for (int pivots = 0; pivots < kPivots; ++pivots) {
@@ -354,7 +354,7 @@ void BoundedRows::solve() {
   assemble();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
-    // What moves nothing, and what may not press, has nothing to find.
+    // Rows that move nothing, or whose bounds leave no room, have nothing to solve.
     if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
     if (row.lower >= row.upper) row.state = BoundedRow::kLower;
   }

@@ -29,14 +29,15 @@ class Tableau {
     least_pivot_ = least_pivot * largest;
   }
 
-  std::size_t cover() const { return 2 * n_; }  // the column of z0
+  std::size_t cover() const { return 2 * n_; }  // column of z0
   std::size_t basis(std::size_t row) const { return basis_[row]; }
   double value(std::size_t row) const { return entries_[row * width_ + width_ - 1]; }
 
-  /// The column that may enter when `column` has left.
+  /// Returns the column that may enter after `column` has left.
   std::size_t complement(std::size_t column) const { return column < n_ ? column + n_ : column - n_; }
 
-  /// The lexicographically least row [q, w columns] as it stands, relative to the covering vector.
+  /// Returns the lexicographically least row [q, w columns] in the present tableau, relative to the covering
+  /// vector.
   std::size_t least_row() const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < n_; ++i) {
@@ -45,8 +46,8 @@ class Tableau {
     return best;
   }
 
-  /// The row that leaves when `column` enters: the lexicographically least ratio; nothing on a ray. z0 leaves
-  /// as soon as it may.
+  /// Returns the row that leaves when `column` enters: the lexicographically least ratio; nothing on a ray.
+  /// z0 leaves as soon as possible.
   std::optional<std::size_t> leaving(std::size_t column) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -54,7 +55,7 @@ class Tableau {
       if (!best || precedes(i, at(i, column), *best, at(*best, column))) best = i;
     }
     if (!best) return best;
-    for (std::size_t i = 0; i < n_; ++i) {  // ties in the value alone: z0 first
+    for (std::size_t i = 0; i < n_; ++i) {  // if values tie: z0 first
       if (basis_[i] != cover() || !(at(i, column) > least_pivot_)) continue;
       const double ratio = value(i) / at(i, column), least = value(*best) / at(*best, column);
       if (ratio <= least + 1e-14 * std::abs(least)) return i;
@@ -64,7 +65,7 @@ class Tableau {
 
   void pivot(std::size_t row, std::size_t column) {
     const double scale = 1 / at(row, column);
-    entries_in_row_.clear();  // most of what touches knows nothing of each other: few of them are not zero
+    entries_in_row_.clear();  // sparse: most contacts do not couple, so few entries are nonzero
     for (std::size_t j = 0; j < width_; ++j) {
       at(row, j) *= scale;
       if (at(row, j) != 0) entries_in_row_.push_back(j);
@@ -99,7 +100,7 @@ class Tableau {
   double least_pivot_ = 0;
 };
 
-/// The basic components anew from the problem itself: what pivoting has rounded away is put right.
+/// Recomputes the basic components from the original problem, to remove the rounding errors of pivoting.
 void polish(std::span<const double> matrix, std::span<const double> q, ComplementaritySolution& solution) {
   const std::size_t n = q.size();
   std::vector<std::size_t> in;
@@ -114,7 +115,7 @@ void polish(std::span<const double> matrix, std::span<const double> q, Complemen
   DenseSystem system;
   const bool regular = system.factor(in.size(), part) == in.size();
   system.solve_refined(z);
-  // Where columns depend on each other there are many solutions: this one will do only if it is one.
+  // Dependent columns have many solutions: reject this one if it has a negative component.
   if (!regular && std::any_of(z.begin(), z.end(), [](double x) { return x < 0; })) return;
   for (std::size_t i = 0; i < in.size(); ++i) solution.z[in[i]] = std::max(z[i], 0.0);
 }
@@ -155,7 +156,7 @@ ComplementaritySolution follow(std::span<const double> matrix, std::span<const d
   return solution;
 }
 
-/// Whether w is not negative beyond rounding, and zero where z is basic.
+/// Returns true if w >= 0 up to rounding, and w = 0 for basic z.
 bool holds(std::span<const double> matrix, std::span<const double> q,
            const ComplementaritySolution& solution) {
   constexpr double kRounding = 1e-9;
@@ -178,8 +179,8 @@ ComplementaritySolution solve_part(std::span<const double> matrix, std::span<con
   solution.z.assign(n, 0.0);
   solution.basic.assign(n, 0);
   if (std::all_of(q.begin(), q.end(), [](double x) { return x >= 0; })) return solution;
-  // Where rounding leads the method astray, or on a ray, another covering vector takes another way; a
-  // diagonal that is enlarged a little keeps it from pivots that are rounding.
+  // After a failure by rounding or on a ray, another covering vector takes another path. A slightly enlarged
+  // diagonal avoids pivots that consist of rounding error.
   constexpr double kLeastPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
   constexpr double kEnlarged[] = {0, 0, 0, 0, 1e-10, 1e-8};
   std::vector<double> enlarged(matrix.begin(), matrix.end());

@@ -9,22 +9,22 @@ namespace plumb {
 /// The linear complementarity problem
 ///   w = M z + q,   w >= 0,   z >= 0,   w z = 0 in every component,
 /// solved by Lemke's method with lexicographic pivots, which cannot cycle (R. W. Cottle, J.-S. Pang, R. E.
-/// Stone, The Linear Complementarity Problem, 1992, algorithm 4.4.5 and section 4.9). The solution is a basic
-/// one: the columns of M that belong to its positive components are independent.
+/// Stone, The Linear Complementarity Problem, 1992, algorithm 4.4.5 and section 4.9). The solution is basic:
+/// the columns of M that belong to its positive components are independent.
 struct ComplementaritySolution {
   enum class Status {
     Solved,
-    Ray,    ///< the method ends on a ray: for contacts, no solution (Painleve), or one that it does not reach
-    Limit,  ///< more pivots than 50 a component
+    Ray,    ///< ended on a ray: for contacts, no solution (Painleve), or one that the method does not reach
+    Limit,  ///< more than 50 pivots per component
   };
   Status status = Status::Solved;
   std::vector<double> z;
-  std::vector<char> basic;  ///< whether z_i, not w_i, is in the basis; it may be zero all the same
+  std::vector<char> basic;  ///< z_i, not w_i, is in the basis; z_i may still be zero
   int pivots = 0;
 };
 
-/// `matrix` row after row; entries of M and q should be of order one. The solution is checked; where rounding
-/// led astray, other covering vectors are tried before `Ray` or `Limit` is returned.
+/// Solves the problem. `matrix` is stored row by row; entries of M and q should be of order one. The solution
+/// is checked, and after a failure other covering vectors are tried before `Ray` or `Limit` is returned.
 ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q);
 
 }  // namespace plumb

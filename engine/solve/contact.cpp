@@ -11,7 +11,7 @@ Manifold<Real> manifold_of(const Contact<Real>& contact, std::span<const SolidSh
   return collide(a, place(a, pose_a), b, place(b, pose_b), reach);
 }
 
-/// Keeps what `follow` needs: the face in the reference body's frame, the points in the other's.
+/// Stores the data for `follow`: the face in the reference body's frame, the points in the other's.
 template <class Real>
 void remember(Contact<Real>& contact, const Manifold<Real>& manifold, const Pose<Real>& pose_a,
               const Pose<Real>& pose_b) {

@@ -21,15 +21,15 @@ struct ContactPoint {
   Vec2<Real> arm_a{}, arm_b{};             ///< m, from the centres of mass
   Real separation = 0;                     ///< m
   Real normal_mass = 0, tangent_mass = 0;  ///< kg, 1 / (J M^-1 J^T)
-  Real lower_bound = 0;                    ///< m/s: the pass keeps the normal velocity above it
+  Real lower_bound = 0;                    ///< m/s: lower bound of the normal velocity in the pass
   ContactImpulse<Real> hold{};             ///< of the pass before the bodies move
-  ContactImpulse<Real> relax{};  ///< of the pass after; the last pass's is the next one's first guess
+  ContactImpulse<Real> relax{};  ///< of the pass after they move; the last pass warm-starts the next one
   Vec2<Real> local{};            ///< m, of two boxes: the point in the incident body's frame
   std::uint32_t feature = 0;
   bool in_pass = false;
 };
 
-/// What a pair of shapes does to each other.
+/// A contact between two shapes.
 template <class Real>
 struct Contact {
   PairKey pair = 0;
@@ -37,37 +37,37 @@ struct Contact {
   Real inverse_mass_a = 0, inverse_mass_b = 0, inverse_inertia_a = 0, inverse_inertia_b = 0;
   Vec2<Real> normal{};  ///< unit, from a to b
   Real friction = 0, restitution = 0;
-  Real reach = 0;               ///< m, of the smaller shape: the contact's own scale of length
+  Real reach = 0;               ///< m, of the smaller shape: the contact's length scale
   int count = 0;                ///< points in use
-  bool two_boxes = false;       ///< its points are followed between detections, not found anew
-  bool reference_is_b = false;  ///< of two boxes: whose face gave the normal
-  bool impact = false;          ///< bodies met in this substep; its impulses are no guess for the next
-  bool bounced = false;         ///< the impact stage has dealt with it in this substep
-  bool placed = false;          ///< normal and arms belong to the bodies' present poses
-  Vec2<Real> local_normal{};    ///< of two boxes: out of the reference face, in its body's frame
-  Real face_offset = 0;         ///< m, of that face from its body's centre of mass, along it
+  bool two_boxes = false;       ///< points are tracked between detections, not found anew
+  bool reference_is_b = false;  ///< of two boxes: the normal is that of b's face
+  bool impact = false;  ///< the bodies had an impact in this substep; its impulses do not warm-start the next
+  bool bounced = false;       ///< the impact stage has dealt with it in this substep
+  bool placed = false;        ///< normal and arms are those of the bodies' present poses
+  Vec2<Real> local_normal{};  ///< of two boxes: outward normal of the reference face, in its body's frame
+  Real face_offset = 0;       ///< m, distance of that face from its body's centre of mass along the normal
   ContactPoint<Real> points[2];
 };
 
-/// Relative velocity of b against a at the point.
+/// Returns the velocity of b relative to a at the point.
 template <class Real>
 Vec2<Real> relative_velocity(const ContactPoint<Real>& point, const Twist<Real>& a, const Twist<Real>& b) {
   return velocity_at(b, point.arm_b) - velocity_at(a, point.arm_a);
 }
 
-/// Finds the contact's points at the given poses; impulses of points that were there before stay with them.
-/// Points farther apart than `reach` are left out.
+/// Finds the contact's points at the given poses and keeps the impulses of points that persist. Omits points
+/// farther apart than `reach`.
 template <class Real>
 void detect(Contact<Real>& contact, std::span<const SolidShape<Real>> shapes, const Pose<Real>& pose_a,
             const Pose<Real>& pose_b, Real reach);
 
-/// Moves normal, arms and separations along with the bodies: circles are looked at anew, the corners of boxes
-/// stay the corners that they were.
+/// Updates normal, arms and separations from the bodies' poses. Circles are recomputed; of boxes the contact
+/// points stay the same corners.
 template <class Real>
 void follow(Contact<Real>& contact, std::span<const SolidShape<Real>> shapes, const Pose<Real>& pose_a,
             const Pose<Real>& pose_b);
 
-/// Sets the points' effective masses: 1/m = n.(M^-1 n), with the arms' part (r x n)^2 / I.
+/// Computes the points' effective masses: 1/m = n.(M^-1 n), plus (r x n)^2 / I of the arms.
 template <class Real>
 void weigh(Contact<Real>& contact);
 

@@ -5,7 +5,7 @@
 namespace plumb {
 namespace {
 
-// Taken: a dynamic body of the constraint has one in this colour already.
+// Returns true if a dynamic body of the constraint already has one in this colour.
 bool taken(const BitSet& bodies, int a, bool gives_way_a, int b, bool gives_way_b) {
   return (gives_way_a && bodies.test(a)) || (gives_way_b && bodies.test(b));
 }
@@ -18,14 +18,14 @@ auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool giv
   const int a = constraint.body_a, b = constraint.body_b;
   const bool both = gives_way_a && gives_way_b;
   int chosen = kOverflow;
-  // Contacts with the ground look in their own colours first, and then, from the back, in the others.
+  // Contacts with static or kinematic bodies try their own colours first and then, from the back, the others.
   for (int i = 0; i < (both ? kDynamicColours : kColours); ++i) {
     const int c = both ? i : kColours - 1 - i;
     if (taken(bodies_[c], a, gives_way_a, b, gives_way_b)) continue;
     chosen = c;
     break;
   }
-  // First what may run out of memory.
+  // Allocate first, so that a failure changes nothing.
   if (chosen != kOverflow) bodies_[chosen].ensure(std::max(gives_way_a ? a + 1 : 0, gives_way_b ? b + 1 : 0));
   colours_[chosen].push_back(constraint);
   if (chosen != kOverflow) {

@@ -7,12 +7,12 @@
 
 namespace plumb {
 
-/// The contact constraints of awake bodies, sorted into colours: no two of a colour share a dynamic body, so
-/// that they may be solved in any order, side by side. Contacts with a body that does not give way have
-/// colours of their own at the end: what is solved last holds best, and the ground should. The colouring is
-/// greedy and persistent (a constraint keeps its colour); what finds none (contacts of a body that has many,
-/// a drum or a wrecking ball, which holds the others) goes to the overflow right before those of the ground,
-/// which is solved in order.
+/// Constraint graph: the contact constraints of awake bodies, grouped by graph colouring. No two of a colour
+/// share a dynamic body, so they may be solved in any order, side by side. Contacts with a static or
+/// kinematic body have colours of their own at the end: the constraints solved last hold best, and the ground
+/// should. The colouring is greedy and persistent: a constraint keeps its colour. Constraints without a
+/// colour (of a body with many contacts, as a drum or a wrecking ball) go to the overflow. It is solved in
+/// order, right before the contacts with the ground.
 template <class Real>
 class ContactGraph {
  public:
@@ -22,17 +22,17 @@ class ContactGraph {
     int colour = -1, index = -1;
   };
 
-  /// Takes `constraint` in. `gives_way_a/b`: whether that body is dynamic.
+  /// Adds `constraint`. `gives_way_a/b`: that body is dynamic.
   Place add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b);
 
-  /// Takes the constraint out; the last of its colour moves to `place`, if there is one: its record is
-  /// returned, else -1.
+  /// Removes the constraint and moves the last of its colour to `place`, if there is one. Returns the record
+  /// of the moved constraint, else -1.
   int remove(Place place, bool gives_way_a, bool gives_way_b);
 
   ContactConstraint<Real>& at(Place place) { return colours_[place.colour][place.index]; }
   const ContactConstraint<Real>& at(Place place) const { return colours_[place.colour][place.index]; }
 
-  /// `visit(constraint)` for all, in the order that they are solved in.
+  /// Calls `visit(constraint)` for all, in the solver's order.
   template <class Visit>
   void for_each(Visit&& visit) {
     for (int i = 0; i < used_count_; ++i) {
@@ -49,8 +49,8 @@ class ContactGraph {
   std::size_t size() const;
   bool empty() const { return used_count_ == 0; }
 
-  /// To be called after constraints were put into the colours' lists directly: finds again which bodies each
-  /// colour has, and which colours are in use. `gives_way(body)`: whether it is dynamic. False when two of a
+  /// Rebuilds each colour's set of bodies and the list of used colours, after constraints were written to the
+  /// colours' lists directly. `gives_way(body)`: true if it is dynamic. Returns false if two constraints of a
   /// colour share a dynamic body.
   template <class GivesWay>
   bool find_bodies(GivesWay&& gives_way) {
@@ -72,7 +72,7 @@ class ContactGraph {
  private:
   void find_used();
 
-  int used_[kColours + 1] = {};  // colours that are not empty, in their order
+  int used_[kColours + 1] = {};  // colours that are not empty, ascending
   int used_count_ = 0;
   std::vector<ContactConstraint<Real>> colours_[kColours + 1];
   BitSet bodies_[kColours];

@@ -5,12 +5,11 @@
 #include "engine/solve/body_motion.h"
 #include "engine/solve/contact_constraint.h"
 
-/// What passes over contacts are made of. They are inlined into each pass: a pass costs little more than the
-/// latency of its few operations.
+/// Building blocks of the passes over contacts. They are inlined into each pass, which costs little more than
+/// the latency of its few operations.
 namespace plumb {
 
-/// What a constraint's two bodies are, held in registers through a pass; their velocities are written back
-/// once.
+/// The two bodies of a constraint, held in registers through a pass. Their velocities are written back once.
 template <class Real>
 struct Pair {
   Pair(BodyMotion<Real>* motion, const ContactConstraint<Real>& c)
@@ -53,16 +52,16 @@ struct Pair {
   Real wa, wb;
 };
 
-/// What is asked of a point: v_n + bias = 0, softened.
+/// Bias and softness of a point: v_n + bias = 0, softened.
 template <class Real>
 struct Demand {
   Real bias = 0, mass_scale = 1, impulse_scale = 0;
 };
 
-/// lambda >= 0 with v_n + bias = 0 at both points at once, softened around the impulse lambda_0 that is
-/// expected: d = -mass_scale K^-1 (v + bias) - impulse_scale (lambda - lambda_0). The points pull at each
-/// other through the bodies' turning; one after the other they would need several sweeps. A point that would
-/// have to pull gets nothing, and the other one is solved alone.
+/// Solves lambda >= 0 with v_n + bias = 0 at both points together, softened around the expected impulse
+/// lambda_0: d = -mass_scale K^-1 (v + bias) - impulse_scale (lambda - lambda_0). The points are coupled by
+/// the bodies' rotation; solved one after the other they would need several iterations. A point that would
+/// have to pull gets no impulse, and the other one is solved alone.
 template <class Real>
 [[gnu::always_inline]] inline void press(Pair<Real>& pair, ContactConstraint<Real>& c,
                                          const Demand<Real>& at_p, const Demand<Real>& at_q) {
@@ -104,7 +103,7 @@ template <class Real>
   pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);
 }
 
-/// The largest impulses of a step, for those that ask.
+/// Records the largest impulses of a step.
 template <class Real>
 void note_peaks(ContactConstraint<Real>& c) {
   for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);

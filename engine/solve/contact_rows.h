@@ -7,22 +7,22 @@
 
 namespace plumb {
 
-/// A contact and its two bodies, one row at a time.
+/// A contact and its two bodies, for solving one row at a time.
 template <class Real>
 struct ContactPair {
   ContactPair(BodyMotion<Real>* motion, ContactConstraint<Real>& contact)
       : c(contact), a(motion[contact.body_a]), b(motion[contact.body_b]) {}
 
-  /// m, of a point, carried on from the step's start to first order.
+  /// Returns the separation of a point, m, updated from the start of the step to first order.
   Real separation(int i) const {
     return c.separation[i] + dot(c.normal, b.moved - a.moved) + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
   }
-  /// m/s, of a point along the normal; negative: closing.
+  /// Returns the velocity of a point along the normal, m/s; negative: closing.
   Real normal_rate(int i) const {
     return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
            c.arm_a[i] * a.angular_velocity;
   }
-  /// m/s, between the points along the tangent, less what the surfaces are to have.
+  /// Returns the tangential velocity between the points minus the target surface speed, m/s.
   Real sliding_rate() const {
     return dot(tangent(), b.velocity - a.velocity) + c.arm_tangent_b * b.angular_velocity -
            c.arm_tangent_a * a.angular_velocity - c.surface_speed;
@@ -32,9 +32,9 @@ struct ContactPair {
     return inverse > 0 ? 1 / inverse : Real(0);
   }
 
-  /// Impulses that bring the chosen points' velocities along n to `wanted`, such that their sums stay >= 0.
-  /// Two points pull at each other through the bodies' turning: they are solved at once (Catto, 2007); when
-  /// one would have to pull it gets nothing, and the other one is solved alone.
+  /// Applies impulses that bring the chosen points' velocities along n to `wanted`, such that their sums stay
+  /// >= 0. The points are coupled by the bodies' rotation and solved together (Catto, 2007). A point that
+  /// would have to pull gets no impulse, and the other one is solved alone.
   void press(const Real (&wanted)[2], bool first, bool second) {
     const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
     Real dp = 0, dq = 0;
@@ -63,7 +63,7 @@ struct ContactPair {
     apply((first + second) * c.normal, first * c.arm_a[0] + second * c.arm_a[1],
           first * c.arm_b[0] + second * c.arm_b[1]);
   }
-  /// What would stop the sliding, all in all.
+  /// Returns the total friction impulse that would stop the sliding.
   Real holding_impulse() const { return c.tangent_impulse - c.tangent_mass * sliding_rate(); }
   Real holding_torque() const {
     return c.rolling_impulse - spin_mass() * (b.angular_velocity - a.angular_velocity);
@@ -78,7 +78,7 @@ struct ContactPair {
     c.rolling_impulse = impulse;
     apply({}, d, d);
   }
-  /// Coulomb: |friction| <= mu pressure; the same for the torque that resists rolling.
+  /// Applies Coulomb friction, |friction| <= mu pressure, and likewise the rolling resistance torque.
   void rub_and_roll() {
     const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
     rub(std::clamp(holding_impulse(), -c.friction * pressure, c.friction * pressure));

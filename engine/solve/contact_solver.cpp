@@ -8,7 +8,7 @@
 namespace plumb {
 namespace {
 
-/// The two bodies' velocities while a contact works on them.
+/// The velocities of a contact's two bodies during an iteration.
 template <class Real>
 struct Pair {
   Twist<Real> a, b;
@@ -28,9 +28,9 @@ Vec2<Real> along(const Contact<Real>& contact, ContactImpulse<Real> impulse) {
   return impulse.normal * contact.normal + impulse.friction * perpendicular(contact.normal);
 }
 
-/// One sweep: friction, then the normal, which matters more and so has the last word. `Pass` names the
-/// impulse that changes; `before` is what earlier passes of this substep gave, so that the laws hold for the
-/// sum.
+/// Runs one iteration: friction, then the normal, which matters more and is therefore solved last. `changing`
+/// selects the impulse to change. `before` gives the impulses of earlier passes of this substep, so that the
+/// laws hold for the sum.
 template <class Real, class Changing, class Before>
 void sweep(std::vector<Contact<Real>>& contacts, const std::vector<int>& active, Bodies<Real>& bodies,
            bool friction, Changing changing, Before before) {
@@ -44,8 +44,8 @@ void sweep(std::vector<Contact<Real>>& contacts, const std::vector<int>& active,
         if (!point.in_pass) continue;
         ContactImpulse<Real>& impulse = changing(point);
         const ContactImpulse<Real> earlier = before(point);
-        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T). What a pass took back may leave P_n a rounding
-        // below 0, and std::clamp wants its bounds in order.
+        // |P_t| <= mu P_n, and P_t -= v_t / (J M^-1 J^T). After subtraction P_n may be below 0 by rounding,
+        // and std::clamp needs ordered bounds.
         const Real limit = contact.friction * (impulse.normal + earlier.normal);
         const Real speed = dot(relative_velocity(point, pair.a, pair.b), tangent);
         const Real wanted = impulse.friction + earlier.friction - point.tangent_mass * speed;
@@ -80,8 +80,8 @@ void warm_start(const Contact<Real>& contact, const ContactPoint<Real>& point, C
   bodies.twist[contact.b] = pair.b;
 }
 
-/// The normal velocity that lets the gap close within the substep, and no more. Where the shapes pressed on
-/// each other already, a gap is an error of this method: it closes gently, so that rest does not turn into
+/// Returns the normal velocity that just closes the gap within the substep. Between shapes that pressed on
+/// each other already, a gap is an error of this method. It closes gently, so that rest does not turn into
 /// small falls.
 template <class Real>
 Real bound_of(const ContactPoint<Real>& point, bool pressed, Real h) {
@@ -105,7 +105,7 @@ Real ContactSolver<Real>::impact_speed(const Contact<Real>& contact, const Bodie
   return std::max(settings_.restitution_threshold, Real(constants::kRestingKicks) * kick);
 }
 
-/// Whether the pair comes together in this substep faster than what rests does.
+/// Returns true if the pair touches in this substep with a speed above that of resting bodies.
 template <class Real>
 bool ContactSolver<Real>::meets(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
   const Real threshold = impact_speed(contact, bodies, h);
@@ -118,8 +118,8 @@ bool ContactSolver<Real>::meets(const Contact<Real>& contact, const Bodies<Real>
   return false;
 }
 
-/// Whether an impact with restitution is due or just missed. It is the impact stage's, now or in the next
-/// substep: the passes would take the velocity that is to bounce.
+/// Returns true if an impact with restitution is due or was just missed. The impact stage resolves it, now or
+/// in the next substep: the passes would remove the velocity that is to bounce.
 template <class Real>
 bool ContactSolver<Real>::bounces(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
   if (!settings_.two_passes || !(contact.restitution > 0)) return false;
@@ -136,8 +136,8 @@ bool ContactSolver<Real>::bounces(const Contact<Real>& contact, const Bodies<Rea
 
 namespace {
 
-/// Round shapes that are to meet: normal and arms become those of the time of contact, and the separation the
-/// way left to it along that normal. Returns false when they pass each other.
+/// Sets normal and arms of round shapes to those at their time of contact, and the separation to the
+/// displacement left along that normal. Returns false if they pass each other.
 template <class Real>
 bool look_ahead(Contact<Real>& contact, std::span<const SolidShape<Real>> shapes, const Bodies<Real>& bodies,
                 Real h) {
@@ -161,7 +161,7 @@ void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
   active_.clear();
   for (std::size_t index = 0; index < contacts.size(); ++index) {
     Contact<Real>& contact = contacts[index];
-    if (contact.impact) forget_impulses(contact);  // those of an impact are no guess for what comes after it
+    if (contact.impact) forget_impulses(contact);  // impulses of an impact do not warm-start
     contact.impact = false;
     if (contact.count == 0 || contact.bounced) continue;
     if (!contact.placed) follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
@@ -184,8 +184,8 @@ void ContactSolver<Real>::begin_hold(std::vector<Contact<Real>>& contacts,
       if (point.in_pass) warm_start(contacts[index], point, point.hold, bodies);
 }
 
-/// Decides which of the contact's points are in the hold pass, with which bound and which first guess. At
-/// rest both passes of a substep, and those of the next, have the same impulse: half the weight each.
+/// Selects the contact's points of the hold pass, with their bounds and initial impulses. At rest both passes
+/// of a substep, and those of the next, have the same impulse: half the weight each.
 template <class Real>
 bool ContactSolver<Real>::admit(Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const {
   bool any = false;
@@ -220,7 +220,7 @@ void ContactSolver<Real>::begin_relax(std::vector<Contact<Real>>& contacts,
   for (std::size_t index = 0; index < contacts.size(); ++index) {
     Contact<Real>& contact = contacts[index];
     if (contact.count == 0) continue;
-    // Round shapes that met in this substep part along the normal that they met with.
+    // After an impact in this substep, round shapes separate along the normal of the impact.
     if (contact.two_boxes || !contact.impact) {
       follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
       weigh(contact);
@@ -278,7 +278,7 @@ bool ContactSolver<Real>::push_out(std::vector<Contact<Real>>& contacts,
   bool pushed = false;
   for (const int index : active_) {
     Contact<Real>& contact = contacts[index];
-    if (contact.impact) continue;  // apart, or about to part
+    if (contact.impact) continue;  // separated, or about to separate
     follow(contact, shapes, bodies.pose[contact.a], bodies.pose[contact.b]);
     const Real most = Real(constants::kPushSpeed) * contact.reach * h;
     for (int i = 0; i < contact.count; ++i) {

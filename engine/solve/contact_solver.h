@@ -7,22 +7,21 @@
 
 namespace plumb {
 
-/// What the contact passes need to know besides the bodies.
+/// Settings of the contact passes.
 template <class Real>
 struct ContactSettings {
-  bool friction = true;            ///< false where no pair has any
-  bool two_passes = true;          ///< hold and relax in turn; false: collide alone
-  Real gravity = 0;                ///< m/s^2, its size
+  bool friction = true;            ///< false if no pair has friction
+  bool two_passes = true;          ///< hold and relax in turn; false: collide only
+  Real gravity = 0;                ///< m/s^2, magnitude
   Real restitution_threshold = 0;  ///< m/s, slower impacts do not bounce
 };
 
 /// Sequential impulses (Catto 2006) on contacts, in three kinds of pass. Each keeps the normal velocity above
 /// a bound with impulses that only push, and the tangential one at zero with friction in the Coulomb cone.
-///  - hold: before bodies move, so that no separation falls below zero: v_n >= -s/h; overlaps are pushed out.
-///  - relax: after they have moved, v_n >= 0 for what touches; takes back the velocity that pushing out gave.
-///  The
-///    cone and the "only push" hold for the sum of both passes' impulses, which is the substep's.
-///  - collide: both at once, with restitution, as the Euler steppers of the course do.
+///  - hold: before bodies move, v_n >= -s/h, so that no separation falls below zero; pushes overlaps out.
+///  - relax: after they have moved, v_n >= 0 for touching points; removes the velocity of the push-out.
+///  - collide: both together, with restitution, as the Euler steppers of the course do.
+/// The cone and "only push" hold for the sum of the impulses of hold and relax, which is the substep's.
 template <class Real>
 class ContactSolver {
  public:
@@ -32,9 +31,8 @@ class ContactSolver {
                   Bodies<Real>& bodies, Real h);
   void sweep_hold(std::vector<Contact<Real>>& contacts, Bodies<Real>& bodies);
 
-  /// Moves bodies apart that overlap, by a share of it. Not their velocities, and nothing is remembered: an
-  /// impulse that pushes out and is carried over to the next substep would swing tall stacks. Returns whether
-  /// anything moved.
+  /// Moves overlapping bodies apart by a fraction of the overlap. Velocities are not changed and no impulse
+  /// is stored: warm starting with these impulses would sway tall stacks. Returns true if anything moved.
   bool push_out(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
                 Bodies<Real>& bodies, Real h) const;
 
@@ -44,10 +42,10 @@ class ContactSolver {
   void begin_collide(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
                      Bodies<Real>& bodies, Real h, bool restitution);
 
-  /// Whether any contact is in the present pass.
+  /// Returns true if no contact is in the present pass.
   bool idle() const { return active_.empty(); }
 
-  /// Approach speed, m/s, above which the pair has an impact.
+  /// Returns the approach speed above which the pair has an impact, m/s.
   Real impact_speed(const Contact<Real>& contact, const Bodies<Real>& bodies, Real h) const;
 
  private:
@@ -59,8 +57,9 @@ class ContactSolver {
   std::vector<int> active_;  // contacts of the present pass, in order
 };
 
-/// When, into a substep of length `h`, point `index` of `contact` reaches separation zero, not before `from`;
-/// Newton's method on its separation. A time above `h` where it does not. `contact` is left at that time.
+/// Returns the time, into a substep of length `h` and not before `from`, at which point `index` of `contact`
+/// reaches separation zero; above `h` if it does not. Uses Newton's method on the separation. `contact` is
+/// left at that time.
 template <class Real>
 Real time_of_contact(Contact<Real>& contact, int index, std::span<const SolidShape<Real>> shapes,
                      const Bodies<Real>& bodies, Real from, Real h);

@@ -43,27 +43,27 @@ class Pivoting {
   double response(std::size_t i, std::size_t j) const {
     return scale_[i] * problem_.response[i * size_ + j] * scale_[j];
   }
-  /// mu of a point in scaled forces.
+  /// Returns mu of a point in scaled forces.
   double cone(std::size_t point) const {
     const int p = problem_.patch_of[point];
     return problem_.patches[p].friction * scale_[point] / scale_[n_ + p];
   }
-  /// The tangential force that comes with a unit normal force, before s.
+  /// Returns the tangential force per unit normal force, before s.
   double drawn(std::size_t point) const {
     const int p = problem_.patch_of[point];
     if (place_[p] >= 0) return -cone(point);
     return -problem_.patches[p].slip * cone(point);
   }
 
-  /// m0 in scaled forces, and the tangential force without any normal force, before s.
+  /// Returns m0 in scaled forces; `set`: the tangential force without any normal force, before s.
   double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
   double set(std::size_t patch) const {
     return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
   }
 
-  /// The same with tau = p - m, its parts p, m >= 0, and the slip's size g as unknowns (M. Anitescu, F. A.
-  /// Potra, Nonlinear Dynamics 14, 1997): one more a patch, but copositive, so that Lemke's method reaches a
-  /// solution where all patches may stick, however wide the cones are.
+  /// Solves the same problem with tau = p - m, its parts p, m >= 0, and the slip's magnitude g as unknowns
+  /// (M. Anitescu, F. A. Potra, Nonlinear Dynamics 14, 1997). This has one more unknown per patch, but is
+  /// copositive: Lemke's method reaches a solution if all patches may stick, for any cone width.
   CoulombSolution solve_split() {
     const std::size_t f = free_.size(), size = n_ + 3 * f;
     std::vector<double> matrix(size * size, 0.0), q(size, 0.0);
@@ -166,7 +166,7 @@ class Pivoting {
           matrix_[(n_ + f + k) * size + j] = 2 * cone(j);
       }
     }
-    // Wide cones: s is as large as they are. It is counted in units of them, and its row with it.
+    // With wide cones s is as large as they are: scale s and its row by their width.
     wide_.assign(f, 1.0);
     for (std::size_t k = 0; k < f; ++k) {
       for (std::size_t j = 0; j < n_; ++j) {
@@ -207,7 +207,7 @@ class Pivoting {
   std::size_t n_, size_;
   std::vector<double> scale_;
   std::vector<std::size_t> free_;  // patches that may stick
-  std::vector<int> place_;         // by patch: its place among those, or -1
+  std::vector<int> place_;         // by patch: its index among these, or -1
   std::vector<double> matrix_, q_, wide_;
   double unit_ = 0;
   bool ambiguous_ = false;

@@ -7,9 +7,9 @@
 namespace plumb {
 namespace {
 
-// Systems up to so many unknowns are pivoted completely; in larger ones a pivot may be smaller than the
-// largest entry that is left, by this factor: growth stays small, and the rank is that of complete pivoting
-// but where entries are within it of rounding.
+// Systems up to kCompletely unknowns use complete pivoting. In larger ones a pivot may be smaller than the
+// largest remaining entry by the factor kEnough. Growth stays small, and the rank is that of complete
+// pivoting unless entries are within this factor of rounding.
 constexpr std::size_t kCompletely = 64;
 constexpr double kEnough = 0.1;
 
@@ -37,7 +37,7 @@ std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix
   return rank_;
 }
 
-/// The whole matrix is still to be eliminated.
+/// Prepares the elimination of the whole matrix.
 void DenseSystem::Part::begin() {
   rank = 0;
   largest.assign(size, 0.0);
@@ -64,7 +64,7 @@ void DenseSystem::Part::factor(double least) {
     bring_pivot(static_cast<std::size_t>(most - largest.begin()));
     eliminate();
   }
-  // Until here the columns have stayed where they were.
+  // Up to here the columns were in their original places.
   std::vector<double>& own = largest;
   for (std::size_t i = 0; i < size; ++i) {
     const auto begin = lu.begin() + static_cast<std::ptrdiff_t>(i * size);
@@ -73,10 +73,10 @@ void DenseSystem::Part::factor(double least) {
   }
 }
 
-/// Brings a pivot to the rank: the first of the largest entries, row after row. In large systems, of the rows
-/// that have one not much smaller, the one with the fewest entries, and its diagonal where that is such a
-/// one: that keeps zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as in I. S. Duff, A.
-/// M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
+/// Moves a pivot to the place `rank`: the first of the largest entries in row order. In large systems, takes
+/// the row with the fewest entries among those with an entry not much smaller. Prefers its diagonal if that
+/// is such an entry. This preserves zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as
+/// in I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
 void DenseSystem::Part::bring_pivot(std::size_t from_row) {
   const bool lean = size > kCompletely;
   const double enough = kEnough * largest[from_row];
@@ -103,8 +103,8 @@ void DenseSystem::Part::bring_pivot(std::size_t from_row) {
   std::swap(place[column[from_column]], place[column[rank]]);
 }
 
-/// The rows below lose the pivot's unknown. What touches in a heap touches few others: most rows do not have
-/// it, and the others change only where the pivot's row has entries.
+/// Eliminates the pivot's unknown from the rows below. In a heap each contact touches few others: most rows
+/// lack it, and the others change only at the entries of the pivot's row.
 void DenseSystem::Part::eliminate() {
   const double* pivots = lu.data() + rank * size;
   const std::size_t gone = column[rank];

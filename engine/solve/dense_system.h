@@ -8,10 +8,10 @@
 
 namespace plumb {
 
-/// A square linear system A x = b, factorised by Gaussian elimination with complete pivoting. Equations that
-/// depend on others are left out, and as many unknowns are zero: a consistent system is solved all the same.
-/// Unknowns that no chain of entries connects are eliminated apart, and entries that are zero cost nothing:
-/// what touches few others is solved for far less than the cube.
+/// A square linear system A x = b, factorised by Gaussian elimination with complete pivoting. Dependent
+/// equations are left out, and as many unknowns are zero, so a consistent system is still solved. Independent
+/// groups of unknowns are eliminated separately, and zero entries cost nothing. Sparse systems therefore cost
+/// far less than n^3.
 class DenseSystem {
  public:
   /// Factorises the matrix of `size` rows, row after row. Returns the rank: pivots below `dependent` times
@@ -21,7 +21,7 @@ class DenseSystem {
   /// Solves A x = b in place.
   void solve(std::span<double> b) const;
 
-  /// `solve`, and one step of iterative refinement with the matrix that was factorised.
+  /// Solves as `solve`, plus one step of iterative refinement with the original matrix.
   void solve_refined(std::span<double> b);
 
   std::size_t rank() const { return rank_; }
@@ -30,9 +30,9 @@ class DenseSystem {
   struct Part {
     std::size_t size = 0, rank = 0;
     std::vector<double> lu;
-    std::vector<std::size_t> row, column;  // the caller's at each place
-    // While eliminating, of what is left: in each row the largest size, and the unknowns whose entries are
-    // not zero; where each unknown's column will be.
+    std::vector<std::size_t> row, column;  // original index at each place
+    // During elimination, of the remaining matrix: the largest magnitude of each row, the unknowns of its
+    // nonzero entries, and the final place of each unknown's column.
     std::vector<double> largest;
     std::vector<std::vector<std::size_t>> entries;
     std::vector<std::size_t> place;
@@ -46,7 +46,7 @@ class DenseSystem {
   std::size_t size_ = 0, rank_ = 0;
   std::vector<double> original_;
   MatrixParts division_;
-  std::vector<Part> parts_;  // as many as there are; further ones keep their room
+  std::vector<Part> parts_;  // as many as there are; unused ones keep their memory
   mutable std::vector<double> work_;
   std::vector<double> residual_;
 };

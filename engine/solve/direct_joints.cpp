@@ -16,7 +16,7 @@ std::vector<Row<Real>> rows_at(const Joints<Real>& joints, const Bodies<Real>& b
   return rows;
 }
 
-/// J v of one row.
+/// Returns J v of one row.
 template <class Real>
 Real rate(const Row<Real>& row, std::span<const Twist<Real>> twists) {
   Real out = 0;
@@ -95,7 +95,7 @@ void DirectJoints<Real>::begin_substep(const Bodies<Real>& bodies, Real h) {
   }
 }
 
-/// The largest gap where the bodies would arrive: C(x + h v).
+/// Returns the largest gap at the predicted positions: C(x + h v).
 template <class Real>
 Real DirectJoints<Real>::predict_gap(const Bodies<Real>& bodies, Real h) {
   for (const int body : moving_) {
@@ -113,7 +113,7 @@ Real DirectJoints<Real>::predict_gap(const Bodies<Real>& bodies, Real h) {
   return largest;
 }
 
-/// One quasi-Newton correction: h J M^-1 J^T lambda = -C.
+/// Makes one quasi-Newton correction: h J M^-1 J^T lambda = -C.
 template <class Real>
 void DirectJoints<Real>::correct(Bodies<Real>& bodies, Real h) {
   for (std::size_t i = 0; i < rows_.size(); ++i) multiplier_[i] = right_side_[i] / h;
@@ -142,7 +142,8 @@ void DirectJoints<Real>::finish_hold(Bodies<Real>& bodies, Real h) {
     const Real gap = predict_gap(bodies, h);
     if (gap <= rounding) return;
     if (!(gap < before)) {
-      if (gap > 2 * before) apply(bodies, bodies.twist, Real{-1});  // the last correction made it worse
+      if (gap > 2 * before)
+        apply(bodies, bodies.twist, Real{-1});  // undo the last correction, which increased the gap
       return;
     }
     correct(bodies, h);
@@ -150,7 +151,8 @@ void DirectJoints<Real>::finish_hold(Bodies<Real>& bodies, Real h) {
   }
 }
 
-/// x += M^-1 J^T lambda with J M^-1 J^T lambda = -C; J is that of the substep's start.
+/// Corrects positions, x += M^-1 J^T lambda with J M^-1 J^T lambda = -C; J is that at the start of the
+/// substep.
 template <class Real>
 void DirectJoints<Real>::settle(Bodies<Real>& bodies) {
   for (int k = 0; k < constants::kSettlings; ++k) {
@@ -184,7 +186,7 @@ void DirectJoints<Real>::begin_follow(Bodies<Real>& bodies, Real h) {
     feedback_[i] = -(Real(constants::kJointFeedback) / h) * rows_[i].residual;
 }
 
-/// J v = -feedback C / h.
+/// Solves J v = -feedback C / h.
 template <class Real>
 void DirectJoints<Real>::sweep_follow(Bodies<Real>& bodies) {
   for (std::size_t i = 0; i < rows_.size(); ++i)

@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// All joints at once: RATTLE (Andersen 1983) on the sparse system A = J M^-1 J^T, factorised once a substep.
-/// The factors that relax the velocities at x_{n+1} are those that hold the positions of the next substep.
+/// Solves all joints together: RATTLE (Andersen 1983) on the sparse system A = J M^-1 J^T, factorised once
+/// per substep. The factors of the velocity stage at x_{n+1} serve the position stage of the next substep.
 template <class Real>
 class DirectJoints final : public JointMethod<Real> {
  public:
@@ -39,14 +39,14 @@ class DirectJoints final : public JointMethod<Real> {
 
   Joints<Real> joints_;
   std::vector<Row<Real>> rows_;   // at the last factorisation's poses
-  std::vector<Row<Real>> ahead_;  // where the bodies would arrive
-  std::vector<Real> kept_gap_;    // m, what the present pass leaves open
+  std::vector<Row<Real>> ahead_;  // at the predicted poses
+  std::vector<Real> kept_gap_;    // m, gap that the present pass leaves open
   std::vector<Real> feedback_;    // m/s, of the Euler steppers
   std::vector<Real> right_side_, multiplier_;
   std::vector<Pose<Real>> arrival_;
   std::vector<int> moving_;    // jointed bodies, in order
   std::vector<char> jointed_;  // by body
-  std::vector<Real> span_;     // m, by row: the joint's own scale of length
+  std::vector<Real> span_;     // m, by row: the joint's length scale
   JointSystem<Real> system_;
   bool factored_ = false;
 };

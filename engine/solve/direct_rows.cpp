@@ -9,25 +9,26 @@
 namespace plumb {
 namespace {
 
-// What is added to the diagonal, as a share of it: rows that say the same thing twice share their load. It is
-// less where masses are far apart, because there the least that a row does is a share 1 / ratio of the most.
+// Regularisation (CFM): added to the diagonal, as a fraction of it, so that redundant rows share their load.
+// Smaller for large mass ratios, because there the smallest eigenvalues are a fraction 1 / ratio of the
+// largest.
 constexpr double kSharing = 1e-7;
-// Times that rows are taken out before giving up.
+// Maximum number of times that rows are removed before giving up.
 constexpr int kTries = 4;
-// The most that an impulse may give by itself along its row, in the largest velocity that is asked for. Rows
-// that contradict each other (a body pushed out of two walls at once) answer with up to 1 / kSharing; a load
-// on something lighter answers with the ratio of the masses, and has more.
+// Maximum velocity that an impulse may cause along its own row, relative to the largest velocity asked for.
+// Contradicting rows (a body pushed out of two walls at once) respond with up to 1 / kSharing. A load on a
+// lighter body responds with the mass ratio, and has a higher limit.
 constexpr double kContradiction = 1e5;
-// Where much is asked for the contradiction shows in what rows miss of it: by more than this share of the
-// speed that contacts push with, and by impulses that are this many times what is asked for.
+// For large velocities contradictions show in the residual: more than kMissed of the contacts' depenetration
+// speed, and impulses kInVain times those asked for.
 constexpr double kMissed = 0.1, kInVain = 1e3;
-// The ratio of masses beyond which they follow it.
+// Mass ratio above which both limits grow with it.
 constexpr double kFarApart = 1e3;
-// The rows beyond which both follow the square of their number: so much does a tower make of a velocity that
-// is asked for at its top.
+// Number of one-sided rows above which both limits grow with (rows / kMany)^2. In a tower a velocity
+// correction at the top is amplified by that much.
 constexpr double kMany = 512;
 
-// J_r M^-1 J_s^T, the part by one body that both act on.
+// Returns J_r M^-1 J_s^T: the part of one body that both rows act on.
 template <class Real>
 double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
                 Real angular_s) {
@@ -58,7 +59,7 @@ void move_body(BodyMotion<Real>& body, Rotation<Real>& rotation, Vec2<Real> push
 
 template <class Real>
 double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
-  // Blocks are neighbours when they act on the same body that gives way.
+  // Blocks are neighbours if they act on the same dynamic body.
   const int count = rows.empty() ? 0 : rows.back().block + 1;
   block_first_.assign(count + 1, 0);
   ends_.clear();
@@ -154,7 +155,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, double push_speed) {
       contradicted_ = contradicts(asked, push_speed);
       return false;
     }
-    // What is taken out gives back what it had.
+    // Take back the impulses of the removed rows.
     for (int i = 0; i < matrix_.size(); ++i) {
       DirectRow<Real>& row = rows[sequence_[i]];
       if (row.active || *row.impulse == 0) continue;
@@ -170,7 +171,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, double push_speed) {
 
 template <class Real>
 bool DirectRows<Real>::contradicts(double asked, double push_speed) const {
-  // What a row misses is kSharing / apart_ of what its impulse gives by itself.
+  // The residual of a row is kSharing / apart_ of the velocity that its impulse causes by itself.
   const double most =
       std::min(kContradiction * asked, std::max(kInVain * asked, kMissed / kSharing * push_speed));
   for (int i = 0; i < matrix_.size(); ++i) {
@@ -192,8 +193,8 @@ bool DirectRows<Real>::correct() {
   return !contradicts(asked, std::numeric_limits<double>::infinity());
 }
 
-// Each body's impulses are summed before its velocity is rounded: between a heavy load and the ground those
-// on a light body are large, and nearly cancel.
+// Sums each body's impulses before its velocity is rounded. Between a heavy load and the ground the impulses
+// on a light body are large and nearly cancel.
 template <class Real>
 void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
   for (std::size_t end = 0; end < ends_.size();) {

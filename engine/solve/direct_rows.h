@@ -9,24 +9,24 @@
 
 namespace plumb {
 
-/// One row of a constraint, as the direct solver sees it.
+/// A constraint row of the direct solver.
 template <class Real>
 struct DirectRow {
   int a = 0, b = 0;                   ///< bodies
   Vec2<Real> linear_a{}, linear_b{};  ///< J
   Real angular_a = 0, angular_b = 0;
-  Real bias = 0;            ///< m/s: J v + bias = 0 is asked for
-  Real gap = 0;             ///< m or rad: what `correct` makes 0
-  Real* impulse = nullptr;  ///< what is kept of it from substep to substep
+  Real bias = 0;            ///< m/s: target J v + bias = 0
+  Real gap = 0;             ///< m or rad: closed by `correct`
+  Real* impulse = nullptr;  ///< the impulse that is kept between substeps
   bool one_sided = false;   ///< impulse >= 0
-  bool active = true;       ///< takes part: a one-sided row that would have to pull does not
-  int block = 0;            ///< the constraint that it belongs to
+  bool active = true;       ///< takes part; a one-sided row that would have to pull does not
+  int block = 0;            ///< index of its constraint
 };
 
-/// The rows of a few constraints that hang together, solved all at once: J M^-1 J^T x = -(J v + bias), by a
-/// sparse factorisation that is made once a step and used in all its substeps. What sequential impulses need
-/// many sweeps for (a heavy load on light things, a long way from the load to the ground) is right at once.
-/// Rows that would have to pull are left out, and the factorisation is made anew without them.
+/// The rows of a few connected constraints, solved together: J M^-1 J^T x = -(J v + bias). The sparse
+/// factorisation is made once a step and used in all its substeps. It replaces the many iterations that
+/// sequential impulses need for a heavy load on light bodies, far above the ground. Rows that would have to
+/// pull are removed, and the system is factorised again without them.
 template <class Real>
 class DirectRows {
  public:
@@ -43,26 +43,25 @@ class DirectRows {
 
   std::pmr::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
 
-  /// Orders the rows (Cuthill and McKee, 1969, reversed) and says what factorising them would cost, in
-  /// multiplications.
+  /// Orders the rows (reverse Cuthill-McKee, 1969). Returns the cost of factorising them, in multiplications.
   double order(const BodyMotion<Real>* motion);
-  /// Factorises for the bodies' masses and the rows' Jacobians as they are.
+  /// Factorises for the present masses and Jacobians.
   void factorise(const BodyMotion<Real>* motion);
-  /// Finds the impulses that are missing; false, and no more than pulls are taken out, when no set of
-  /// pressing rows was found in a few tries, or the rows contradict each other. `push_speed`, m/s: what rows
-  /// push with out of overlaps.
+  /// Solves for the missing impulses. Returns false, having only removed pulls, if a few tries found no set
+  /// of pressing rows, or if the rows contradict each other. `push_speed`, m/s: depenetration speed of the
+  /// rows.
   bool find(BodyMotion<Real>* motion, double push_speed);
-  /// Whether `find` met rows that cannot hold together, as those of a body that is pushed out of two walls at
-  /// once: what it found is no answer.
+  /// Returns true if the rows in `find` were infeasible, such as those of a body pushed out of two walls at
+  /// once. Its result is then invalid.
   bool contradicted() const { return contradicted_; }
-  /// What `find` or `correct` found for a row.
+  /// Returns the result of `find` or `correct` for a row.
   double found(int row) const { return x_[static_cast<std::size_t>(place_[row])]; }
-  /// Finds impulses that move bodies instead of giving them a velocity, such that all gaps close; false when
-  /// the rows contradict each other.
+  /// Finds impulses that close all gaps by moving bodies instead of changing velocities. Returns false if the
+  /// rows contradict each other.
   bool correct();
-  /// Applies what `find` found.
+  /// Applies the result of `find`.
   void apply(BodyMotion<Real>* motion);
-  /// Moves and turns bodies by what `correct` found: one Newton step to where the rows hold.
+  /// Moves and turns bodies by the result of `correct`: one Newton step towards closed gaps.
   void move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const;
 
  private:
@@ -77,7 +76,7 @@ class DirectRows {
   std::pmr::vector<int> block_first_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
-  double apart_ = 1;  // how much farther apart than usual the least and the most are that rows do
+  double apart_ = 1;  // factor on the limits of contradiction: by mass ratio and number of one-sided rows
   bool contradicted_ = false;
 };
 

@@ -9,7 +9,7 @@
 namespace plumb {
 namespace {
 
-/// The links that are not eliminated yet, at bodies that grow together as links are.
+/// The links that are not eliminated yet, on bodies that merge as links are eliminated.
 class Contraction {
  public:
   Contraction(const std::vector<Link>& links, int bodies)
@@ -25,7 +25,7 @@ class Contraction {
     }
   }
 
-  /// How many links share a body with `link`; links that share both count twice.
+  /// Returns the number of links that share a body with `link`; links that share both count twice.
   int degree(int link) {
     const int a = body_of(links_[link].a), b = body_of(links_[link].b);
     const int at_a = a < 0 ? 0 : static_cast<int>(links_at_[a].size()) - 1;
@@ -33,7 +33,7 @@ class Contraction {
     return at_a + at_b;
   }
 
-  /// Removes `link`, makes its bodies one, and returns the links that it leaves coupled, by number.
+  /// Removes `link`, merges its bodies, and returns the numbers of the links that it couples.
   std::vector<int> eliminate(int link) {
     alive_[link] = 0;
     int a = body_of(links_[link].a), b = body_of(links_[link].b);
@@ -72,7 +72,7 @@ class Contraction {
   std::vector<char> alive_, seen_;          // by link
 };
 
-/// How many links lie between each link and the fixed frame; breadth first.
+/// Returns the number of links between each link and the fixed frame; breadth first.
 std::vector<int> depths(const std::vector<Link>& links, int bodies) {
   std::vector<std::vector<int>> links_at(bodies);
   std::vector<int> depth(links.size(), std::numeric_limits<int>::max());
@@ -95,7 +95,7 @@ std::vector<int> depths(const std::vector<Link>& links, int bodies) {
         depth[other] = depth[link] + 1;
         queue.push_back(other);
       }
-      links_at[body].clear();  // every link here has its depth
+      links_at[body].clear();  // all links here have a depth
     }
   }
   return depth;
@@ -106,7 +106,7 @@ std::vector<int> depths(const std::vector<Link>& links, int bodies) {
 EliminationOrder minimum_degree(const std::vector<Link>& links, int bodies) {
   Contraction graph(links, bodies);
   const std::vector<int> depth = depths(links, bodies);
-  using Key = std::tuple<int, int, int>;  // degree, minus depth, number
+  using Key = std::tuple<int, int, int>;  // degree, -depth, index
   std::set<Key> queue;
   std::vector<Key> keys(links.size());
   for (int i = 0; i < static_cast<int>(links.size()); ++i) {

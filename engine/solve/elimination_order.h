@@ -4,21 +4,21 @@
 
 namespace plumb {
 
-/// A block of constraint rows between two bodies, -1 where nothing moves.
+/// A block of constraint rows between two bodies; -1: not a moving body.
 struct Link {
   int a = -1, b = -1;
 };
 
-/// In which order to eliminate the blocks of J M^-1 J^T, and which blocks each one then still couples.
+/// Elimination order of the blocks of J M^-1 J^T, and the blocks that each one then couples.
 struct EliminationOrder {
   std::vector<int> sequence;            ///< blocks, first eliminated first
-  std::vector<std::vector<int>> below;  ///< by block: those eliminated later that its column of L reaches
+  std::vector<std::vector<int>> below;  ///< by block: later blocks in its column of L
 };
 
-/// Minimum degree on the graph whose nodes are links and whose edges join links that share a body.
-/// Eliminating a link joins all links at its two bodies, which is the graph with the two bodies made one.
-/// Among equals those farthest from the fixed frame go first: leaves before roots, as in articulated-body
-/// methods, which adds inverse masses instead of subtracting nearly equal ones.
+/// Computes a minimum-degree order of the graph whose nodes are links and whose edges join links that share a
+/// body. Eliminating a link joins all links at its two bodies, as if the bodies were one. Among equals, links
+/// farthest from the fixed frame go first. Leaves before roots, as in articulated-body methods, adds inverse
+/// masses instead of subtracting nearly equal ones.
 EliminationOrder minimum_degree(const std::vector<Link>& links, int bodies);
 
 }  // namespace plumb

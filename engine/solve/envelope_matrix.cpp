@@ -17,7 +17,7 @@ void EnvelopeMatrix::reset(std::span<const int> first) {
 }
 
 void EnvelopeMatrix::factorise() {
-  constexpr double kNothing = 1e-12;  // of the diagonal: a row that depends on others to rounding
+  constexpr double kNothing = 1e-12;  // of the diagonal: below it a row is dependent up to rounding
   for (int i = 0; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];

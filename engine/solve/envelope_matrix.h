@@ -6,16 +6,16 @@
 
 namespace plumb {
 
-/// A symmetric positive definite matrix of which each row is kept from its first entry to the diagonal, and
-/// its factorisation L D L^T, which fills in nothing outside of that envelope (George and Liu, Computer
-/// Solution of Large Sparse Positive Definite Systems, 1981, ch. 4). For what hangs together like a chain or
-/// a tower the cost is linear.
+/// A symmetric positive definite matrix, stored by row from the first entry to the diagonal. Its
+/// factorisation L D L^T fills in only this envelope (George and Liu, Computer Solution of Large Sparse
+/// Positive Definite Systems, 1981, ch. 4). For chains and towers the cost is linear.
 class EnvelopeMatrix {
  public:
   explicit EnvelopeMatrix(std::pmr::memory_resource* room = std::pmr::get_default_resource())
       : first_(room), start_(room), values_(room), inverse_pivots_(room), pivots_(room) {}
 
-  /// Rows 0 .. first.size() - 1, row i from column first[i] <= i; all zero. Allocates only when it grows.
+  /// Sets up rows 0 .. first.size() - 1, row i from column first[i] <= i, with zeros. Allocates only when it
+  /// grows.
   void reset(std::span<const int> first);
 
   int size() const { return static_cast<int>(first_.size()); }
@@ -23,13 +23,13 @@ class EnvelopeMatrix {
   double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
   double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 
-  /// In place. A row that those before it leave nothing of is left out: its unknown is 0.
+  /// Factorises in place. Dependent rows are left out: their unknown is 0.
   void factorise();
 
-  /// x <- A^-1 x.
+  /// Solves: x <- A^-1 x.
   void solve(double* x) const;
 
-  /// Multiplications that `factorise` makes for such an envelope.
+  /// Returns the number of multiplications of `factorise` for such an envelope.
   static double cost(std::span<const int> first);
 
  private:

@@ -5,8 +5,8 @@
 
 namespace plumb {
 
-/// Position-based: a body's position follows its change of velocity since `velocity_before` and
-/// `spin_before`, by h times it.
+/// Updates a position by h times the change of velocity since `velocity_before` and `spin_before`
+/// (position-based dynamics).
 template <class Real>
 void follow(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> velocity_before, Real spin_before,
             Real h) {

@@ -1,4 +1,4 @@
-// g++ packs pairs of these numbers into vectors at the price of more shuffles than it saves.
+// g++ would pack pairs of these numbers into vectors, with more shuffles than that saves.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
@@ -14,14 +14,14 @@
 namespace plumb {
 namespace {
 
-/// The numbers of a record from so many bytes on.
+/// Returns a pointer to the numbers of a record, from the byte `offset` on.
 template <class Real, class Record>
 [[gnu::always_inline]] inline Real* numbers(Record* record, std::size_t offset) {
   using Byte = std::conditional_t<std::is_const_v<Record>, const char, char>;
   return reinterpret_cast<Real*>(reinterpret_cast<Byte*>(record) + offset);
 }
 
-/// Bodies a, or bodies b, of four joints.
+/// The bodies a, or the bodies b, of four joints.
 template <class Real>
 struct FourBodies {
   static constexpr std::size_t kRow = 4 * sizeof(Real);
@@ -40,7 +40,7 @@ struct FourBodies {
     now.inverse_mass = last[2], now.inverse_inertia = last[3];
   }
 
-  /// New velocities.
+  /// Writes new velocities.
   [[gnu::always_inline]] void store(const Vec2<Four<Real>>& velocity, const Four<Real>& spin) const {
     const Four<Real> columns[4] = {velocity.x, velocity.y, spin, now.moved.x};
     Four<Real> rows[4];
@@ -54,7 +54,7 @@ struct FourBodies {
   }
 };
 
-/// Four joints and their bodies. Their numbers are loaded by rows of four, from the first of a row on.
+/// Four joints and their bodies. Numbers are loaded in rows of four, from the first of each row.
 template <class Real>
 struct FourHinges {
   using Number = Four<Real>;
@@ -110,7 +110,7 @@ template <class Real>
                                          const Softness<Real>& soft) {
   using Number = Four<Real>;
   FourHinges<Real> four(hinge, bodies);
-  Number pull[4], arm[4], mass[4];  // impulse and gap; a and b; mass and share
+  Number pull[4], arm[4], mass[4];  // impulse and gap; arms a and b; mass and share
   four.load(four.kPull, pull);
   four.load(four.kArms, arm);
   four.load(four.kMass, mass);
@@ -138,7 +138,7 @@ template <class Real>
   four.load(four.kAnchors, anchor);
   const Vec2<Number> to_a = turned({hinge[0].a, hinge[1].a, hinge[2].a, hinge[3].a}, anchor[0], anchor[1]);
   const Vec2<Number> to_b = turned({hinge[0].b, hinge[1].b, hinge[2].b, hinge[3].b}, anchor[2], anchor[3]);
-  four.load(four.kOffset, offset);  // and what follows it
+  four.load(four.kOffset, offset);  // and the field after it
   const HingeArms<Number> arms =
       hinge_arms<Number>({offset[0], offset[1]}, four.a.now.moved, four.b.now.moved, to_a, to_b);
   const PointResponse<Number> k = point_response(four.v, arms.a, arms.b);
@@ -158,8 +158,8 @@ template <class Real>
   return true;
 }
 
-/// In single precision: of doubles a register holds two, and bringing them there costs more than it saves.
-/// What is left over comes first: who loads at once what was just stored in pieces would wait for it.
+/// Single precision only: a register holds two doubles, and moving them there costs more than it saves. The
+/// remainder comes first: loading data that was just stored in pieces would stall.
 template <class Real, class Each, class FourAtOnce>
 [[gnu::always_inline]] inline void sweep(HingeRun<Real> run, Each&& each, FourAtOnce&& four_at_once) {
   HingeConstraint<Real>* hinge = run.first;

@@ -9,11 +9,11 @@ template <class Real>
 struct HingeRun {
   HingeConstraint<Real>* first = nullptr;
   int count = 0;
-  bool apart = true;  ///< no two have a body in common that gives way
+  bool apart = true;  ///< no two share a dynamic body
 };
 
-// The three sweeps of JointSet over such a run: four joints at a time where they are apart, each with the
-// bits that it has by itself.
+// The three iterations of JointSet over such a run: four joints at a time if they share no body, with the
+// same bits as one at a time.
 template <class Real>
 void warm_start_hinges(HingeRun<Real> run, const SolverBodies<Real>& bodies);
 template <class Real>

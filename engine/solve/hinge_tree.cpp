@@ -9,19 +9,19 @@
 namespace plumb {
 namespace {
 
-// The most that a body is to turn in a substep, rad, by its spin or as a pendulum: energy is off by about an
+// Maximum rotation of a body in a substep, rad, by its spin or as a pendulum. The energy error is about an
 // eighth of its square.
 constexpr double kTurn = 0.125;
 constexpr int kMostParts = 64;
-// Hinges are closed to this share of the arms, in up to so many Newton steps.
+// Hinges are closed to this fraction of the arms, in up to so many Newton steps.
 constexpr double kClosed = 1e-11;
 constexpr int kMostNewtonSteps = 16;
-// Fastest closing of a gap that was there before, in arms a second: a scene that starts with its joints open
-// is pulled together without a burst.
+// Maximum closing speed of a gap that existed before, in arms per second. A scene that starts with its joints
+// open is pulled together without a burst.
 constexpr double kGapSpeed = 4;
-// What links demand more than they have, to be given more within a substep.
+// Ratio of demanded to present inertia above which a link gets more within a substep.
 constexpr double kHeavier = 1.01;
-// A gap that grows by this in a Newton step is not going to close.
+// Growth of the gap in a Newton step above which the iteration diverges.
 constexpr double kDiverges = 2;
 
 // ---- Motion
@@ -37,7 +37,7 @@ void kick(std::span<TreeLink> tree, double share) {
   }
 }
 
-// Sine and cosine - 1 of a turn.
+// Computes sine and cosine - 1 of a rotation.
 void find_turn(TreeLink& link, double x) {
   if (std::abs(x) > kTurn) {
     const Rotation<double> turn = rotation_of(x);
@@ -53,8 +53,8 @@ Vec2d turn_of(const TreeLink& link, Vec2d arm) {
   return link.less_cosine * arm + link.sine * perpendicular(arm);
 }
 
-// Where hinges would be after h; the largest part of a gap that is to close and does not, as a share of the
-// arms, squared.
+// Predicts the hinges' gaps after h. Returns the square of the largest deviation from the target gap, as a
+// fraction of the arms.
 double predict(std::span<TreeLink> tree, double h) {
   double widest = 0;
   find_turn(tree[0], h * tree[0].spin);
@@ -65,7 +65,7 @@ double predict(std::span<TreeLink> tree, double h) {
     link.next_gap = link.gap + h * (link.velocity - parent.velocity) +
                     (turn_of(link, link.arm) - turn_of(parent, link.parent_arm));
     const double share = length_squared(link.open - link.next_gap) / link.span_squared;
-    // Also true for what is not a number: nothing is closed then.
+    // Also true for NaN: nothing is closed then.
     if (!(share <= widest)) widest = share;
   }
   return widest;
@@ -98,16 +98,16 @@ void move(std::span<TreeLink> tree, double h) {
 
 // ---- The system
 
-// Articulated inertias, from the ends to the root: M of a link at its hinge, with the spin left free,
+// Computes articulated inertias from the ends to the root: M of a link at its hinge, with the spin left free,
 //     mass = M_vv - M_vw M_vw^T / M_ww.
-// Links get the inertia that loads demand; whether any needs more than its own.
+// Raises links' inertia to what loads demand; returns true if any is raised.
 bool assemble(std::span<TreeLink> tree) {
   bool loaded = false;
   for (TreeLink& link : tree) {
     const double m = link.moves ? 1 / link.inverse_mass : 0;
     link.mass = {m, 0, m};
     link.coupling = -m * perpendicular(link.lever);
-    link.inertia = 1 / link.inverse_inertia;  // infinite where it does not turn
+    link.inertia = 1 / link.inverse_inertia;  // infinite if it does not rotate
     link.excess = 0;
     if (link.demand > link.inertia) {
       link.excess = 1 - link.inertia / link.demand;
@@ -119,7 +119,7 @@ bool assemble(std::span<TreeLink> tree) {
   for (std::size_t i = tree.size(); i-- > 0;) {
     TreeLink& link = tree[i];
     if (!link.moves) break;
-    // About a hinge that stays what else it moves tells how little the load made.
+    // About a fixed hinge the whole subtree rotates, so the load's part of that inertia is smaller.
     if (!tree[link.parent].moves) link.excess *= link.inertia / link.turning;
     link.turning = link.inverse_inertia > 0 ? 1 / link.turning : 0;
     const Vec2d c = link.coupling, share = link.turning * c;
@@ -135,14 +135,14 @@ bool assemble(std::span<TreeLink> tree) {
   return loaded;
 }
 
-// Of a tree that nothing holds: its root answers freely.
+// Returns the velocity change of a free root.
 Vec2d free_change(const TreeLink& root, Vec2d pull) {
   const HingeMass& m = root.mass;
   const double inverse = 1 / (m.xx * m.yy - m.xy * m.xy);
   return -inverse * Vec2d{m.yy * pull.x - m.xy * pull.y, m.xx * pull.y - m.xy * pull.x};
 }
 
-// Impulses that change the velocities between hinged points by `rate`, found and applied.
+// Solves for the impulses that change the hinge velocities by `rate`, and applies them.
 void solve(std::span<TreeLink> tree) {
   for (TreeLink& link : tree) link.pull = {}, link.twist = 0;
   for (std::size_t i = tree.size(); i-- > 1;) {
@@ -173,7 +173,7 @@ void solve(std::span<TreeLink> tree) {
   }
 }
 
-// Takes back what `solve` did last.
+// Undoes the last `solve`.
 void undo(std::span<TreeLink> tree) {
   for (TreeLink& link : tree) {
     link.found -= link.change_impulse;
@@ -182,9 +182,10 @@ void undo(std::span<TreeLink> tree) {
   }
 }
 
-// ---- Loads. h^2 k is what a substep can follow.
+// ---- Loads. h^2 k is the inertia that a substep needs to follow the stiffness k.
 
-// What the impulses of `share` of a substep ask of each link; whether any has less.
+// Computes the inertia that the impulses of `share` of a substep demand of each link. Returns true if any
+// link has less.
 bool find_demands(std::span<TreeLink> tree, double h, double share, Vec2d TreeLink::*impulse) {
   for (TreeLink& link : tree) link.demand = 0;
   const double scale = h / share;
@@ -201,7 +202,7 @@ bool find_demands(std::span<TreeLink> tree, double h, double share, Vec2d TreeLi
   return heavier;
 }
 
-// What two bodies turn relative to each other, by the share of their inertia that loads made, is taken out.
+// Damps relative rotation of two bodies, by the fraction of their inertia that loads added.
 void damp(std::span<TreeLink> tree) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
     TreeLink &link = tree[i], &parent = tree[link.parent];
@@ -215,8 +216,8 @@ void damp(std::span<TreeLink> tree) {
 
 // ---- A substep
 
-// Velocities that bring bodies to where the hinges are closed. `share` of a substep's forces act before.
-// Whether the impulses made links heavier.
+// Solves for velocities that close the hinges at the end of the motion. `share` of a substep's forces act
+// before. Returns true if the impulses raised the inertia of links.
 bool hold(std::span<TreeLink> tree, double h, double share) {
   constexpr double kEnough = kClosed * kClosed;
   bool heavier = false;
@@ -243,7 +244,7 @@ bool hold(std::span<TreeLink> tree, double h, double share) {
   return heavier;
 }
 
-// Velocities that keep them closed.
+// Solves for velocities that keep them closed.
 void fit(std::span<TreeLink> tree) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
     TreeLink& link = tree[i];
@@ -254,8 +255,8 @@ void fit(std::span<TreeLink> tree) {
   solve(tree);
 }
 
-// Of gaps, what is too much to be closed in one substep stays open. Impulses of the last substep are no good
-// guess: what turns a little beneath a heavy load would be spun by them.
+// Sets the part of each gap that is too large to close in one substep; it stays open. No warm start: when a
+// light link under a heavy load has rotated a little, the old impulse would spin it up.
 void begin(std::span<TreeLink> tree, double h) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
     TreeLink& link = tree[i];
@@ -266,7 +267,7 @@ void begin(std::span<TreeLink> tree, double h) {
   }
 }
 
-// How many parts a substep is made in: a power of two.
+// Returns the number of parts that a substep is divided into: a power of two.
 int parts_of(std::span<const TreeLink> tree, double h) {
   double fastest = 0;  // rad/s, squared
   for (const TreeLink& link : tree) {
@@ -293,7 +294,7 @@ void move_tree(std::span<TreeLink> tree, double h, int substeps) {
       link.keep = std::sqrt(link.keep), link.keep_spin = std::sqrt(link.keep_spin);
   }
   place(tree);
-  bool fits = true;  // velocities and poses are of the same time
+  bool fits = true;  // velocities and poses belong to the same time
   for (int left = parts * substeps; left > 0; --left) {
     const double share = fits ? 0.5 : 1;
     find_demands(tree, t, 1, &TreeLink::impulse);
@@ -310,7 +311,7 @@ void move_tree(std::span<TreeLink> tree, double h, int substeps) {
     if (loaded) damp(tree);
     for (TreeLink& link : tree) link.found = {};
     fit(tree);
-    // Half of a substep's impulse before the motion, half of it after.
+    // Half of a substep's impulse acts before the motion, half after.
     for (TreeLink& link : tree) link.impulse = 0.5 * link.impulse + link.found;
   }
   for (TreeLink& link : tree) link.impulse *= parts;

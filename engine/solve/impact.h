@@ -2,8 +2,8 @@
 
 namespace plumb {
 
-/// Up to two points of one contact at the instant of an impact, in contact coordinates: component 2 p is the
-/// normal velocity of point p, 2 p + 1 its tangential one.
+/// Up to two points of one contact at the time of impact, in contact coordinates: component 2 p is the normal
+/// velocity of point p, 2 p + 1 its tangential one.
 template <class Real>
 struct Impact {
   int points = 0;
@@ -13,8 +13,8 @@ struct Impact {
   Real response[4][4] = {};  ///< 1/kg: change of component i for a unit impulse along j
 };
 
-/// The impulses, N s, of Newton's law of restitution (v_n = -e v_n before, never less) and Coulomb friction
-/// (tangential restitution 0), which only push. Found by projected Gauss-Seidel sweeps to rounding.
+/// Solves for the impulses, N s, of Newton's law of restitution (v_n >= -e v_n before) and Coulomb friction
+/// (tangential restitution 0), which only push. Iterates projected Gauss-Seidel to rounding.
 template <class Real>
 void solve_impact(const Impact<Real>& impact, Real (&impulse)[4]);
 

@@ -28,7 +28,7 @@ void ImpactStage<Real>::index(const std::vector<Contact<Real>>& contacts, std::s
   for (std::size_t i = contacts.size(); i-- > 0;)
     for (const int body : {contacts[i].a, contacts[i].b})
       contact_of_[--first_[body + 1]] = static_cast<int>(i);
-  // Counting down left each list's start one place too far right.
+  // Counting down left the start of each list one place too far right.
   for (std::size_t body = 0; body < bodies; ++body) first_[body] = first_[body + 1];
   first_[bodies] = static_cast<int>(contact_of_.size());
   version_.resize(contacts.size(), 0);
@@ -48,7 +48,7 @@ void ImpactStage<Real>::begin_step(const std::vector<Contact<Real>>& contacts) {
   allowance_ = {constants::kFullSubsteps * substep.impacts, constants::kFullSubsteps * substep.at_once};
 }
 
-/// Puts the contact's next impact at or after `from` among the events, if there is one in this substep.
+/// Adds the contact's next impact at or after `from` to the events, if there is one in this substep.
 template <class Real>
 void ImpactStage<Real>::predict(Call& call, int index, Real from) {
   const Contact<Real>& contact = call.contacts[index];
@@ -62,7 +62,7 @@ void ImpactStage<Real>::predict(Call& call, int index, Real from) {
   const Real threshold = call.solver.impact_speed(now, bodies, call.h);
   const Real left = call.h - from;
   const Vec2<Real> pressing = bodies.acceleration[now.b].velocity - bodies.acceleration[now.a].velocity;
-  const Real gain = std::abs(dot(pressing, now.normal)) * left;  // m/s that the approach may still win
+  const Real gain = std::abs(dot(pressing, now.normal)) * left;  // m/s that the approach may still gain
 
   Real earliest = 2 * call.h;
   for (int i = 0; i < now.count; ++i) {
@@ -93,7 +93,7 @@ void ImpactStage<Real>::clear_jump(const Call& call, const Contact<Real>& contac
   }
 }
 
-/// Adds what the impulse does to the bodies of the contact, and through their joints to others.
+/// Adds the velocity change by the impulse to both bodies and, through joints, to others.
 template <class Real>
 void ImpactStage<Real>::jump_by(const Contact<Real>& contact, const ContactPoint<Real>& point,
                                 Vec2<Real> impulse) {
@@ -103,7 +103,7 @@ void ImpactStage<Real>::jump_by(const Contact<Real>& contact, const ContactPoint
   jump_[contact.b].angular_velocity += contact.inverse_inertia_b * cross(point.arm_b, impulse);
 }
 
-/// The contact's points that touch at time `t`, and how they answer to impulses.
+/// Collects the contact's points that touch at time `t`, with their response to impulses.
 template <class Real>
 Impact<Real> ImpactStage<Real>::pose(Call& call, const Contact<Real>& contact, Real t,
                                      const ContactPoint<Real>* (&touching)[2]) {
@@ -132,7 +132,7 @@ Impact<Real> ImpactStage<Real>::pose(Call& call, const Contact<Real>& contact, R
   return impact;
 }
 
-/// Resolves the contact's impact at time `t`. Returns whether it was one.
+/// Resolves the contact's impact at time `t`. Returns true if there was one.
 template <class Real>
 bool ImpactStage<Real>::strike(Call& call, int index, Real t) {
   Bodies<Real>& bodies = call.bodies;
@@ -164,7 +164,7 @@ bool ImpactStage<Real>::strike(Call& call, int index, Real t) {
   return true;
 }
 
-/// The jump at time `t`: v += dv, x -= dv t.
+/// Applies the velocity jump at time `t`: v += dv, x -= dv t.
 template <class Real>
 void ImpactStage<Real>::shift(Bodies<Real>& bodies, int body, Real t) const {
   const Twist<Real>& jump = jump_[body];

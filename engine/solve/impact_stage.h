@@ -10,23 +10,23 @@
 
 namespace plumb {
 
-/// Places the impacts of a substep in time, one after another in the order in which they happen, and resolves
-/// each at its own instant: pairs that touch hit each other in turn.
+/// Finds the impacts of a substep in the order of their times, and resolves each at its own time. Bodies in
+/// contact pass impacts on in turn.
 ///
-/// A jump dv at time t moves a body's end of the substep by dv (h - t). That is also what the jump gives when
-/// the body had been at x - dv t from the start: so each impact changes v by dv and x by -dv t, and what
-/// comes after, in this substep or in its later stages, needs to know no more.
+/// A jump dv at time t displaces the body by dv (h - t) at the end of the substep. So does dv from the start
+/// of the substep, if the start position is x - dv t. Hence each impact changes v by dv and x by -dv t, and
+/// later stages need no other data.
 template <class Real>
 class ImpactStage {
  public:
-  /// The contacts by body, rebuilt when contacts change.
+  /// Rebuilds the lists of contacts by body, after contacts changed.
   void index(const std::vector<Contact<Real>>& contacts, std::size_t bodies);
 
-  /// Before the first substep of a step.
+  /// Called before the first substep of a step.
   void begin_step(const std::vector<Contact<Real>>& contacts);
 
-  /// `found(body, t)` is called for each body whose motion changed at `t`; it may append contacts, and then
-  /// returns true. Returns how many impacts there were.
+  /// Calls `found(body, t)` for each body whose motion changed at `t`; it may append contacts, and then
+  /// returns true. Returns the number of impacts.
   int resolve(std::vector<Contact<Real>>& contacts, std::span<const SolidShape<Real>> shapes,
               Bodies<Real>& bodies, const ContactSolver<Real>& solver, JointMethod<Real>* joints, Real h,
               const std::function<bool(int, Real)>& found);
@@ -38,13 +38,13 @@ class ImpactStage {
     std::uint32_t version = 0;
   };
 
-  // How many impacts there may be, and how many of them at the time of the one before.
+  // Maximum number of impacts, and of impacts at the time of the previous one.
   struct Allowance {
     std::int64_t impacts = 0, at_once = 0;
   };
   static Allowance allowance_of(const std::vector<Contact<Real>>& contacts);
 
-  struct Call;  // what one call of `resolve` works on
+  struct Call;  // data of one call of `resolve`
 
   void predict(Call& call, int index, Real from);
   bool strike(Call& call, int index, Real t);
@@ -55,9 +55,9 @@ class ImpactStage {
   void clear_jump(const Call& call, const Contact<Real>& contact);
   void shift(Bodies<Real>& bodies, int body, Real t) const;
 
-  Allowance allowance_;                  // left of the step
-  std::vector<Event> events_;            // a heap: the earliest first
-  std::vector<std::uint32_t> version_;   // by contact: events of an older version are void
+  Allowance allowance_;                  // remaining in the step
+  std::vector<Event> events_;            // a heap, earliest first
+  std::vector<std::uint32_t> version_;   // by contact: events of an older version are stale
   std::vector<int> first_, contact_of_;  // contacts of body i: contact_of_[first_[i] .. first_[i + 1])
   std::vector<Twist<Real>> jump_;        // by body
   std::vector<int> struck_;              // bodies that the present impact moves

@@ -59,7 +59,7 @@ void IterativeJoints<Real>::sweep(Bodies<Real>& bodies, const Spring& spring, st
   }
 }
 
-/// The implicit spring of frequency w and damping ratio z over a step h:
+/// Uses the implicit spring of frequency w and damping ratio z over a step h:
 /// rate = w / (2 z + h w), a = h w (2 z + h w), scale = a / (1 + a), leak = 1 / (1 + a).
 template <class Real>
 void IterativeJoints<Real>::begin_hold(Bodies<Real>& bodies, Real h) {

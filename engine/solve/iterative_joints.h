@@ -8,9 +8,8 @@
 
 namespace plumb {
 
-/// One row after another with impulses that carry over to the next substep: sequential impulses (Catto 2006),
-/// soft while holding positions (a damped spring as fast as the substep allows, Catto 2011), rigid while
-/// relaxing.
+/// Sequential impulses with warm starting (Catto 2006), row by row. Rows are soft while they hold positions
+/// (a damped spring as fast as the substep allows, Catto 2011), and rigid while they relax.
 template <class Real>
 class IterativeJoints final : public JointMethod<Real> {
  public:
@@ -20,7 +19,7 @@ class IterativeJoints final : public JointMethod<Real> {
   void begin_hold(Bodies<Real>& bodies, Real h) override;
   void sweep_hold(Bodies<Real>& bodies, Real h) override;
   void finish_hold(Bodies<Real>&, Real) override {}
-  void settle(Bodies<Real>&) override {}  // the springs of the next substep do
+  void settle(Bodies<Real>&) override {}  // left to the springs of the next substep
   void begin_relax(Bodies<Real>& bodies) override;
   void sweep_relax(Bodies<Real>& bodies) override;
   void begin_follow(Bodies<Real>& bodies, Real h) override;
@@ -31,7 +30,7 @@ class IterativeJoints final : public JointMethod<Real> {
   std::span<Real> memory() override { return impulses_; }
 
  private:
-  /// What turns a row's error into its impulse: P -= m scale (J v + rate C) + leak P.
+  /// Softness of a row: P -= m scale (J v + rate C) + leak P.
   struct Spring {
     Real rate = 0;  ///< 1/s
     Real scale = 1;

@@ -10,32 +10,32 @@ namespace plumb {
 
 inline constexpr double kWholeTurn = 6.28318530717958647692;
 
-/// The angle nearest to `near` that is `angle` but for whole turns.
+/// Returns `angle` plus the whole turns that bring it nearest to `near`.
 inline double nearest_turn(double angle, double near) {
   return angle + kWholeTurn * std::floor((near - angle) / kWholeTurn + 0.5);
 }
 
-/// rad, in [-pi, pi].
+/// Returns the angle of a rotation, rad, in [-pi, pi].
 template <class Real>
 double angle_of(Rotation<Real> q) {
   return arc_tangent(static_cast<double>(q.s), static_cast<double>(q.c));
 }
 
-/// rad, of b relative to a, in [-pi, pi].
+/// Returns the angle of b relative to a, rad, in [-pi, pi].
 template <class Real>
 double relative_angle(Rotation<Real> a, Rotation<Real> b) {
   const double c = a.c, s = a.s;
   return arc_tangent(c * b.s - s * b.c, c * b.c + s * b.s);
 }
 
-/// rad, of a joint that is put together at `angle` but for whole turns: the one nearest to 0, or, where
-/// limits do not allow that, the one that passes them least. A pose does not tell how often a body has
-/// turned: what it was made with is what it is held at. Every driver starts counting here.
+/// Returns the initial angle of a joint placed at `angle`, rad, up to whole turns. It is the one nearest to 0
+/// or, if limits exclude that, the one that violates them least. A pose does not contain the number of turns,
+/// so every driver starts counting here.
 inline double angle_at_birth(double angle, double lower, double upper) {
-  constexpr double kSlack = 0.01;  // rad: a joint placed at a limit may pass it by roundings
+  constexpr double kSlack = 0.01;  // rad: a joint placed at a limit may exceed it by rounding
   const double near = nearest_turn(angle, 0);
   if (near >= lower - kSlack && near <= upper + kSlack) return near;
-  // The first turn within reach of the range, and the one on the range's other side.
+  // The first turn that reaches the range, and the one on the range's other side.
   const double turns =
       near < lower ? std::ceil((lower - near) / kWholeTurn) : std::floor((upper - near) / kWholeTurn);
   const double beyond = near + kWholeTurn * turns,
@@ -44,22 +44,22 @@ inline double angle_at_birth(double angle, double lower, double upper) {
   return passed(beyond) <= passed(before) ? beyond : before;
 }
 
-/// What is known of the turns that a joint has come.
+/// State of a joint's count of turns.
 enum class TurnCount : int {
-  Born,     ///< nothing: the turn is that of `angle_at_birth`
+  Born,     ///< not counted: the turn is that of `angle_at_birth`
   Counted,  ///< the joint's angle is near the last one
-  Limited,  ///< the same, with limits that are new: the turn is the nearest one to what they allow
+  Limited,  ///< the same, with new limits: the turn nearest to the allowed range
 };
 
-/// The angle of a joint over time: whole turns are counted from substep to substep.
+/// The angle of a joint over time; whole turns are counted from substep to substep.
 struct JointAngle {
-  double a = 0, b = 0;  ///< rad, last seen: of b relative to a in `b`; of geared joints, each body's own
-  double start_a = 0, start_b = 0;  ///< the same at the step's start
-  double start = 0;                 ///< rad, the joint's own (less its reference) at the step's start
+  double a = 0, b = 0;  ///< rad, last evaluated: of b relative to a in `b`; of geared joints, each body's own
+  double start_a = 0, start_b = 0;  ///< the same at the start of the step
+  double start = 0;                 ///< rad, the joint's own (minus its reference) at the start of the step
   TurnCount count = TurnCount::Born;
 };
 
-/// What a joint keeps beside impulses: the tooth that a ratchet holds, a pulley's length (m).
+/// State of a joint besides impulses: the tooth that a ratchet holds, a pulley's length (m).
 struct JointMemory {
   double value = 0;
   int known = 0;

@@ -7,8 +7,7 @@
 
 namespace plumb {
 
-/// N rigid rows that are solved at once: K = J M^-1 J^T = L D L^T. A row that those before it leave nothing
-/// to move is left out.
+/// N rigid rows solved together: K = J M^-1 J^T = L D L^T. A row that depends on those before it is left out.
 template <class Real, int N>
 struct JointBlock {
   JointRow<Real> row[N]{};
@@ -16,7 +15,7 @@ struct JointBlock {
   Real inverse_pivot[N]{};
   Real impulse[N]{};
 
-  /// For the rows as they are.
+  /// Factorises for the present rows.
   void factorise(const JointVelocities<Real>& v) {
     constexpr Real kNothing = 32 * std::numeric_limits<Real>::epsilon();
     Real pivot[N];

@@ -15,12 +15,12 @@
 
 namespace plumb {
 
-/// Stands where a kind lacks a part.
+/// Placeholder for a part that a kind lacks.
 template <int>
 struct NoPart {};
 
-/// A joint of kind `Kind` ready to be solved. Only the parts that the kind has take room; they are solved in
-/// the order turn, axial, block, point, such that what is rigid holds best.
+/// A joint of kind `Kind`, prepared for solving. Only the parts that the kind has take memory. They are
+/// solved in the order turn, axial, block, point, so that rigid rows hold best.
 template <class Real, template <class> class Kind>
 struct JointConstraint {
   using Rows = Kind<Real>;
@@ -28,17 +28,17 @@ struct JointConstraint {
   static constexpr AngleUse kAngle = Rows::kAngle;
   static constexpr bool kRatchet = std::is_same_v<Rows, RatchetRows<Real>>;
   static constexpr bool kPulley = std::is_same_v<Rows, PulleyRows<Real>>;
-  /// The mouse alone: body a has no part in it.
+  /// Mouse joint only: body a takes no part.
   static constexpr bool kOneBody = Rows::kGrounded && !kPulley;
   static constexpr int kAxial = Rows::kAxial, kBlock = Rows::kBlock;
   template <bool kHas, class Part, int kTag>
   using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
 
   int joint = 0, a = 0, b = 0;
-  Real share = 1;                   ///< of its impulses that it applies at a time
+  Real share = 1;                   ///< under-relaxation factor of its impulses
   bool alone = false;               ///< no other joint moves its bodies
-  Real known_h = 0;                 ///< s, that the rules have been set for
-  Vec2<Real> offset{}, offset_a{};  ///< m, at the step's start
+  Real known_h = 0;                 ///< s, substep length that the rules are set for
+  Vec2<Real> offset{}, offset_a{};  ///< m, at the start of the step
   Vec2<Real> arm_b{};
   Rows kind{};
   [[no_unique_address]] If<kAngle != AngleUse::None, JointAngle, 0> angle{};
@@ -48,7 +48,7 @@ struct JointConstraint {
   [[no_unique_address]] If<(kBlock > 0), JointBlock<Real, kBlock>, 3> block{};
   [[no_unique_address]] If<Rows::kPoint, JointPoint<Real>, 4> point{};
 
-  /// Takes the definition's parameters; impulses and memory stay where they still mean the same.
+  /// Loads the definition's parameters; keeps impulses and memory that are still valid.
   void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
     const Rows last = kind;
     const Range last_limits = limits();
@@ -68,13 +68,13 @@ struct JointConstraint {
       if (kind.reference != last.reference || kind.tooth != last.tooth) memory = {};
     }
     if constexpr (kPulley) {
-      // A length that was given is not the one as placed.
+      // A given length may differ from the placed one.
       if (definition.length) memory = {*definition.length, 1};
     }
     known_h = 0;
   }
 
-  /// Springs and bounds for substeps of h, s.
+  /// Sets springs and bounds for substeps of h, s.
   void set_substep(const Definition& definition, Real h) {
     const JointRules rules = rules_of(definition);
     if constexpr (Rows::kTurn) turn.set_substep(rules.turn, h);
@@ -96,9 +96,9 @@ struct JointConstraint {
     evaluate(bodies, step, When::StepStarts);
   }
 
-  /// Motors count what they drift from the step's start, over each substep.
+  /// Time of an evaluation. Motors add up their drift from the start of the step over each substep.
   enum class When { StepStarts, SubstepEnds, Between };
-  /// All rows at the poses as they are now.
+  /// Evaluates all rows at the present poses.
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step, When when = When::Between) {
     const JointVelocities<Real> v = velocities(bodies);
     JointRows<Real> rows;
@@ -119,14 +119,14 @@ struct JointConstraint {
     const auto see = [starts, h](auto& coordinate, Real q) {
       starts ? coordinate.start_at(q) : coordinate.follow(q, h);
     };
-    // What it has turned since the step began, which is 0 then: the angle may be of many turns.
+    // Rotation since the step began (0 at that time), because the angle may have many turns.
     if constexpr (Rows::kTurn) see(turn, bodies.motion[b].turned - bodies.motion[a].turned);
     for (int i = 0; i < kAxial; ++i) see(axial[i], rows.axial[i].residual);
     if constexpr (Rows::kPoint)
       if (!starts) point.follow(rows.point.gap);
   }
 
-  /// Turn, axial and point at a pose and its rows; `at.angle` and the residuals are the coordinates.
+  /// Evaluates turn, axial and point rows at a pose; `at.angle` and the residuals are the coordinates.
   void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
                             const JointVelocities<Real>& v, const JointStep<Real>& step,
                             JointShare<Real> part) {
@@ -155,19 +155,19 @@ struct JointConstraint {
     }
   }
 
-  // What a spring refers to where rigid rows of the joint hold beside it: see
+  // Springs beside rigid rows of the joint refer to their effective mass given these: see
   // engine/joints/spring_mobility.h.
-  /// Whether the angle has a spring, beside a point that holds.
+  /// Returns true if the angle has a spring beside a rigid point.
   bool turn_beside_rigid() const {
     if constexpr (Rows::kTurn && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
     return false;
   }
-  /// Whether the first axial coordinate has a spring, beside a block or a second one that hold.
+  /// Returns true if the first axial coordinate has a spring beside a rigid block or second coordinate.
   bool axial_beside_rigid() const {
     if constexpr (kAxial > 0 && (kBlock > 0 || kAxial > 1)) return axial[0].has(RowRole::Spring);
     return false;
   }
-  /// Whether the point has a spring, beside an angle that holds.
+  /// Returns true if the point has a spring beside a rigid angle.
   bool point_beside_rigid() const {
     if constexpr (Rows::kTurn && Rows::kPoint)
       return point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
@@ -194,7 +194,7 @@ struct JointConstraint {
     return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
-  /// For the rows as they are.
+  /// Returns the load of the present rows.
   JointLoad<Real> load(const SolverBodies<Real>& bodies) const {
     constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);
     JointRow<Real> rows[kRows];
@@ -225,8 +225,8 @@ struct JointConstraint {
     store(v, bodies);
   }
 
-  /// All rows once. Rigid ones beside a spring come before and after it: then it finds the velocity that they
-  /// leave, and answers it as they let it.
+  /// Solves all rows once. Rigid rows beside a spring are solved before and after it: the spring then sees
+  /// the velocity that they leave, and its response includes them.
   void solve_coordinates(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
     if (turn_beside_rigid()) solve_point(v, which);
     if (point_beside_rigid()) solve_turn(v, which), solve_point(v, which);
@@ -245,7 +245,7 @@ struct JointConstraint {
     pass(bodies, step, kRelax);
   }
 
-  /// How the bodies stand now; turns are counted on.
+  /// Returns the present pose; counts turns on.
   JointPose<Real> pose(const SolverBodies<Real>& bodies) {
     const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
     JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
@@ -267,7 +267,7 @@ struct JointConstraint {
     return at;
   }
 
-  /// The pose and the rows as bodies are now, at any time: counts from what was seen last.
+  /// Returns the present pose and rows, at any time; counts turns from the last evaluation.
   std::pair<JointPose<Real>, JointRows<Real>> look(const SolverBodies<Real>& bodies) const {
     JointConstraint now = *this;
     const Vec2<Real> moved_a = bodies.motion[a].moved, moved_b = bodies.motion[b].moved;
@@ -283,7 +283,7 @@ struct JointConstraint {
     return {at, rows};
   }
 
-  /// Linear impulse on b, and the angular one about the point that `arm_b` leads to.
+  /// Returns the linear impulse on b, and the angular one about the end of `arm_b`.
   std::pair<Vec2<Real>, Real> reaction() const {
     Vec2<Real> linear{};
     Real angular = 0;
@@ -299,18 +299,18 @@ struct JointConstraint {
     return {linear, angular};
   }
 
-  /// Forgets impulses and what was counted.
+  /// Clears impulses and counts.
   void forget() {
     scale(0);
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }
-  /// Forgets impulses; the turns that were counted stay: a pose does not tell of them.
+  /// Clears impulses and keeps counted turns, because a pose does not contain them.
   void put_elsewhere() {
     scale(0);
     if constexpr (kRatchet) memory = {};
   }
-  /// The bodies' own angles, rad, with the turns that they have come: gears are put together there.
+  /// Sets the bodies' own angles, rad, with their turns, for gears that are not counted yet.
   void meet(double angle_a, double angle_b) {
     if constexpr (kAngle == AngleUse::Geared)
       if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
@@ -353,7 +353,7 @@ struct JointConstraint {
     if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
-  /// rad, of the joint's angle. A ratchet's limit follows its angle.
+  /// Returns the limits of the joint's angle, rad. A ratchet's limit follows its angle.
   Range limits() const {
     Range range;
     if constexpr (Rows::kTurn && !kRatchet) {
@@ -365,12 +365,12 @@ struct JointConstraint {
     return range;
   }
 
-  /// The angle at the step's start. Turns are counted from where the last substep must have ended.
+  /// Computes the angle at the start of the step. Counts turns from the predicted end of the last substep.
   void count_turns(const SolverBodies<Real>& bodies, Real h) requires(kAngle != AngleUse::None) {
     const Rotation<Real> q_a = bodies.rotation[a], q_b = bodies.rotation[b];
     const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
     if constexpr (kAngle == AngleUse::Geared) {
-      // Gears are put together such that teeth meet: the first time, b's turn is the one that fits.
+      // Gears are assembled such that their teeth meet: at first, b takes the matching turn.
       const bool born = angle.count == TurnCount::Born;
       angle.a = nearest_turn(angle_of(q_a), angle.a + (born ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;
@@ -393,14 +393,14 @@ struct JointConstraint {
     angle.count = TurnCount::Counted;
   }
 
-  /// The ratchet has passed a tooth: it will not go back behind it.
+  /// Advances the ratchet past a tooth; it will not go back behind it.
   void click(Real now) requires kRatchet {
     const double tooth = kind.tooth_at(now);
     if (tooth > memory.value) memory.value = tooth;
     turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
   }
 
-  /// A rope whose length was not given has the one that it is placed with.
+  /// Sets the length of a rope without a given one to the placed length.
   void recall_length(const SolverBodies<Real>& bodies) requires kPulley {
     if (memory.known == 0) {
       JointRows<Real> rows;

@@ -7,16 +7,16 @@
 
 namespace plumb {
 
-/// A scalar coordinate and up to four rules on it. They share one Jacobian, so that J v is evaluated once and
-/// the impulses are applied once.
+/// A scalar coordinate with up to four rules. They share one Jacobian, so J v is evaluated once and the
+/// impulses are applied once.
 template <class Real, bool kAngular>
 struct JointCoordinate {
   struct Solved {
     RowTerm<Real> term[2];
   };
   int count = 0;
-  Real inverse_mass = 0;  ///< J M^-1 J^T, or what rigid rows that hold at the same time leave of it
-  JointRow<Real> row{};   ///< of kAngular: not used
+  Real inverse_mass = 0;  ///< J M^-1 J^T, reduced by rigid rows that hold at the same time
+  JointRow<Real> row{};   ///< not used if kAngular
   SolverRule<Real> rule[RowRules::kMost]{};
   Solved solved[RowRules::kMost]{};
 
@@ -38,7 +38,7 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
   }
 
-  /// Sees where a step starts, and where each substep ends.
+  /// Record the coordinate at the start of a step, and at the end of each substep.
   void start_at(Real q) {
     for (int i = 0; i < count; ++i) rule[i].last = q;
   }
@@ -46,7 +46,7 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) rule[i].follow(q, h);
   }
 
-  /// lambda along +q of all rules.
+  /// Returns the sum of all rules' lambda along +q.
   Real impulse() const {
     Real sum = 0;
     for (int i = 0; i < count; ++i) sum += rule[i].sign * rule[i].impulse;
@@ -59,7 +59,7 @@ struct JointCoordinate {
     return false;
   }
 
-  /// J M^-1 J^T.
+  /// Returns J M^-1 J^T.
   Real mobility(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {
       return v.i_a + v.i_b;
@@ -68,14 +68,14 @@ struct JointCoordinate {
     }
   }
 
-  /// `q`: the coordinate, at the pose of `row`.
+  /// Evaluates the rules at the coordinate `q`, at the pose of `row`.
   void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, JointShare<Real> part) {
     if (count == 0) return;
     inverse_mass = mobility(v);
     evaluate(q, inverse_mass, step, part);
   }
-  /// The same of a coordinate with a spring beside rigid rows, which leave it `held` of its mobility. Where
-  /// the joint solves them before and after it, alone, that is how it answers.
+  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. The reduced value is
+  /// its response if the joint is solved alone, with these rows before and after the spring.
   void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held, const JointStep<Real>& step,
                              JointShare<Real> part) {
     inverse_mass = part.share == 1 ? held : mobility(v);

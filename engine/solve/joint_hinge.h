@@ -8,14 +8,14 @@
 
 namespace plumb {
 
-/// Where the two anchors of a plain revolute joint are, in numbers or in fours of them.
+/// Arms and gap of a plain revolute joint, for scalars or for groups of four.
 template <class Number>
 struct HingeArms {
   Vec2<Number> a{}, b{};  ///< m, from the centres of mass to the middle of the gap: see AnchorPoint::middle
-  Vec2<Number> gap{};     ///< m, anchor b less anchor a
+  Vec2<Number> gap{};     ///< m, anchor b minus anchor a
 };
 
-/// From the centres' distance at the step's start, their ways since, and the anchors as they are turned now.
+/// Computes them from the centres' offset at the start of the step, displacements, and the rotated anchors.
 template <class Number>
 [[gnu::always_inline]] inline HingeArms<Number> hinge_arms(Vec2<Number> offset, Vec2<Number> moved_a,
                                                            Vec2<Number> moved_b, Vec2<Number> to_a,
@@ -24,7 +24,7 @@ template <class Number>
   return {to_a + half, to_b - half, gap};
 }
 
-/// The impulse that takes back what the joint's bodies move apart at, and some of the gap.
+/// Returns the impulse that removes the relative velocity of the anchors and part of the gap.
 template <class Number, class Real>
 [[gnu::always_inline]] inline Vec2<Number> soft_impulse(const Symmetric2<Number>& mass, Vec2<Number> rate,
                                                         Vec2<Number> gap, Vec2<Number> impulse, Number share,
@@ -33,21 +33,21 @@ template <class Number, class Real>
            Number(soft.impulse_scale) * impulse);
 }
 
-/// The plain revolute joint, without limits, motor or spring: by far the most frequent one, and compact.
-/// Four numbers each lie together: four joints at a time load and store them whole.
+/// Plain revolute joint, without limits, motor or spring: by far the most frequent one, and compact. Fields
+/// are grouped in fours, so that four joints at a time load and store whole groups.
 template <class Real>
 struct alignas(16) HingeConstraint {
   Vec2<Real> anchor_a{}, anchor_b{};
   Vec2<Real> impulse{};
-  Vec2<Real> gap{};  ///< m, anchor b less anchor a
+  Vec2<Real> gap{};  ///< m, anchor b minus anchor a
   Vec2<Real> arm_a{}, arm_b{};
   Symmetric2<Real> mass{};
-  Real share = 1;       ///< of its impulses that it applies at a time
-  Vec2<Real> offset{};  ///< m, at the step's start
-  Real known_h = 0;     ///< nothing here depends on it
+  Real share = 1;       ///< under-relaxation factor of its impulses
+  Vec2<Real> offset{};  ///< m, at the start of the step
+  Real known_h = 0;     ///< unused: nothing here depends on it
   int joint = 0, a = 0, b = 0;
-  bool held = false;   ///< another solves it
-  bool alone = false;  ///< not four at a time: it is held, or one of its bodies does not give way
+  bool held = false;   ///< solved elsewhere
+  bool alone = false;  ///< not in groups of four: it is held, or one of its bodies is not dynamic
 
   using Definition = RevoluteDefinition;
 
@@ -110,7 +110,7 @@ struct alignas(16) HingeConstraint {
   }
 
  private:
-  // In numbers of its own, written once: a pair that is stored by halves and loaded as one stalls.
+  // Computes in local variables and writes once: a pair stored by halves and loaded as one would stall.
   [[gnu::always_inline]] void evaluate(const SolverBodies<Real>& bodies, const BodyMotion<Real>& motion_a,
                                        const BodyMotion<Real>& motion_b, const JointVelocities<Real>& v) {
     const HingeArms<Real> arms = hinge_arms(offset, motion_a.moved, motion_b.moved,

@@ -18,12 +18,12 @@
 
 namespace plumb {
 
-/// Colours of joints; one more, the last, holds in order what found no place, and one list is for joints that
-/// are not active.
+/// Number of joint colours. One more list, the last, is the overflow, solved in order; another holds joints
+/// that are not active.
 inline constexpr int kJointColours = 24;
 inline constexpr int kOverflowColour = kJointColours, kParked = kJointColours + 1;
 
-/// What a joint is solved as. Two kinds have a plain form and a general one.
+/// Form in which a joint is solved. Two kinds have a plain form and a general one.
 enum JointForm : int {
   kHinge,
   kDistance,
@@ -51,11 +51,11 @@ inline JointForm form_of(const JointKind& definition) {
   return kByKind[definition.index()];
 }
 
-/// One list per colour of joints of one form.
+/// One list per colour, for joints of one form.
 template <class Constraint>
 using JointLists = std::array<std::vector<Constraint>, kJointColours + 2>;
 
-/// By form.
+/// Lists by form.
 template <class Real>
 using JointStore =
     std::tuple<JointLists<HingeConstraint<Real>>, JointLists<JointConstraint<Real, DistanceRows>>,

@@ -8,10 +8,10 @@
 
 namespace plumb {
 
-/// Holds the share of a joint's mobility that is body a's, and b's, at the most along any combination of its
-/// rows: the largest eigenvalue of K^-1 K_a, K = K_a + K_b = J M^-1 J^T; 0 to 1. Traces would add what turns
-/// to what moves: of a long blade welded to a small hub the hub gives way by 0.92 of all in the stiffest
-/// direction, and by 0.5 in the trace.
+/// Largest fraction of a joint's mobility that is body a's, and b's, over all combinations of its rows: the
+/// largest eigenvalue of K^-1 K_a, K = K_a + K_b = J M^-1 J^T; 0 to 1. Traces would mix rotation and
+/// translation. For a long blade welded to a small hub, the hub has 0.92 of the mobility in the stiffest
+/// direction, and 0.5 in the trace.
 template <class Real>
 struct JointLoad {
   Real a = 0, b = 0;
@@ -26,7 +26,7 @@ template <class Real>
     return {v.m_a + v.i_a > 0 ? Real(1) : Real(0), v.m_b + v.i_b > 0 ? Real(1) : Real(0)};
   const Real a_xx = v.m_a + v.i_a * (arm_a.y * arm_a.y), a_yy = v.m_a + v.i_a * (arm_a.x * arm_a.x),
              a_xy = -v.i_a * (arm_a.x * arm_a.y);
-  // The entries of K^-1 K_a as differences: of equal bodies nothing is left apart, to rounding.
+  // Entries of K^-1 K_a as differences: exact to rounding for equal bodies.
   const Real s_xx = (k.yy * a_xx - k.xy * a_xy) / k.determinant,
              s_yy = (k.xx * a_yy - k.xy * a_xy) / k.determinant;
   const Real s_xy = (k.yy * a_xy - k.xy * a_yy) / k.determinant,
@@ -37,7 +37,7 @@ template <class Real>
   return {share(mean + apart), share(1 - (mean - apart))};
 }
 
-/// Returns the load of any rows. What rows say twice counts once.
+/// Returns the load of any rows. Redundant rows count once.
 template <class Real, int N>
 JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocities<Real>& v) {
   double k[N][N], part[2][N][N];  // J M^-1 J^T; of a and b
@@ -49,12 +49,12 @@ JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocitie
       k[i][j] = part[0][i][j] + part[1][i][j];
     }
   }
-  // Gauss and Jordan's elimination turns the parts into K^-1 K_a and K^-1 K_b. A row that those before it
-  // leave nothing of is left out.
+  // Gauss-Jordan elimination turns the parts into K^-1 K_a and K^-1 K_b. Rows that depend on those before
+  // them are left out.
   double diagonal[N];
   for (int i = 0; i < N; ++i) diagonal[i] = k[i][i];
   for (int i = 0; i < N; ++i) {
-    constexpr double kNothing = 1e-6;  // of the diagonal, which is single precision's
+    constexpr double kNothing = 1e-6;  // of the diagonal, which has single precision
     const double inverse = k[i][i] > kNothing * diagonal[i] ? 1 / k[i][i] : 0;
     for (int j = 0; j < N; ++j) k[i][j] *= inverse, part[0][i][j] *= inverse, part[1][i][j] *= inverse;
     for (int row = 0; row < N; ++row) {

@@ -9,28 +9,28 @@
 
 namespace plumb {
 
-/// What is said of a joint but not solved with.
+/// Description of a joint, not used in the solver's passes.
 struct JointSlot {
   JointKind definition{};
   int a = -1, b = -1;  ///< bodies
   Vec2d centre_a{}, centre_b{};
   bool used = false, dynamic_a = false, dynamic_b = false, active = false;
   JointForm form = kHinge;
-  int colour = 0, index = 0;  ///< where its constraint lies
+  int colour = 0, index = 0;  ///< colour and index of its constraint
 
-  /// A mouse joint does nothing to body a.
+  /// A mouse joint does not move body a.
   bool moves_a() const { return dynamic_a && form != kMouse; }
 };
 
-/// The active joints of a body that gives way.
+/// The active joints of a dynamic body.
 struct BodyJoints {
-  std::uint32_t colours = 0;  ///< a bit each
+  std::uint32_t colours = 0;  ///< one bit each
   std::int32_t count = 0;
 
   bool operator==(const BodyJoints&) const = default;
 };
 
-/// A list that is not empty, with joints to solve.
+/// A non-empty list of joints to solve.
 struct JointRun {
   JointForm form;
   int colour;
@@ -40,8 +40,8 @@ template <class Real>
 struct JointSet<Real>::Parts {
   std::vector<JointSlot> slots;
   std::vector<int> free;
-  std::vector<BodyJoints> taken;  ///< by body
-  std::vector<JointRun> runs;     ///< in the order in which they are solved
+  std::vector<BodyJoints> taken;  ///< by body: its active joints and their colours
+  std::vector<JointRun> runs;     ///< in the order of solving
   JointStore<Real> store;
   int count = 0, active = 0;
 
@@ -69,7 +69,7 @@ struct JointSet<Real>::Parts {
     return with(s.form, [&](auto& lists) -> decltype(auto) { return f(lists[s.colour][s.index]); });
   }
 
-  /// In the order in which they are solved.
+  /// Visits active joints in the order of solving.
   template <class F>
   void for_each_active(F&& f) {
     for (const JointRun& run : runs) {
@@ -79,20 +79,21 @@ struct JointSet<Real>::Parts {
     }
   }
 
-  /// The first colour that no dynamic body of the joint has a joint of.
+  /// Returns the first colour that no joint of its dynamic bodies has.
   int free_colour(const JointSlot& s) const;
   /// Sets or clears the joint's colour at its dynamic bodies.
   void mark(const JointSlot& s, bool here);
-  /// A new constraint from the slot's definition.
+  /// Creates a constraint from the slot's definition.
   void create(int joint);
-  /// Takes the joint's constraint out of its list.
+  /// Removes the joint's constraint from its list.
   void take_out(int joint);
-  /// Makes room for the constraint of a joint whose colour is not marked: putting it there allocates nothing.
+  /// Reserves memory for the constraint of a joint whose colour is not marked, so that adding it does not
+  /// allocate.
   void make_room(JointForm form, const JointSlot& s);
-  /// Puts a constraint where the slot says that it belongs.
+  /// Adds a constraint at the slot's colour.
   template <class Constraint>
   void put(int joint, const Constraint& constraint);
-  /// Takes it out, and in again where the slot now says that it belongs. Its colour is not marked any more.
+  /// Removes the constraint and adds it again by the slot's new state. Its colour must not be marked.
   void put_anew(int joint);
   void find_runs();
 

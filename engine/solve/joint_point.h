@@ -18,7 +18,7 @@ struct Symmetric2 {
   }
 };
 
-/// What resists an impulse at a point that two bodies share:
+/// Inverse effective mass of a point that two bodies share:
 ///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
 /// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
 /// cancels.
@@ -38,8 +38,8 @@ template <class Number>
   return {xx, xy, yy, m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b)};
 }
 
-/// `share` of the effective mass, the inverse of K. Where the determinant is as good as 0 (nothing but
-/// turning is free, about one arm) the trace stands in: a short step.
+/// Returns `share` of the effective mass, the inverse of K. If the determinant vanishes to rounding (only
+/// rotation is free, about one arm), it divides by the trace instead: a short step.
 template <class Real>
 [[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real share) {
   const Real trace = k.xx + k.yy;
@@ -57,7 +57,8 @@ template <class Real>
   return mass_of(point_response(v, arm_a, arm_b), share);
 }
 
-/// Both components of the gap between two anchors, solved at once, by a rule that bounds the vector's length.
+/// Both components of the gap between two anchors, solved together, by a rule that bounds the vector's
+/// length.
 template <class Real>
 struct JointPoint {
   SolverRule<Real> rule{};  ///< without sign and origin
@@ -65,7 +66,7 @@ struct JointPoint {
   Vec2<Real> drift{};       ///< m, see SolverRule
   AnchorPoint<Real> point{};
   Symmetric2<Real> mass{};
-  Symmetric2<Real> compliance{};  ///< of a spring: what its impulse gives way by
+  Symmetric2<Real> compliance{};  ///< of a spring: its compliance matrix
   Vec2<Real> bias[2]{};
   Real mass_scale[2]{1, 1}, impulse_scale[2]{};
 
@@ -75,7 +76,7 @@ struct JointPoint {
   }
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
 
-  /// Sees where a substep ends; the gap of its start is that of `point`.
+  /// Records the gap at the end of a substep; the gap at its start is that of `point`.
   void follow(Vec2<Real> gap) {
     if (rule.role != RowRole::Motor) return;
     const bool suffices = length_squared(impulse) < rule.most * rule.most;
@@ -104,7 +105,7 @@ struct JointPoint {
       impulse_scale[pass] = term[pass].scale;
     }
   }
-  /// The same of a spring beside a rigid angle, which leaves `held` of the point's mobility.
+  /// Evaluates likewise a spring beside a rigid angle, which reduces the point's mobility to `held`.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
                              const Symmetric2<Real>& held, const JointStep<Real>& step,
                              JointShare<Real> part) {
@@ -126,7 +127,7 @@ struct JointPoint {
   }
 
  private:
-  // See SolverRule::terms. The spring refers to the mobility `held`; the point answers with `k`.
+  // See SolverRule::terms. The spring refers to the mobility `held`; the point responds with `k`.
   void evaluate_spring(const Symmetric2<Real>& held, const PointResponse<Real>& k,
                        const JointStep<Real>& step, JointShare<Real> part) {
     const Real share = part.share;
@@ -137,7 +138,7 @@ struct JointPoint {
     const Real gives = std::max(compliance.xx + compliance.yy, trace / kFirmest);
     if (!(trace > part.stiffest(step.stiffest) * gives)) {
       const Real xx = k.xx + compliance.xx, xy = k.xy + compliance.xy, yy = k.yy + compliance.yy;
-      // In proportion to K, as compliances are without rigid rows beside them, nothing cancels.
+      // If proportional to K, as without rigid rows beside the spring, nothing cancels.
       const Real times = 1 + rule.spring.compliance;
       const bool in_proportion = held.xx == k.xx && held.xy == k.xy && held.yy == k.yy;
       mass =

@@ -4,15 +4,15 @@
 #include "engine/solve/joint_constraint.h"
 #include "engine/solve/joint_hinge.h"
 
-/// Joints solved on positions. Within a substep a body's velocity is the way that it has come since the
-/// substep's start over h, so that a projection that moves it by dx changes its velocity by dx / h at once.
-/// The rules of a joint then read as they do for velocities, with the residual taken back to the substep's
-/// start: C(x) - h J v. What is rigid gets C(x + dx) = 0 to first order; a spring gets
-/// lambda = -(k C + c dC/dt) at the end, which is a compliance 1 / k (Macklin, Mueller and Chentanez, XPBD,
-/// 2016, eq. 18 and 26); motors, limits and bounds keep what they mean for the substep's impulse.
+/// Position-based joint solver. Within a substep a body's velocity is its displacement since the substep's
+/// start over h. A projection by dx therefore changes the velocity by dx / h at once. The rules of a joint
+/// are then the same as for velocities, with the residual at the substep's start: C(x) - h J v. Rigid rows
+/// get C(x + dx) = 0 to first order. A spring gets lambda = -(k C + c dC/dt) at the end, which is a
+/// compliance 1 / k (Macklin, Mueller and Chentanez, XPBD, 2016, eq. 18 and 26). Motors, limits and bounds
+/// apply unchanged to the substep's impulse.
 namespace plumb {
 
-/// Writes the velocities back, and the positions that follow.
+/// Writes back velocities and the corresponding positions.
 template <class Real>
 void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, BodyMotion<Real>& a,
                      BodyMotion<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
@@ -21,7 +21,7 @@ void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>
   if (v.m_b + v.i_b > 0) follow(b, rotation_b, before.v_b, before.w_b, h);
 }
 
-/// Nothing has been applied in this substep.
+/// Clears the joint's impulses at the start of a substep.
 template <class Real, template <class> class Kind>
 void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
                       const JointStep<Real>& step) {
@@ -31,7 +31,7 @@ void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Rea
   if constexpr (Constraint::kBlock > 0)
     for (Real& impulse : joint.block.impulse) impulse = 0;
   if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
-  // A tooth has been passed where bodies come to be, not where they would go.
+  // A ratchet advances at reached positions, not at predicted ones.
   if constexpr (Constraint::kRatchet) joint.evaluate(bodies, step);
 }
 
@@ -40,7 +40,7 @@ void begin_projection(HingeConstraint<Real>& hinge, const SolverBodies<Real>&, c
   hinge.impulse = {};
 }
 
-/// Moves the two bodies such that the joint's rules hold where they are then.
+/// Moves the two bodies such that the joint's rules hold at the new positions.
 template <class Real, template <class> class Kind>
 void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
              const JointStep<Real>& step) {

@@ -10,20 +10,20 @@
 
 namespace plumb {
 
-/// Which of the two solutions of a substep: with bias, or without.
+/// The two solutions of a substep: with bias, or without.
 enum JointPass { kSolve = 0, kRelax = 1 };
 
-/// What one solution asks of a row: delta = -mass (J v + bias) - scale impulse.
+/// Coefficients of a row in one solution: delta = -mass (J v + bias) - scale impulse.
 template <class Real>
 struct RowTerm {
   Real bias = 0, mass = 0, scale = 0;
 };
 
-/// How a joint shares its bodies with others.
+/// Under-relaxation of a joint that shares bodies with others.
 template <class Real>
 struct JointShare {
-  Real share = 1;      ///< of its impulses that it applies at a time
-  bool alone = false;  ///< no other joint moves its bodies: nothing disturbs what it finds
+  Real share = 1;      ///< fraction of its impulses that is applied at a time
+  bool alone = false;  ///< no other joint moves its bodies
 
   Real stiffest(Real shared) const { return alone ? std::numeric_limits<Real>::infinity() : shared * share; }
 };
@@ -33,10 +33,10 @@ struct JointShare {
 template <class Real>
 struct SpringTerm {
   Real rate = 0;        ///< 1/s: k / (c + h k)
-  Real compliance = 0;  ///< 1 / (h (c + h k)), by the mobility that it refers to
+  Real compliance = 0;  ///< 1 / (h (c + h k)), divided by the mobility that it refers to
 };
 
-/// With omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility.
+/// Computes it with omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility.
 template <class Real>
 SpringTerm<Real> spring_term(const Spring& spring, double h) {
   const double omega = 2 * 3.14159265358979323846 * spring.hertz;
@@ -44,25 +44,25 @@ SpringTerm<Real> spring_term(const Spring& spring, double h) {
   return {static_cast<Real>(omega / a), static_cast<Real>(1 / (h * omega * a))};
 }
 
-/// A spring that is stiffer than sweeps follow, h (c + h k) by the mobility beyond `JointStep::stiffest`. A
-/// sweep's error would come back through the gap with as much force as it left, and grow from substep to
-/// substep. So it is held as rigid rows are: pulled back no faster than they are and relaxed like them, and
-/// resting where its load says as long as it is softer than they are.
+/// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above `JointStep::stiffest`.
+/// The error of an iteration would return through the gap with equal force, and grow from substep to substep.
+/// So it is held like rigid rows: bias limited to theirs and relaxed. While it is softer than they are, it
+/// rests at the deflection of its load.
 template <class Real>
 struct StiffSpring {
   Real rate = 0, mass_scale = 1, impulse_scale = 0;
 
   StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share, const JointStep<Real>& step) {
     const Softness<Real>& rigid = step.softness;
-    // h^2 k and h c by the mobility.
+    // h^2 k and h c, times the mobility.
     const Real most = rigid.impulse_scale > 0
                           ? step.h * rigid.bias_rate * rigid.mass_scale / rigid.impulse_scale
                           : step.stiffest;
     const Real elastic = step.h * spring.rate * firmness;
     const Real k = std::min(elastic, most);
-    // It comes to rest within c / k as well where k is less than it was to be.
+    // Keeps the settling time c / k if k was reduced.
     Real c = elastic > 0 ? std::max(firmness - elastic, Real(0)) * (k / elastic) : Real(0);
-    // The most for which a star of a hundred is stable.
+    // Largest damping for which a star of a hundred is stable.
     constexpr Real kMostDamping = 10;
     if (share < 1) c = std::min(c, 2 * kMostDamping * std::sqrt(k));
     const Real held = std::max(k + c, k / (step.h * rigid.bias_rate));
@@ -72,7 +72,7 @@ struct StiffSpring {
   }
 };
 
-/// A rule ready for its role: parameters rounded to Real, and its spring for the substep.
+/// A rule prepared for its role: parameters rounded to Real, and its spring for the substep.
 template <class Real>
 struct SolverRule {
   RowRole role = RowRole::Rigid;
@@ -80,11 +80,11 @@ struct SolverRule {
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
-  /// Of a motor, m or rad: how far it has come short of its speed, or beyond, while its force sufficed.
+  /// Of a motor, m or rad: deviation from its target motion, added up while its force sufficed.
   Real drift = 0;
-  Real last = 0;  ///< of a motor: its coordinate when `drift` was counted
+  Real last = 0;  ///< of a motor: coordinate at the last update of `drift`
 
-  /// Takes another rule's parameters; the impulse stays where it still means the same.
+  /// Loads another rule's parameters; keeps the impulse if it is still valid.
   void load(const RowRule& rule) {
     const Real new_sign = static_cast<Real>(rule.sign);
     if (rule.role != role || new_sign != sign) impulse = drift = 0;
@@ -98,16 +98,17 @@ struct SolverRule {
     if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, h);
   }
 
-  /// Counts a motor's drift over a substep that ended at `q`.
+  /// Updates a motor's drift over a substep that ended at `q`.
   void follow(Real q, Real h) {
     if (role != RowRole::Motor) return;
     drift = std::abs(impulse) < most ? drift + sign * (q - last) - speed * h : 0;
     last = q;
   }
 
-  /// Both terms for a coordinate at `q` with the given mobility, at the poses after a substep: `relax` of
-  /// this substep, `solve` of the next one. `spring_mobility` is what its spring refers to. A spring's force
-  /// belongs to where the substep began: one impulse a substep, in both passes.
+  /// Computes both terms for a coordinate at `q` with the given mobility, at the poses after a substep:
+  /// `relax` of this substep, `solve` of the next one. `spring_mobility` is the mobility that its spring
+  /// refers to. A spring's force belongs to the pose at the start of the substep: one impulse per substep, in
+  /// both passes.
   void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
              RowTerm<Real> (&term)[2]) const {
     const Real share = part.share;
@@ -135,7 +136,7 @@ struct SolverRule {
         return;
       }
       case RowRole::Limit:
-        // While it is open it may close within the substep, and no faster.
+        // An open limit may close within the substep, but no faster.
         if (c > 0) {
           term[kSolve] = term[kRelax] = {c * step.inverse_h, mass, 0};
         } else {
@@ -143,8 +144,8 @@ struct SolverRule {
         }
         return;
       case RowRole::Motor:
-        // As rigid rows, whose impulses fade and which their gaps call back: with impulses that stay whole
-        // legs on many held hips swing up.
+        // Like rigid rows, with decaying impulses and position feedback. With undiminished impulses, legs on
+        // many held hips swing up.
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
         if (!part.alone) term[kSolve] = {share * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
         return;

@@ -1,5 +1,4 @@
-// g++ packs pairs of these scalars into vectors at the price of more shuffles than it saves: a seventh
-// slower.
+// g++ would pack pairs of these scalars into vectors, with more shuffles than that saves: a seventh slower.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
@@ -33,7 +32,7 @@ void check_bodies(const JointKind& definition, int body_a, int body_b, bool dyna
                       : "must not both be static or kinematic: a joint moves neither");
 }
 
-/// The constraint takes over what the slot says.
+/// Loads the slot's definition into the constraint.
 template <class Parts>
 void reload(Parts& parts, int joint) {
   const JointSlot& s = parts.slot(joint);
@@ -53,7 +52,7 @@ constexpr bool kIsRevolute = false;
 template <class Real>
 constexpr bool kIsRevolute<JointConstraint<Real, RevoluteRows>> = true;
 
-/// Visits the impulse that holds the point of a revolute joint, in either of its forms.
+/// Visits the point impulse of a revolute joint, in either of its forms.
 template <class Parts, class F>
 void hinge_impulse(Parts& parts, int joint, F&& f) {
   parts.at(joint, [&]<class Constraint>(Constraint& constraint) {
@@ -72,8 +71,8 @@ template <class Parts, class F>
   });
 }
 
-/// All active joints in the order in which they are solved, plain revolute ones colour by colour. `others` is
-/// apart from them: what it takes of the stack, and of time to set that up, would be theirs too.
+/// Visits all active joints in the order of solving, plain revolute ones colour by colour. `others` is not
+/// inlined: plain joints would otherwise pay for its stack frame.
 template <class Real, class Parts, class Hinges, class Others>
 [[gnu::always_inline]] inline void sweep(Parts& parts, Hinges&& hinges, Others&& others) {
   for (const JointRun& run : parts.runs) {
@@ -88,7 +87,7 @@ template <class Real, class Parts, class Hinges, class Others>
 
 }  // namespace
 
-// ---- Where constraints lie
+// ---- Storage of constraints
 
 template <class Real>
 int JointSet<Real>::Parts::free_colour(const JointSlot& s) const {
@@ -181,7 +180,7 @@ void JointSet<Real>::Parts::find_runs() {
   }
 }
 
-// ---- Joints come and go
+// ---- Adding and removing joints
 
 template <class Real>
 JointSet<Real>::JointSet() : parts_(std::make_unique<Parts>()) {}
@@ -203,7 +202,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
   validate(definition);
   check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
   Parts& p = *parts_;
-  ensure_room(p.free, p.slots.size() + 1);  // removing a joint allocates nothing
+  ensure_room(p.free, p.slots.size() + 1);  // so that removing a joint does not allocate
   if (p.free.empty()) {
     p.slots.emplace_back();
     p.free.push_back(static_cast<int>(p.slots.size()) - 1);
@@ -372,7 +371,7 @@ void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Rea
       [bodies, step](auto& joint) { joint.relax(bodies, step); });
 }
 
-// ---- What slots say
+// ---- Slots
 
 template <class Real>
 const JointKind& JointSet<Real>::definition(int joint) const {

@@ -15,64 +15,65 @@ namespace plumb {
 class ByteReader;
 class ByteWriter;
 
-/// What joints need to know of the step that they are solved in.
+/// Data of the step for the joints.
 template <class Real>
 struct JointStep {
   Real h = 0;                 ///< s, of a substep
   Real inverse_h = 0;         ///< 1/s
-  Softness<Real> softness{};  ///< of rows that are rigid
-  /// h (c + h k) by the effective mass beyond which springs are held as rigid rows are: `stiffest_spring`.
+  Softness<Real> softness{};  ///< of rigid rows
+  /// h (c + h k) times the mobility, above which springs are held like rigid rows: `stiffest_spring`.
   Real stiffest = std::numeric_limits<Real>::infinity();
-  Real warm_start = 1;  ///< this substep over the previous step's one: impulses scale with it
+  Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
 };
 
-/// The stiffest spring that so many sweeps, started from the last impulses, follow as it is: h (c + h k) over
-/// its effective mass. Stiffer ones are held as rigid rows are (StiffSpring in joint_rule.h): a substep is
-/// too long for them to swing. The linear models of chains and stars of 2 to 100 bodies, hub down to a
-/// thousandth, are stable at 2 for a sweep a pass, and at 12 for 6 and more, with any stiffness and damping;
-/// from 4 on chains explode.
+/// Returns the stiffest spring that sequential impulses with warm starting solve as it is: h (c + h k) over
+/// its effective mass. Stiffer ones are held like rigid rows (StiffSpring in joint_rule.h): the substep is
+/// too long for them to oscillate. Linear models of chains and stars of 2 to 100 bodies, hub down to a
+/// thousandth, are stable at 2 for one iteration per pass. They are stable at 12 for 6 and more, with any
+/// stiffness and damping; from 4 on chains explode.
 template <class Real>
 Real stiffest_spring(int sweeps) {
   return static_cast<Real>(2 * std::min(sweeps, 6));
 }
 
-/// How far a joint is from what it should hold.
+/// Position error of a joint.
 template <class Real>
 struct JointError {
   Real linear = 0;   ///< m
   Real angular = 0;  ///< rad
 };
 
-/// One row of a joint, for who solves all of an island at once.
+/// One row of a joint, for the solver of a whole island.
 template <class Real>
 struct JointSolverRow {
-  JointRow<Real> row{};  ///< the residual is what it holds: 0, or at least 0 of a limit
+  JointRow<Real> row{};  ///< its target residual is 0, or at least 0 for a limit
   RowRole role = RowRole::Rigid;
-  bool pair = false;  ///< `most` bounds the vector of this impulse and the one of the row before it
+  bool pair = false;  ///< `most` bounds the vector of this impulse and that of the previous row
   Real speed = 0;     ///< m/s or rad/s, of a motor
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
-  Real compliance = 0;          ///< of its mobility's unit
-  Real coupled_compliance = 0;  ///< likewise, with the impulse of the row before it
-  Real* impulse = nullptr;      ///< its accumulated impulse, in the joint: valid until joints come or go
+  Real compliance = 0;          ///< in the unit of its mobility
+  Real coupled_compliance = 0;  ///< the same, with the impulse of the previous row
+  Real* impulse =
+      nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
 
-/// A plain revolute joint, for who solves it in the set's place.
+/// A plain revolute joint that the caller solves in the set's place.
 template <class Real>
 struct HeldHinge {
   Vec2d anchor_a{}, anchor_b{};   ///< m, from the centres of mass, in the bodies' frames
-  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep: valid until joints come or go
+  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep; valid until joints are added or removed
 };
 
-/// All joints of a real-time world, solved by sequential impulses with soft steps and a relaxation ("TGS
-/// soft", Catto, Solver2D, 2024). Joints are coloured such that those of one colour share no dynamic body,
-/// and lie in one array per colour and kind. A substep is
+/// All joints of a real-time world, solved by sequential impulses with soft constraints and relaxation ("TGS
+/// soft", Catto, Solver2D, 2024). Joints are graph-coloured: those of one colour share no dynamic body and
+/// lie in one array per colour and kind. A substep is
 ///     v += h a;  warm_start;  solve;  x += h v;  relax
-/// and `prepare` comes once before the substeps, when positions and rotations are those of the step's start
-/// and nothing has moved or turned. Rows are evaluated after bodies have moved, by `relax`, and serve the
-/// next substep too: impulses always act where bodies are, so that joints conserve angular momentum to
-/// rounding and a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`.
-/// None of the four allocates.
+/// `prepare` comes once before the substeps, at the positions and rotations of the step's start, with zero
+/// displacements. `relax` evaluates rows after bodies have moved, and they serve the next substep too.
+/// Impulses therefore act at the bodies' present positions: joints conserve angular momentum to rounding, and
+/// a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`. None of the
+/// four allocates.
 template <class Real>
 class JointSet {
  public:
@@ -81,108 +82,108 @@ class JointSet {
   JointSet(JointSet&& other) noexcept;
   JointSet& operator=(JointSet other) noexcept;
   ~JointSet();
-  /// Becomes a copy of `other` in the room that is there: nothing is allocated where it suffices.
+  /// Copies `other` into the existing memory; does not allocate if that suffices.
   void assign(const JointSet& other);
 
-  /// A new joint between bodies `body_a` and `body_b`; returns its slot, which stays its own until `remove`.
-  /// Slots that are free are taken again, the last one freed first. `centre_a` and `centre_b` are the centres
-  /// of mass in the bodies' frames. Error (Value) for a definition that `validate` refuses, for a body joined
-  /// to itself and when no body is dynamic.
+  /// Adds a joint between bodies `body_a` and `body_b`. Returns its slot, which is valid until `remove`; the
+  /// slot freed last is reused first. `centre_a` and `centre_b` are the centres of mass in the bodies'
+  /// frames. Throws Error (Value) for a definition that `validate` rejects, for a body joined to itself, and
+  /// if no body is dynamic.
   int add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a, Vec2<Real> centre_b,
           bool dynamic_a, bool dynamic_b);
   void remove(int joint);
 
-  /// A joint that is not active keeps its impulses and takes no part in steps (its bodies sleep).
+  /// Activates or deactivates a joint. An inactive joint keeps its impulses and takes no part in steps (its
+  /// bodies sleep).
   void set_active(int joint, bool active);
 
   const JointKind& definition(int joint) const;
   /// Replaces the definition: new speeds, limits, targets, or another kind. Impulses and counted turns are
-  /// kept where the kind is the same (of a weld that becomes soft or rigid they start anew; a revolute joint
-  /// without limits, motor and spring counts no turns). With another reference angle, and where it is none of
-  /// a, the joint's angle starts at the turn nearest to 0 or its limits; new limits find it at the one
-  /// nearest to them. A pulley whose length is not given any more keeps the one it has. Error (Value) as
-  /// `add`; nothing has changed then.
+  /// kept if the kind is the same. A weld that becomes soft or rigid starts anew; a revolute joint without
+  /// limits, motor and spring counts no turns. With another reference angle, or a new kind, the joint's angle
+  /// starts at the turn nearest to 0 or its limits. New limits select the turn nearest to them. A pulley
+  /// without a given length keeps its present one. Throws Error (Value) as `add`, and then changes nothing.
   void change(int joint, const JointKind& definition);
-  /// The centre of mass of a body of the joint has moved in the body's frame.
+  /// Updates the centres of mass, after one has moved in its body's frame.
   void recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b);
-  /// A body of the joint has become dynamic, or is no longer.
+  /// Updates which bodies are dynamic.
   void set_dynamic(int joint, bool dynamic_a, bool dynamic_b);
-  /// rad, how bodies a and b stand, with the turns that they have come: a gear that no step has seen is put
-  /// together there. Without it, such angles are in [-pi, pi].
+  /// Sets the angles of bodies a and b, rad, with their turns: a gear before its first step is assembled at
+  /// these. Without it, such angles are in [-pi, pi].
   void meet(int joint, double angle_a, double angle_b);
-  /// Forgets impulses and counted turns: a body of the joint is another one.
+  /// Clears impulses and counted turns, after a body of the joint was replaced.
   void forget(int joint);
-  /// Forgets impulses: a body of the joint has been put elsewhere. Its angle is the one nearest to the last.
+  /// Clears impulses, after a body of the joint was repositioned. Its angle is the one nearest to the last.
   void put_elsewhere(int joint);
 
-  /// Evaluates all rows at the step's start.
+  /// Evaluates all rows at the start of the step.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Applies the impulses of the last substep.
   void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Impulses that hold velocities and pull errors back softly.
+  /// Solves velocities with soft position correction.
   void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Evaluates all rows at the poses after the motion and holds velocities only: takes out what pulling back
-  /// put in. Springs keep their force.
+  /// Evaluates all rows at the poses after the motion and solves velocities without bias, which removes the
+  /// velocity that the bias added. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
 
-  /// Turns back what has passed an angular limit by more than `slack`, rad, each joint by at most `most`
-  /// about its common point: poses change, velocities do not. One sweep; returns whether any joint was
-  /// turned. Between the motion and `relax`. Does not allocate.
+  /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `most` about
+  /// its common point. Changes poses, not velocities. One iteration; returns true if any joint was turned.
+  /// Call between the motion and `relax`. Does not allocate.
   bool turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack, Real most);
 
-  // For solvers that do not relax. None of the three allocates.
-  /// Evaluates all rows where bodies are now, within a step.
+  // For solvers without relaxation. None of the three allocates.
+  /// Evaluates all rows at the present poses, within a step.
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Position-based solvers start each substep without impulses.
+  /// Clears impulses: position-based solvers start each substep without any.
   void begin_projection(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// One sweep over positions: moves and turns bodies (`rotation` is that of `bodies`) such that each joint
-  /// in turn holds. Velocities are, and stay, the way since the substep's start over h. Of `step.softness`
-  /// the rate is 1 / h: all of an error is taken back.
+  /// Makes one iteration over positions: moves and turns bodies (`rotation` is that of `bodies`) to satisfy
+  /// each joint in turn. Velocities remain the displacement since the substep's start over h. The rate of
+  /// `step.softness` is 1 / h: errors are corrected completely.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
 
-  /// Appends the rows of a joint where its bodies are now.
+  /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 
-  /// Whether the joint is a revolute one without limits, motor and spring.
+  /// Returns true for a revolute joint without limits, motor and spring.
   bool is_hinge(int joint) const;
-  /// Leaves such a joint to the caller: the steps here pass it over until `let_go`.
+  /// Leaves such a joint to the caller: steps skip it until `let_go`.
   HeldHinge<Real> hold(int joint);
-  /// No joint is left to the caller any more.
+  /// Takes back all joints that were left to the caller.
   void let_go();
 
-  /// N, the reaction over the last substep: the size of the impulse on b, times 1 / h.
+  /// Returns the reaction force over the last substep, N: magnitude of the impulse on b, times 1 / h.
   Real force(int joint, Real inverse_h) const;
-  /// N m, about b's anchor, over the last substep.
+  /// Returns the reaction torque about b's anchor over the last substep, N m.
   Real torque(int joint, Real inverse_h) const;
 
-  /// How far the rigid rows and the limits are from what they hold, where bodies are now: at `position` +
-  /// `moved`, with `rotation`. Springs and motors have no error.
+  /// Returns the error of the rigid rows and the limits at the present poses (`position` + `moved`, with
+  /// `rotation`). Springs and motors have no error.
   JointError<Real> error(int joint, const SolverBodies<Real>& bodies) const;
-  /// rad, of b relative to a less the reference angle (the target, the phase): revolute, prismatic, weld,
-  /// wheel, motor, ratchet, friction. It is born at the turn nearest to 0 that limits allow, and whole turns
-  /// are counted from there; of revolute joints without limits, spring and motor it is in [-pi, pi].
-  /// They are counted right while the bodies turn less than pi, relative to each other, in a substep.
+  /// Returns the angle of b relative to a minus the reference angle (the target, the phase), rad: revolute,
+  /// prismatic, weld, wheel, motor, ratchet, friction. It starts at the turn nearest to 0 that limits allow,
+  /// and whole turns are counted. Revolute joints without limits, spring and motor have an angle in [-pi,
+  /// pi]. Counting is correct while the bodies rotate less than pi, relative to each other, in a substep.
   Real angle(int joint, const SolverBodies<Real>& bodies) const;
-  /// m, of anchor b along the axis from anchor a: prismatic, wheel.
+  /// Returns the coordinate of anchor b along the axis from anchor a, m: prismatic, wheel.
   Real translation(int joint, const SolverBodies<Real>& bodies) const;
-  /// m, between the anchors: distance; length_a + ratio length_b: pulley.
+  /// Returns the length, m: distance between the anchors for distance; length_a + ratio length_b for pulley.
   Real length(int joint, const SolverBodies<Real>& bodies) const;
 
   int count() const;
   int active_count() const;
-  /// One more than the highest slot that was ever in use.
+  /// Returns one more than the highest slot that was ever used.
   int slots() const;
   bool contains(int joint) const;
   bool active(int joint) const;
   std::pair<int, int> bodies(int joint) const;
-  /// Which of its bodies are said to give way.
+  /// Returns which of its bodies are dynamic.
   std::pair<bool, bool> dynamic(int joint) const;
-  /// Index of the joint's colour; joints of one colour share no dynamic body, but for those of the last one,
-  /// `colours() - 1`, which hold what found no place.
+  /// Returns the joint's colour. Joints of one colour share no dynamic body, except those of the overflow,
+  /// `colours() - 1`.
   int colour(int joint) const;
   static int colours();
 
-  /// Everything that a step depends on, such that a set that is restored continues with the same bits.
+  /// Saves all state that a step depends on: a restored set continues with the same bits.
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 

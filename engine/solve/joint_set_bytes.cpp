@@ -5,7 +5,7 @@
 #include "engine/scene/bytes.h"
 #include "engine/solve/joint_parts.h"
 
-/// A set of joints as bytes. Writing and reading go through the same lists of fields.
+/// Serialises a set of joints. Writing and reading use the same lists of fields.
 namespace plumb {
 namespace {
 
@@ -47,7 +47,7 @@ struct Read {
   }
   template <class T>
   void size(std::vector<T>& all) const {
-    // Each element takes a byte at least: a count that is not the writer's allocates nothing.
+    // Each element takes at least a byte, so an invalid count does not allocate much.
     const auto count = in.value<std::uint64_t>("joints");
     ByteReader::require(count <= in.rest().size(), "joints", "are cut off");
     all.assign(static_cast<std::size_t>(count), T{});
@@ -159,7 +159,7 @@ void fields(const A& ar, JointSlot& s) {
   ar(s.form), ar(s.colour), ar(s.index);
 }
 
-// ---- What constraints remember; the rest follows from slots and bodies
+// ---- State of constraints; the rest follows from slots and bodies
 
 template <class A, class Real>
 void fields(const A& ar, JointRow<Real>& row) {
@@ -189,8 +189,8 @@ void fields(const A& ar, JointConstraint<Real, Kind>& c) {
   if constexpr (Constraint::Rows::kPoint) ar(c.point.impulse), ar(c.point.drift);
 }
 
-/// Whether each body has the colours of its joints, and joints of one colour share none: they are solved side
-/// by side.
+/// Returns true if each body has the colours of its joints, and joints of one colour share no body. They are
+/// solved side by side.
 template <class Parts>
 bool is_coloured(const Parts& p) {
   std::vector<BodyJoints> taken(p.taken.size());
@@ -207,7 +207,7 @@ bool is_coloured(const Parts& p) {
   return taken == p.taken;
 }
 
-/// Whether slots and lists are as a set of joints leaves them: nothing else may be solved.
+/// Returns true if slots and lists are consistent, as JointSet leaves them: nothing else may be solved.
 template <class Parts>
 bool is_whole(const Parts& p) {
   std::size_t constraints = 0;

@@ -6,7 +6,7 @@
 namespace plumb {
 namespace {
 
-/// rad, by how much the joint's angle is to turn so that no limit is passed by more than `slack`.
+/// Returns the angle, rad, by which to turn the joint so that no limit is exceeded by more than `slack`.
 template <class Real>
 Real turn_back(const JointConstraint<Real, RevoluteRows>& joint, const BodyMotion<Real>* motion, Real slack) {
   const Real angle = static_cast<Real>(joint.angle.start) + (motion[joint.b].turned - motion[joint.a].turned);
@@ -27,8 +27,8 @@ void shift(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Re
   rotation = turned_by(rotation, turn);
 }
 
-/// Turns b relative to a about their common point, and closes that: one Newton step of all three rows, with
-/// displacements in the place of velocities.
+/// Turns b relative to a about their common point and closes the point's gap: one Newton step of all three
+/// rows, on displacements instead of velocities.
 template <class Real>
 void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<Real>& bodies,
                 Rotation<Real>* rotation, Real turn) {

@@ -6,7 +6,7 @@
 #include "engine/scene/error.h"
 #include "engine/solve/joint_parts.h"
 
-/// What a set of joints tells about them.
+/// Queries of a set of joints.
 namespace plumb {
 namespace {
 
@@ -15,7 +15,7 @@ constexpr bool kIsHinge = false;
 template <class Real>
 constexpr bool kIsHinge<HingeConstraint<Real>> = true;
 
-/// What a rule's coordinate at `q` is from what it holds.
+/// Returns the error of a rule with its coordinate at `q`.
 template <class Real>
 Real error_of(const SolverRule<Real>& rule, Real q) {
   const Real c = rule.sign * (q - rule.origin);
@@ -74,7 +74,7 @@ Vec2<Real> gap_of(const HingeConstraint<Real>& hinge, const SolverBodies<Real>& 
 template <class Real>
 Real JointSet<Real>::force(int joint, Real inverse_h) const {
   const Vec2<Real> linear = parts_->at(joint, [](const auto& c) { return c.reaction(); }).first;
-  // In double: the square of a large impulse is beyond a float.
+  // In double, because the square of a large impulse overflows float.
   return static_cast<Real>(std::sqrt(length_squared(linear.template as<double>())) * double(inverse_h));
 }
 

@@ -1,7 +1,7 @@
 #include "engine/solve/joint_parts.h"
 #include "engine/solve/joint_projection.h"
 
-/// A set of joints as solvers use it that do not relax.
+/// Methods of a set of joints for solvers without relaxation.
 namespace plumb {
 
 template <class Real>

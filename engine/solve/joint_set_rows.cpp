@@ -10,7 +10,7 @@ struct RowList {
   std::vector<JointSolverRow<Real>>& rows;
   const JointVelocities<Real>& v;
 
-  /// `mobility`: of a spring, what it refers to.
+  /// Appends a row. `mobility`: of a spring, the one that it refers to.
   void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility) const {
     JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
     out.row.residual = rule.sign * (row.residual - rule.origin);

@@ -8,7 +8,7 @@
 namespace plumb {
 namespace {
 
-/// Rows of one joint follow each other and name the same bodies: they are eliminated as one block.
+/// Returns the block of each row: consecutive rows with the same bodies are eliminated together.
 template <class Real>
 std::vector<int> block_of_each(std::span<const Row<Real>> rows) {
   std::vector<int> block(rows.size());
@@ -38,14 +38,14 @@ JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const 
   }
   const EliminationOrder order = minimum_degree(links, static_cast<int>(inverse_mass_.size()));
 
-  std::vector<int> place(rows.size());  // of the caller's row in the order
+  std::vector<int> place(rows.size());  // of the caller's row in the elimination order
   for (const int b : order.sequence) {
     for (const int row : rows_of[b]) {
       place[row] = static_cast<int>(order_.size());
       order_.push_back(row);
     }
   }
-  std::vector<std::vector<int>> below(rows.size());  // by place: the rows that its column of L reaches
+  std::vector<std::vector<int>> below(rows.size());  // by place: the rows in its column of L
   for (const int b : order.sequence) {
     for (std::size_t i = 0; i < rows_of[b].size(); ++i) {
       std::vector<int>& column = below[place[rows_of[b][i]]];
@@ -129,9 +129,9 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
   }
 }
 
-// Up-looking (T. A. Davis, Algorithm 849: a concise sparse Cholesky factorization package, ACM TOMS 31,
-// 2005): row k of L from the rows before it, L(0..k-1, 0..k-1) y = A(0..k-1, k), L(k, j) = y(j) / D(j), D(k)
-// = A(k, k) - sum of L(k, j) y(j).
+// Factorises up-looking (T. A. Davis, Algorithm 849: a concise sparse Cholesky factorization package, ACM
+// TOMS 31, 2005): row k of L from the rows before it,
+//     L(0..k-1, 0..k-1) y = A(0..k-1, k),  L(k, j) = y(j) / D(j),  D(k) = A(k, k) - sum of L(k, j) y(j).
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   weakest_ = 1;
@@ -163,10 +163,10 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   return dependent;
 }
 
-/// D's entry at `place`; returns whether its row is independent.
+/// Sets D's entry at `place`. Returns true if its row is independent.
 template <class Real>
 bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
-  // A pivot that has lost all but a few of its digits is the rounding left over by rows that it depends on.
+  // A pivot that has lost all but a few digits is the rounding error of a dependent row.
   constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
   const bool independent =
       pivot > std::max(kDependent, least_share_) * own && (kept_.empty() || kept_[place] == 0);

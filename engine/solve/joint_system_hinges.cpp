@@ -3,8 +3,8 @@
 
 #include "engine/solve/joint_system.h"
 
-// Chains of hinges, the commonest mechanism: the same factorisation by blocks of 2 x 2, without looking
-// anything up. Each number is found by the same operations in the same order as in the general one.
+// Chains of hinges, the commonest mechanism: the same factorisation by blocks of 2 x 2, without indirect
+// lookups. Each number comes from the same operations in the same order as in the general one.
 namespace plumb {
 namespace {
 
@@ -131,7 +131,7 @@ int JointSystem<Real>::factor_hinges(std::span<const Row<Real>> rows) {
   return dependent;
 }
 
-/// L D L^T x = work_, in place.
+/// Solves L D L^T x = work_, in place.
 template <class Real>
 void JointSystem<Real>::solve_hinges() const {
   for (const Hinge& hinge : hinges_) {

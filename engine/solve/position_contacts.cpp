@@ -18,7 +18,7 @@ Real pressure(const ContactConstraint<Real>& c) {
   return c.normal_impulse[0] + c.normal_impulse[1];
 }
 
-// All or nothing: what would need more than the cone has slides.
+// Stops sliding and rolling completely if the friction cone permits, else not at all.
 template <class Real>
 void hold_still(ContactPair<Real>& pair) {
   ContactConstraint<Real>& c = pair.c;
@@ -29,7 +29,7 @@ void hold_still(ContactPair<Real>& pair) {
   if (std::abs(torque) <= c.rolling_arm * pressure(c)) pair.roll(torque);
 }
 
-// The velocities that pressed points are to have: of those that bounce or close, or of all.
+// Sets the normal velocities of pressed points: of those that bounce or close, or of all.
 template <class Real>
 void leave(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const PositionStep<Real>& step, bool all) {
   ContactPair<Real> pair(motion, c);
@@ -67,7 +67,7 @@ void project_contacts(BodyMotion<Real>* motion, Rotation<Real>* rotation, Contac
     ContactPair<Real> pair(motion, c);
     const Vec2<Real> velocity_a = pair.a.velocity, velocity_b = pair.b.velocity;
     const Real spin_a = pair.a.angular_velocity, spin_b = pair.b.angular_velocity;
-    // Where the point was at the substep's start: it may close that gap, or has that overlap to leave.
+    // The separation at the start of the substep: the point may close this gap, or must remove this overlap.
     Real wanted[2] = {};
     for (int i = 0; i < c.count; ++i) {
       const Real start = pair.separation(i) - step.h * pair.normal_rate(i);

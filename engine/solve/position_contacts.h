@@ -3,9 +3,9 @@
 #include "engine/solve/body_motion.h"
 #include "engine/solve/contact_graph.h"
 
-/// Contacts solved on positions: overlaps are projected away by moving bodies. Within a substep a body's
-/// velocity is the way that it has come since the substep's start over h: moving it by dx changes the
-/// velocity by dx / h, and the multiplier over h is an impulse.
+/// Position-based contacts: overlaps are projected away by displacing bodies. Within a substep a body's
+/// velocity is its displacement since the substep's start over h. A displacement by dx changes the velocity
+/// by dx / h, and the multiplier over h is an impulse.
 namespace plumb {
 
 template <class Real>
@@ -14,30 +14,30 @@ struct PositionStep {
   Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
 };
 
-/// How friction acts on positions.
+/// Friction law of the position solver.
 enum class PositionFriction {
-  Coulomb,  ///< takes back sliding as far as mu times the normal multiplier (Jakobsen, 2001)
-  Static,   ///< takes it back all or not at all; what slides is left to velocities (Mueller et al., 2020)
+  Coulomb,  ///< removes sliding up to mu times the normal multiplier (Jakobsen, 2001)
+  Static,   ///< removes it completely or not at all; velocities handle the rest (Mueller et al., 2020)
 };
 
-/// At a substep's start, before forces act: no impulses yet. Until a point has been pressed in this step its
-/// approach is that of now.
+/// Clears impulses at the start of a substep, before forces act. Updates the approach of points that have not
+/// been pressed in this step.
 template <class Real>
 void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph);
 
-/// One sweep over predicted positions: overlaps away, but not faster than a contact may push, then sliding.
-/// Positions, rotations and velocities follow.
+/// Makes one iteration over predicted positions: removes overlaps, no faster than the depenetration speed,
+/// then sliding. Updates positions, rotations and velocities.
 template <class Real>
 void project_contacts(BodyMotion<Real>* motion, Rotation<Real>* rotation, ContactGraph<Real>& graph,
                       const PositionStep<Real>& step, PositionFriction friction);
 
-/// Velocities afterwards. What was pressed and came fast leaves with restitution times its approach, and
-/// nothing that was pressed closes on.
+/// Corrects velocities after the projection. Points with a fast impact separate with restitution times their
+/// approach, and no pressed point continues to close.
 template <class Real>
 void restore_bounces(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step);
 
-/// As `restore_bounces`, and (Mueller et al., 2020, section 3.6) what else was pressed does not leave with
-/// the speed of having been pushed out either; then friction of what slides, |dv| <= mu lambda_n / m.
+/// Does the same as `restore_bounces`, and removes the separating velocity of other pressed points (Mueller
+/// et al., 2020, section 3.6). Then applies dynamic friction, |dv| <= mu lambda_n / m.
 template <class Real>
 void correct_contact_velocities(BodyMotion<Real>* motion, ContactGraph<Real>& graph,
                                 const PositionStep<Real>& step);

@@ -5,8 +5,8 @@
 namespace plumb {
 namespace {
 
-// The velocity along n that a point is to have at least: a gap may close within the substep, an overlap
-// beyond the slop is fed back, and who arrives fast leaves with restitution times that speed.
+// Returns the minimum velocity of a point along n. A gap may close within the substep, an overlap beyond the
+// slop is fed back, and a fast impact separates with restitution times its speed.
 template <class Real>
 Real least_rate(const ContactPair<Real>& pair, int i, const SequentialStep<Real>& step) {
   const ContactConstraint<Real>& c = pair.c;
@@ -44,7 +44,7 @@ template <class Real>
 void sweep_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     ContactPair<Real> pair(motion, c);
-    // Friction first: what is solved last holds best.
+    // Friction first: rows solved last hold best.
     pair.rub_and_roll();
     Real least[2] = {};
     for (int i = 0; i < c.count; ++i) least[i] = least_rate(pair, i, step);

@@ -7,15 +7,15 @@
 namespace plumb {
 namespace {
 
-// s, in m over the fastest push out in m/s: gaps that were closed to 0 are 0 to rounding alone, and are to be
-// treated alike whichever side of it they come to lie on.
+// s: gap up to which a contact counts as closed, as a time at the depenetration speed. Gaps closed to 0 are 0
+// only to rounding, and both signs must be treated alike.
 constexpr double kClosed = 1e-8;
-// Loads add no more than this many times the fastest push out: what cannot give way is not squeezed harder
-// and harder.
+// Upper limit of the depenetration speed added by loads, in depenetration speeds: bodies that cannot move are
+// not squeezed ever harder.
 constexpr double kLoadedPush = 3;
 
-// m/s, by which a load pushes shapes apart faster: a share of what the last substep's impulse changes their
-// velocities by.
+// Returns the depenetration speed that a load adds, m/s: a fraction of the velocity change by the last
+// substep's impulse.
 template <class Real>
 [[gnu::noinline]] Real push_with_load(const ContactConstraint<Real>& c, Real inverse_mass,
                                       const ContactStep<Real>& step) {
@@ -33,7 +33,7 @@ template <class Real>
   Real fastest = -c.push_speed;
   if (std::min(c.now[0], c.now[1]) * soft[0].bias_rate < fastest) [[unlikely]]
     fastest -= push_with_load(c, pair.a.inverse_mass + pair.b.inverse_mass, step);
-  // The bias is the largest of three lines: gaps may close, overlaps are pushed out, but no faster than that.
+  // The bias is the maximum of three: gaps may close, overlaps are pushed out, and at most at that speed.
   const auto demand = [&](Real s) {
     const Softness<Real>& at = soft[s > closed];
     return Demand<Real>{std::max(s * step.inverse_h, std::max(s * soft[0].bias_rate, fastest)), at.mass_scale,
@@ -52,7 +52,7 @@ template <class Real>
 [[gnu::always_inline]] inline void relax_one(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
                                              const ContactStep<Real>& step) {
   Pair<Real> pair(motion, c);
-  // How far the points are open now: carried on from the step's start to first order.
+  // Present separation of the points, updated from the start of the step to first order.
   const Real closed = dot(c.normal, pair.b.moved - pair.a.moved);
   const auto demand = [&](int i) {
     const Real s = c.separation[i] + (closed + (c.arm_b[i] * pair.b.turned - c.arm_a[i] * pair.a.turned));

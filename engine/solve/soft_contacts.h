@@ -5,27 +5,26 @@
 
 namespace plumb {
 
-/// What the passes over contacts need besides the constraints.
+/// Settings of the passes over contacts.
 template <class Real>
 struct ContactStep {
   Real h = 0, inverse_h = 0;        ///< s, 1/s, of the substep
-  Softness<Real> softness[3][2]{};  ///< by ContactHardness; overlaps, and gaps, which are not softened
-  Real warm_start = 1;        ///< this substep over the last one: impulses grow with the time they act in
+  Softness<Real> softness[3][2]{};  ///< by ContactHardness; of overlaps, and of gaps (not softened)
+  Real warm_start = 1;        ///< ratio of this substep's length to the last one's: impulses scale with it
   Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
-  Real push_with_load = 0;    ///< of the velocity that a load gives soft contacts' bodies, the share by which
-                              ///< they are pushed out faster
+  Real push_with_load = 0;  ///< fraction of the velocity change by a load that is added to the depenetration
+                            ///< speed of soft contacts
 };
 
-/// Applies the impulses of the substep before: what was needed then is nearly what is needed now.
+/// Warm starts: applies the impulses of the last substep, which are nearly those needed now.
 template <class Real>
 void warm_start_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step);
 
-/// Normal impulses with a bias that pushes overlaps out softly and lets gaps close: afterwards the positions
-/// fit.
+/// Solves normal impulses with a bias that removes overlaps softly and lets gaps close: corrects positions.
 template <class Real>
 void solve_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step);
 
-/// Normal impulses without the push, friction and rolling resistance: afterwards the velocities fit.
+/// Solves normal impulses without bias, friction and rolling resistance: corrects velocities.
 template <class Real>
 void relax_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const ContactStep<Real>& step);
 

@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-// The separation of curved shapes is convex in time: Newton's steps from the left never pass the first root.
+// The separation of curved shapes is convex in time, so Newton steps from the left never pass the first root.
 template <class Real>
 Real time_of_contact(Contact<Real>& contact, int index, std::span<const SolidShape<Real>> shapes,
                      const Bodies<Real>& bodies, Real from, Real h) {

@@ -45,7 +45,7 @@ Material material_of(const Shape& shape) {
           .surface_speed = shape.surface_speed};
 }
 
-/// What the shapes of a body become: chains are made one by one after it.
+/// Definitions of a body's shapes. Chains are created one by one after the body.
 struct Shapes {
   std::vector<ShapeDefinition> solid;
   std::vector<ChainDefinition> chains;
@@ -92,7 +92,7 @@ JointDefinition definition_of(const Joint& joint) {
       joint);
 }
 
-/// Error where the world would refuse a part: before any other part is in it.
+/// Throws Error for a part that the world would refuse, before any part is added.
 template <class Real>
 void check_parts(const Scene& scene) {
   validate(world_definition(scene));

@@ -6,23 +6,23 @@
 
 namespace plumb {
 
-/// What a scene became in a world, in the scene's order.
+/// Handles of a scene's parts in a world, in the scene's order.
 struct SceneParts {
   std::vector<BodyId> bodies;
   std::vector<JointId> joints;
-  BodyId frame{};  ///< stands for the fixed frame that joints hold on to; names nothing when none does
+  BodyId frame{};  ///< static body for joints to the world; invalid when there are none
 };
 
-/// The world that behaves as `scene` says: its gravity, its combine rules.
+/// Returns a definition with the gravity and the combine rules of `scene`.
 WorldDefinition world_definition(const Scene& scene);
 
-/// Adds the bodies and joints of a scene to a world. Force laws act step by step: `SceneForces`
-/// (scene_forces.h) applies them before each. Throws Error as `validate(scene)`, Error (Value) for numbers
-/// beyond the world's own, and Error (Unsupported) as `world_unsupported`; nothing has changed then.
+/// Adds the bodies and joints of a scene to a world, but not its force laws: `SceneForces` (scene_forces.h)
+/// applies these before each step. Throws Error as `validate(scene)`, Error (Value) for numbers beyond the
+/// world's limits, and Error (Unsupported) as `world_unsupported`. The world is unchanged then.
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene);
 
-/// Empty, or what of a valid scene no world has.
+/// Returns the feature of a valid scene that no world supports, or an empty string.
 std::string world_unsupported(const Scene& scene);
 
 }  // namespace plumb

@@ -6,22 +6,21 @@
 
 namespace plumb {
 
-/// A pass over the awake bodies reads a dozen lists. A million bodies fit into no cache, and a processor
-/// follows a list by itself to the end of a page alone: what the pass is going to read is asked for some
-/// bodies ahead.
+/// Software prefetch for loops over the awake bodies, which read a dozen arrays. A million bodies fit into no
+/// cache, and hardware prefetchers stop at page boundaries. So this prefetches some bodies ahead.
 template <class Real>
 class AwakeAhead {
  public:
   explicit AwakeAhead(const WorldData<Real>& w)
       : w_(w), end_(w.awake.size() > kCached ? w.awake.size() : 0) {}
 
-  // GCC 12 drops calls of a function that does nothing else, unless they are expanded first.
+  // GCC 12 removes calls of a function that only prefetches, unless they are inlined first.
   [[gnu::always_inline]] void ask_for_motion(std::size_t place) const {
     if (place + kBodies >= end_) return;
     const int body = w_.awake[place + kBodies];
     __builtin_prefetch(&w_.bodies[body]), __builtin_prefetch(&w_.motion[body]);
   }
-  /// Of a body whose motion was asked for.
+  /// Prefetches pose and first shape of a body whose motion was prefetched before.
   [[gnu::always_inline]] void ask_for_place(std::size_t place) const {
     if (place + kShapes >= end_) return;
     const int body = w_.awake[place + kShapes], shape = w_.bodies[body].first_shape;
@@ -32,7 +31,7 @@ class AwakeAhead {
   }
 
  private:
-  /// Fewer bodies are in a cache as it is: asking would only take time.
+  /// Fewer bodies fit into a cache, where a prefetch only costs time.
   static constexpr std::size_t kCached = 1 << 14;
   static constexpr std::size_t kBodies = 32, kShapes = 16;
 

@@ -14,7 +14,7 @@
 namespace plumb {
 namespace {
 
-// Room for a new body, and for all bodies to be awake.
+// Reserves memory for a new body, and for all bodies to be awake.
 template <class Real>
 void make_place(WorldData<Real>& w, bool has_data) {
   w.bodies.make_room(1);
@@ -45,7 +45,7 @@ bool is_uncommon(const UncommonBody<Real>& own) {
          own.mass_centre != Vec2<Real>{};
 }
 
-// Room for the shapes of a body in a tree, and for all of them to be noted as moved.
+// Reserves memory for a body's shapes in a tree and in the move buffer.
 template <class Real>
 void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
   std::size_t shapes = 0;
@@ -55,7 +55,7 @@ void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
   ensure_room(w.awake, w.awake.size() + 1);
 }
 
-// Tells the joints of a body whether it gives way: all of them, or none.
+// Tells all joints of a body whether it is dynamic, or none if that throws.
 template <class Real>
 void set_joints_dynamic(WorldData<Real>& w, int body, bool gives_way) {
   const auto set = [&](const JointRecord& joint, bool to) {
@@ -87,7 +87,7 @@ Rotation<Real> rounded(Rotation<double> q) {
 
 template <class Real>
 int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<const ShapeDefinition> shapes) {
-  // First all that may be refused or run out of memory.
+  // First everything that may be refused or run out of memory.
   std::vector<NewShape<Real>> made;
   made.reserve(shapes.size());
   for (const ShapeDefinition& shape : shapes) made.push_back(prepare_shape<Real>(shape));

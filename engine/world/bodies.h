@@ -4,7 +4,7 @@
 
 #include "engine/world/world_data.h"
 
-/// Bodies, shapes, chains and joints come and go. Definitions are valid when they arrive here; names are
+/// Creation and removal of bodies, shapes, chains and joints. Definitions are validated before, and names are
 /// indices.
 namespace plumb {
 
@@ -13,39 +13,39 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
 template <class Real>
 void remove_body(WorldData<Real>& w, int body);
 
-/// Where the body's origin is, and its frame.
+/// Returns the position of the body's origin (m), which is that of its frame.
 template <class Real>
 Vec2d origin_of(const WorldData<Real>& w, int body);
 template <class Real>
 void set_gravity_scale(WorldData<Real>& w, int body, double scale);
-/// Rates of decay, 1/s.
+/// Sets the rates of decay, 1/s.
 template <class Real>
 void set_damping(WorldData<Real>& w, int body, double linear, double angular);
-/// Puts the body's origin somewhere else; what it rested on or held wakes up.
+/// Teleports the body's origin, and wakes bodies that touched it or are joined to it.
 template <class Real>
 void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
 
-/// What few bodies have: a place of its own for it, from now on.
+/// Returns the body's optional data, and allocates it if there is none yet.
 template <class Real>
 UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body);
 
-/// Takes a shape that has no contacts out of the body's list and the trees; mass is the caller's business.
+/// Removes a shape without contacts from the body's list and the trees. The caller updates the mass.
 template <class Real>
 void take_out_shape(WorldData<Real>& w, int shape);
-/// Likewise all shapes of a chain.
+/// Removes all shapes of a chain in the same way.
 template <class Real>
 void take_out_chain(WorldData<Real>& w, int chain);
 
-/// Has pairs looked for with the shape in the next step.
+/// Adds the shape to the move buffer, so that the next step looks up its pairs.
 template <class Real>
 void note_moved(WorldData<Real>& w, int shape);
-/// Ends what a sensor sees, and its record.
+/// Emits the end events of a sensor's overlaps, and removes its record.
 template <class Real>
 void end_visits(WorldData<Real>& w, int shape);
 
-/// Into the tree of the body's type, to be paired in the next step, and out of it.
+/// Adds the shape to the tree of its body's type and to the move buffer, or removes it from the tree.
 template <class Real>
 void enter_tree(WorldData<Real>& w, int shape);
 template <class Real>

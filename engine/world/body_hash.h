@@ -8,14 +8,14 @@
 
 namespace plumb {
 
-/// A body's place and the hash of its state, as recordings have them.
+/// Index of a body and the hash of its state, as recordings store them.
 struct BodyHash {
   std::uint32_t body = 0, hash = 0;
   friend bool operator==(const BodyHash&, const BodyHash&) = default;
 };
 PLUMB_MEMBERS(BodyHash, body, hash)
 
-/// Of all bodies that are awake, by place.
+/// Hashes all awake bodies, in the order of their indices.
 template <class Real>
 void hash_awake_bodies(const WorldData<Real>& w, std::vector<BodyHash>& hashes) {
   hashes.clear();

@@ -7,8 +7,8 @@
 namespace plumb {
 namespace {
 
-// A disc whose centre is too far from its body's centre of mass turns about that: its normal is not the line
-// between the bodies.
+// Largest offset of a circle from its body's centre of mass, as a fraction of its radius. Beyond it the
+// circle turns about that centre, and its normal is not the line between the bodies.
 constexpr double kCentred = 1e-5;
 
 template <class Real>
@@ -19,7 +19,7 @@ bool is_centred_disc(const WorldData<Real>& w, int shape) {
   return std::max(std::abs(centre.x), std::abs(centre.y)) <= Real(kCentred) * form.radius;
 }
 
-// Two discs that are apart: where they meet is on the line between their centres then.
+// Prepares two separated circles: they will touch on the line between their centres at that time.
 template <class Real>
 void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Bounce<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
@@ -28,7 +28,7 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Bounce
   const Real radius_a = w.forms[contact.shape_a].radius, radius_b = w.forms[contact.shape_b].radius;
   bounce.radii = radius_a + radius_b;
   bounce.between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
-  // The point where they will touch, which is in the middle of the gap until then.
+  // The future contact point, in the middle of the gap until then.
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   c.arm_tangent_a = -radius_a, c.arm_tangent_b = radius_b;
   const Real inverse = a.inverse_mass + b.inverse_mass + a.inverse_inertia * radius_a * radius_a +

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// Lists the bounces of a step: contacts with restitution, and discs that approach each other fast, whose
-/// normal is followed to where they meet.
+/// Collects the restitution contacts of a step, and circles that approach each other fast, whose normal is
+/// predicted for the time of contact.
 template <class Real>
 void find_bounces(WorldData<Real>& w);
 

@@ -5,9 +5,9 @@
 
 namespace plumb {
 
-/// A list that is filled and used up, in blocks. The room of one block stays, so that steps allocate nothing
-/// once warm; what a burst takes beyond it (a million contacts that begin in a scene's first step) is given
-/// back as it is used up.
+/// Queue in blocks, filled and then consumed as a whole. The memory of one block is kept, so that later steps
+/// allocate nothing. More, as for a million contacts that begin in a scene's first step, is freed while it is
+/// consumed.
 template <class T>
 class BurstList {
  public:
@@ -16,7 +16,7 @@ class BurstList {
     blocks_.back().push_back(value);
   }
 
-  /// `visit(value)` for each, in the order in which they came.
+  /// Calls `visit(value)` for each element in the order of insertion, and empties the list.
   template <class Visit>
   void use_up(Visit&& visit) {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {

@@ -7,7 +7,8 @@
 
 namespace plumb {
 
-/// What outsiders see of a contact. The constraint keeps the arms r by their components along t and n.
+/// Returns a contact as the user sees it. The constraint stores each lever arm r as its components along t
+/// and n.
 template <class Real>
 ContactReading reading_of(const WorldData<Real>& w, const ContactRecord& contact,
                           const ContactConstraint<Real>& c) {

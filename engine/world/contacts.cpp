@@ -20,7 +20,7 @@ void enter_near(WorldData<Real>& w, int contact) {
   record.index = static_cast<int>(w.near.size()) - 1;
 }
 
-// The last one without points takes the place.
+// Swap-removes: the last contact in Near takes the freed place.
 template <class Real>
 void leave_place(WorldData<Real>& w, int index) {
   if (index + 1 < static_cast<int>(w.near.size())) {
@@ -82,7 +82,7 @@ bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
 
 template <class Real>
 ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
-  // A chain's segment comes first: manifolds know it there only.
+  // A chain's segment must be shape a, as the manifold functions expect.
   if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
   ContactRecord record;
@@ -144,7 +144,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
     wake_body(w, record.body_b);
   } catch (...) {
     leave_graph(w, contact);
-    enter_near(w, contact);  // where it was: there is room
+    enter_near(w, contact);  // there is memory, as it was in Near before
     count_constraint(w, record, -1);
     throw;
   }
@@ -163,7 +163,7 @@ template <class Real>
 void park_contact(WorldData<Real>& w, int contact) {
   ContactRecord& record = w.contacts[contact];
   if (record.home == ContactHome::Near) {
-    // A kinematic body that is awake may come to touch a sleeper.
+    // An awake kinematic body may come to touch a sleeping one.
     if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
     leave_near(w, contact);
     record.home = ContactHome::Idle;

@@ -2,66 +2,66 @@
 
 #include "engine/world/world_data.h"
 
-/// The life of a contact: made when the stored boxes of two shapes overlap, in the constraint graph while it
-/// has points, parked while its bodies sleep, gone when the boxes part.
+/// Lifecycle of a contact. It is created when the fat AABBs of two shapes overlap, and destroyed when they
+/// separate. It is in the constraint graph while it has points, and parked while its bodies sleep.
 namespace plumb {
 
-/// Whether the two shapes are to collide at all: bodies, filters, joints between the bodies.
+/// Returns true if the two shapes may collide: checks bodies, filters, and joints between the bodies.
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
-/// The categories that a shape's boxes are to be looked for in: a group may overrule its mask.
+/// Returns the categories to query for a shape's AABB: all if it has a group, which may overrule the mask.
 inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 0xFFFFFFFFu : filter.mask; }
-/// What nothing can meet has no box in the trees, and costs no more than a body without shapes.
+/// Returns true if the shape collides with nothing; such a shape has no proxy in the trees.
 inline bool meets_nothing(const Filter& filter) { return seen_by(filter) == 0; }
 
-/// What a contact of two shapes is, in the order that it has them in.
+/// Returns a new record for a contact of two shapes, in the order that contacts require.
 template <class Real>
 ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b);
 
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
 
-/// Reports the end of touching.
+/// Removes a contact, and reports the end of touching.
 template <class Real>
 void destroy_contact(WorldData<Real>& w, int contact);
 
-/// From Near to Graph: it has points now. Bodies that sleep are woken.
+/// Moves a contact that has got points from Near to Graph, and wakes its bodies.
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint);
 
-/// From Graph to Near.
+/// Moves a contact that has lost its points from Graph to Near.
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact);
 
-/// To Parked or Idle when none of its bodies that give way is awake, and back.
+/// Moves a contact to Parked or Idle when none of its dynamic bodies is awake, and back.
 template <class Real>
 void park_contact(WorldData<Real>& w, int contact);
 template <class Real>
 void unpark_contact(WorldData<Real>& w, int contact);
 
-/// The constraint of a contact that has points.
+/// Returns the constraint of a contact that has points.
 template <class Real>
 ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact);
 
-/// Notes whether the contact touches as events tell it.
+/// Stores whether the contact touches, and emits the begin or end event.
 template <class Real>
 void set_touching(WorldData<Real>& w, int contact, bool touching);
 
-/// The manifolds of a body that was put somewhere else are to be made anew.
+/// Invalidates the manifolds of a body that was teleported.
 template <class Real>
 void forget_manifolds(WorldData<Real>& w, int body);
 
-/// Destroys all contacts of a body, or of one shape of it; what rested on it wakes up.
+/// Destroys all contacts of a body, or of one of its shapes, and wakes sleeping bodies that touched it.
 template <class Real>
 void destroy_contacts_of(WorldData<Real>& w, int body, int shape = kNone);
 
-/// After a shape got another filter: destroys its contacts that this forbids. What touches it wakes up.
+/// Destroys the contacts that a shape's new filter forbids. Wakes sleeping bodies that touch the shape.
 template <class Real>
 void destroy_forbidden_contacts(WorldData<Real>& w, int shape);
 
-/// Wakes what sleeps where a static shape has come to be, and would be pressed by it. (A body that moves is
-/// awake, and wakes what it meets in the next step.)
+/// Wakes sleeping bodies that a new static shape touches. (Other bodies are awake when they move, and wake
+/// those they meet in the next step.)
 template <class Real>
 void wake_touched(WorldData<Real>& w, int shape);
 
@@ -76,8 +76,8 @@ void for_each_edge(Items& items, int first, Visit&& visit) {
   }
 }
 
-/// Whether there is an item between two bodies for which `holds` does: looks along both bodies' lists at
-/// once, as far as the shorter one goes.
+/// Returns true if `holds` is true of any item between two bodies. Walks both bodies' lists in parallel, and
+/// stops at the end of the shorter one.
 template <class Items, class Test>
 bool any_between(const Items& items, int edge_a, int edge_b, int body_a, int body_b, Test&& holds) {
   while (edge_a != kNone && edge_b != kNone) {
@@ -89,8 +89,8 @@ bool any_between(const Items& items, int edge_a, int edge_b, int body_a, int bod
   return false;
 }
 
-/// Puts item `index` with body_a and body_b into both bodies' lists that start at `head` (a member of
-/// BodyRecord), or takes it out.
+/// Adds item `index` to the lists of its body_a and body_b, or removes it from them. `head` is the member of
+/// BodyRecord at which the lists start.
 template <class Real, class Items>
 void link_edges(WorldData<Real>& w, Items& items, int index, int BodyRecord<Real>::*head);
 template <class Real, class Items>

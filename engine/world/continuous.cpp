@@ -16,8 +16,8 @@
 namespace plumb {
 namespace {
 
-// The contacts of a body lie anywhere in memory: those of the flights to come are asked for in time, one of
-// each flight's at a time.
+// Prefetches the contacts of the next 8 flights' bodies, one of each flight at a time, because contact
+// records are scattered in memory.
 class ContactsAhead {
  public:
   ContactsAhead() { edges_.fill(kNone); }
@@ -39,7 +39,8 @@ class ContactsAhead {
   std::array<int, 8> edges_;
 };
 
-// What hangs by a hinge on a body that does not give way goes round that, not along a straight line.
+// Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
+// line.
 template <class Real>
 void set_arm(const WorldData<Real>& w, Flight& flight) {
   const BodyRecord<Real>& record = w.bodies[flight.body];
@@ -53,7 +54,7 @@ void set_arm(const WorldData<Real>& w, Flight& flight) {
   });
 }
 
-// Stores the whole way of a fast body, so that others find it.
+// Stores the whole swept AABB of a fast body in the tree, so that queries of others find it.
 template <class Real>
 void show_way(WorldData<Real>& w, Flight& flight) {
   const int body = flight.body;
@@ -65,7 +66,7 @@ void show_way(WorldData<Real>& w, Flight& flight) {
   }
 }
 
-// Stores what is needed from here on again.
+// Restores the fat AABB, and adds the shapes to the move buffer.
 template <class Real>
 void hide_way(WorldData<Real>& w, int body, Real dt) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
@@ -77,7 +78,7 @@ void hide_way(WorldData<Real>& w, int body, Real dt) {
   }
 }
 
-// The later one first, as heaps have it; none is the same as another.
+// Orders a heap with the earliest time of impact on top. No two entries are equal.
 bool is_later(const Meeting& a, const Meeting& b) {
   return a.fraction != b.fraction ? a.fraction > b.fraction
                                   : (a.flight != b.flight ? a.flight > b.flight : a.version > b.version);
@@ -95,7 +96,7 @@ void look_ahead(WorldData<Real>& w, int place, double from, ImpactSearch& search
   expect(w, first_meeting(w, place, from, search));
 }
 
-// The place of a body's flight; of one that has had none, the way that the solver found for it.
+// Returns the index of a body's flight. If it has none, adds one with the motion that the solver found.
 template <class Real>
 int flight_place(WorldData<Real>& w, int body, double dt) {
   int& place = w.scratch.flight_places[body];
@@ -108,15 +109,15 @@ int flight_place(WorldData<Real>& w, int body, double dt) {
   return place;
 }
 
-// The flight of what is met; null when that does not move.
+// Returns the flight of the body that is hit, or null if the body is static.
 template <class Real>
 Flight* flight_met(WorldData<Real>& w, int body, double dt) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
   return &w.scratch.flights[flight_place(w, body, dt)];
 }
 
-// A body goes another way from a fraction of the step on: whoever comes along may meet it now, that would not
-// have before.
+// Searches impacts of other fast bodies with this one, whose trajectory has changed from a fraction of the
+// step on.
 template <class Real>
 void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
   const Flight flight = w.scratch.flights[place];
@@ -138,7 +139,7 @@ void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search)
     const int other_place = w.scratch.flight_places[w.shapes[other].body];
     const Flight& comer = w.scratch.flights[other_place];
     if (comer.stands || go_together(w, flight, comer.body) || comer.carrier == flight.body) continue;
-    // What does not give way pushes what it meets.
+    // A kinematic body is not stopped, but pushes this one along.
     const bool pushes = !w.gives_way(comer.body);
     if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
     const Way way(pushes ? w.scratch.flights[place] : comer, from, search);
@@ -149,7 +150,7 @@ void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search)
   }
 }
 
-// Calls visit(place) for the flight of a body and of all that joints tie to it.
+// Calls visit(place) for the flights of a body and of all dynamic bodies connected to it by joints.
 template <class Real, class Visit>
 void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit) {
   std::vector<int>& queue = w.scratch.queue;
@@ -171,7 +172,7 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
   queue.clear();
 }
 
-// Stops a body, and with it all that joints tie to it: they stay together.
+// Stops a body and all bodies connected to it by joints, so that they stay together.
 template <class Real>
 void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
   for_each_tied(w, place, search.dt, [&](int tied) {
@@ -183,7 +184,7 @@ void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& s
   });
 }
 
-// Pushes a body along with what does not give way to it, and with it all that joints tie to it.
+// Lets a kinematic body push a body along, with all bodies connected to that by joints.
 template <class Real>
 void push_along(WorldData<Real>& w, int place, int pusher, double fraction, ImpactSearch& search) {
   for_each_tied(w, place, search.dt, [&](int tied) {
@@ -196,7 +197,8 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
   });
 }
 
-// What was to meet next does so, unless either of both is on another way since.
+// Processes the next impact. A stale one, of a body whose trajectory has changed since it was found, is
+// dropped or searched again.
 template <class Real>
 void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
   std::vector<Flight>& flights = w.scratch.flights;
@@ -228,18 +230,18 @@ void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
   }
   const int carrier = flight.carrier;
   if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
-    // It pushes what it meets along in its turn.
+    // The pushed body pushes the other one along too.
     push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, search);
     look_ahead(w, next.flight, next.fraction, search);
     return;
   }
-  // Whoever pushes it on waits too.
+  // The other body waits too, or it would push this one on.
   const bool too_many = flight.impacts >= tuning::kImpactsInFlight && other != nullptr && !pushed;
   if (too_many) stop_island(w, other_place, next.fraction, search);
   stop_island(w, next.flight, next.fraction, search);
 }
 
-// One impact after the other, until the step ends.
+// Processes impacts in the order of time until the step ends.
 template <class Real>
 void fly_on(WorldData<Real>& w, ImpactSearch& search) {
   std::vector<Meeting>& meetings = w.scratch.meetings;
@@ -252,8 +254,7 @@ void fly_on(WorldData<Real>& w, ImpactSearch& search) {
   }
 }
 
-// What gives way and does not move far itself, on the way of a body that is moved as it is told, is looked at
-// as well.
+// Finds impacts of dynamic bodies, even slow ones, with a fast kinematic body that passes them.
 template <class Real>
 void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   const Flight pusher = w.scratch.flights[place];
@@ -289,7 +290,7 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
 }
 
-// The contacts that have given way so far that a core is near: they are looked at however slowly they do.
+// Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
@@ -303,7 +304,8 @@ void find_deep_contacts(WorldData<Real>& w) {
   });
 }
 
-// Of bodies that were stored anew where the solver has brought them, the way to there is not in the tree.
+// Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion, and does not hold
+// the path there.
 template <class Real>
 void show_ways(WorldData<Real>& w) {
   for (Flight& flight : w.scratch.flights)
@@ -349,7 +351,7 @@ void stop_at_impacts(WorldData<Real>& w, Real dt) {
   for (Flight& flight : flights)
     if (!flight.covered) show_way(w, flight);
   if (!all_covered) show_ways(w);
-  // All are found before any is moved, so that two fast bodies see each other's whole way.
+  // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
   ImpactSearch search{.dt = time, .long_searches = tuning::kLongSearches};
   ContactsAhead ahead;
   const std::size_t fast_count = flights.size();

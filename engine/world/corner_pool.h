@@ -15,16 +15,16 @@
 
 namespace plumb {
 
-/// The corners of all shapes side by side; shapes whose corners are equal, bit by bit, share a run of them.
-/// Runs that nobody uses any more are used again for runs of the same length. No order of a hash table
-/// reaches a result: runs are found by what they hold.
+/// Contiguous corners of all shapes; shapes whose corners are bitwise equal share a run of them. Freed runs
+/// are reused for runs of the same length. Results do not depend on the order of the hash table: runs are
+/// found by their contents.
 template <class Real>
 class CornerPool {
  public:
-  /// How many runs of each length.
+  /// Number of runs of each length.
   using Runs = std::array<std::size_t, kMaxCorners + 3>;
 
-  /// Makes room for `more` runs: adding them, and removing any, allocates nothing then.
+  /// Reserves memory for `more` runs, so that adding them, or removing any, does not allocate.
   void make_room_for(const Runs& more) {
     std::size_t runs = 0, corners = 0, longest = 0;
     for (std::size_t length = 0; length < more.size(); ++length) {
@@ -39,7 +39,7 @@ class CornerPool {
     ensure_room(corners_, corners_.size() + corners);
   }
 
-  /// Where a run of these corners begins. Where memory is out, nothing has changed.
+  /// Adds a use of a run of these corners, and returns its first index. If memory runs out, nothing changes.
   int add(std::span<const Corner<Real>> corners) {
     const int count = static_cast<int>(corners.size());
     make_room_for_one(corners.size());
@@ -59,7 +59,7 @@ class CornerPool {
     return first;
   }
 
-  /// Ends one use of a run.
+  /// Removes one use of a run.
   void remove(int first, int count) {
     std::size_t hole = find(run(first, count));
     if (--table_[hole].uses > 0) return;
@@ -76,7 +76,7 @@ class CornerPool {
     table_[hole] = {};
   }
 
-  /// After parts() were set: counts one use of a run. False when an equal run begins somewhere else.
+  /// Counts one use of a run after parts() were set. Returns false if an equal run begins elsewhere.
   bool count_use(int first, int count) {
     make_room_for_one(static_cast<std::size_t>(count));
     Run& found = table_[find(run(first, count))];
@@ -93,14 +93,15 @@ class CornerPool {
     return {corners_.data() + first, static_cast<std::size_t>(count)};
   }
 
-  /// Corners, and where free runs begin, by their length: with the uses of the runs, all that there is.
+  /// Corners, and first indices of free runs by their length. With the uses of the runs, this is the whole
+  /// state.
   auto parts() { return std::tie(corners_, free_); }
   auto parts() const { return std::tie(corners_, free_); }
 
  private:
   struct Run {
     int first = 0, count = 0;
-    int uses = 0;  ///< 0: an empty place
+    int uses = 0;  ///< 0: an empty slot
   };
 
   void make_room_for_one(std::size_t length) {
@@ -110,8 +111,8 @@ class CornerPool {
     ensure_room(corners_, corners_.size() + length);
   }
 
-  // Coordinates with few digits leave the checksum's lower bits alike, which choose the place: the finalizer
-  // of MurmurHash3 (Appleby) mixes the upper ones in.
+  // Mixes the upper bits into the lower ones, which choose the slot, with the finalizer of MurmurHash3
+  // (Appleby). Coordinates with few digits hardly change the lower bits of the checksum.
   static std::size_t hash(std::span<const Corner<Real>> corners) {
     std::uint64_t sum = checksum(std::as_bytes(corners));
     sum = (sum ^ (sum >> 33)) * 0xff51afd7ed558ccdu;
@@ -119,7 +120,7 @@ class CornerPool {
     return static_cast<std::size_t>(sum ^ (sum >> 33));
   }
 
-  // The place of an equal run, or the empty one where it belongs.
+  // Returns the slot of an equal run, or the empty slot where it belongs.
   std::size_t find(std::span<const Corner<Real>> corners) const {
     const std::size_t mask = table_.size() - 1;
     std::size_t at = hash(corners) & mask;
@@ -131,7 +132,7 @@ class CornerPool {
     return at;
   }
 
-  // Room for more runs in a table that is three quarters full at most.
+  // Grows the table for `more` runs, at most three quarters full.
   void make_table(std::size_t more) {
     std::size_t size = std::max<std::size_t>(16, table_.size());
     while (4 * (runs_ + more) > 3 * size) size *= 2;
@@ -144,8 +145,8 @@ class CornerPool {
 
   std::vector<Corner<Real>> corners_;
   std::vector<std::vector<int>> free_;
-  std::vector<Run> table_;  // a power of two, or none
-  std::size_t runs_ = 0;    // in use
+  std::vector<Run> table_;  // size: a power of two, or 0
+  std::size_t runs_ = 0;    // runs in use
   Runs in_use_{};
 };
 

@@ -44,10 +44,10 @@ class Drawing {
   Pose<double> pose(int body) const { return before_.between(w_, body, fraction_); }
   Vec2d centre(int body) const { return pose(body).position; }
 
-  // A point of the body's frame, whose origin is the centre of mass, in the world.
+  // Returns the world position of a point in the body's frame, whose origin is the centre of mass.
   static Vec2d placed(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
   Vec2d to_world(int body, Vec2d point) const { return placed(pose(body), point); }
-  // An anchor stands in the frame of the body's origin.
+  // Returns the world position of an anchor, which is given in the frame of the body's origin.
   Vec2d anchor(int body, Vec2d point) const {
     return to_world(body, point - w_.bodies[body].centre.template as<double>());
   }
@@ -118,7 +118,7 @@ class Drawing {
     out_.point(at, DrawRole::Centre);
   }
 
-  // Where a joint takes hold of its bodies: at its anchors where it has some, else at the centres of mass.
+  // Ends of a joint: its anchors where it has them, else the centres of mass.
   struct Ends {
     Vec2d a{}, b{};
   };
@@ -148,8 +148,8 @@ class Drawing {
       out_.segment(pulley->ground_b, ends.b, DrawRole::JointLine);
       return;
     }
-    // From body to anchor, from anchor to anchor, and on to the other body. A static body has no middle that
-    // would say anything.
+    // Lines from body to anchor, between the anchors, and on to the other body. The centre of a static body
+    // means nothing, so no line starts there.
     const auto arm = [&](int body, Vec2d end) {
       const Vec2d middle = centre(body);
       if (w_.bodies[body].type != BodyType::Static && !(middle == end))

@@ -8,34 +8,34 @@
 
 namespace plumb {
 
-/// What something drawn stands for; who draws chooses the colours.
+/// Meaning of a drawn item; the implementation of DebugDraw chooses the colours.
 enum class DrawRole {
   Static,     ///< shapes of static bodies
-  Kinematic,  ///< of kinematic ones
-  Awake,      ///< of dynamic bodies that move
-  Asleep,     ///< of bodies that sleep
-  Sensor,     ///< shapes that only report
+  Kinematic,  ///< shapes of kinematic bodies
+  Awake,      ///< shapes of awake dynamic bodies
+  Asleep,     ///< shapes of sleeping bodies
+  Sensor,     ///< shapes of sensors
   Contact,    ///< points where shapes touch
-  Normal,     ///< of contacts, from the one shape to the other
-  Impulse,    ///< that holds a contact
-  Box,        ///< around shapes, as the broad phase has them
-  Centre,     ///< of mass, with the body's axes
-  JointLine,  ///< anchors, and what is between them
-  Name,       ///< of bodies
-  // What a program draws over the world:
-  Highlight,  ///< shapes that stand out just now
+  Normal,     ///< contact normals, from shape a to shape b
+  Impulse,    ///< normal impulses of contacts
+  Box,        ///< tight AABBs of shapes
+  Centre,     ///< centres of mass, with the body's axes
+  JointLine,  ///< anchors, and the lines between them
+  Name,       ///< names of bodies
+  // For programs that draw over the world:
+  Highlight,  ///< highlighted shapes
   Force,      ///< arrows of forces
-  Aim,        ///< where something would go
-  Trail,      ///< where something has been
+  Aim,        ///< target of a motion
+  Trail,      ///< path of a past motion
 };
 
-/// Somewhere to draw: a window, a picture, a test. All lengths in m, in the world's frame, y up.
+/// Interface to draw to: a window, a picture, a test. All lengths in m, in the world's frame, y up.
 class DebugDraw {
  public:
   virtual ~DebugDraw() = default;
-  /// A convex polygon, counter-clockwise, rounded by `radius`.
+  /// Draws a convex polygon, counter-clockwise, rounded by `radius`.
   virtual void polygon(std::span<const Vec2d> corners, double radius, DrawRole role) = 0;
-  /// With the direction in which the body's x axis points.
+  /// Draws a circle; `axis` is the direction of the body's x axis.
   virtual void circle(Vec2d centre, double radius, Vec2d axis, DrawRole role) = 0;
   virtual void capsule(Vec2d start, Vec2d end, double radius, DrawRole role) = 0;
   virtual void segment(Vec2d start, Vec2d end, DrawRole role) = 0;
@@ -43,7 +43,7 @@ class DebugDraw {
   virtual void text(Vec2d point, std::string_view text, DrawRole role) = 0;
 };
 
-/// What is drawn.
+/// Selects the items to draw.
 struct DrawOptions {
   bool shapes = true;
   bool joints = true;
@@ -54,14 +54,14 @@ struct DrawOptions {
   bool centres = false;
   bool names = false;
   double normal_length = 0.2;   ///< m
-  double impulse_length = 0.1;  ///< m for 1 N s
+  double impulse_length = 0.1;  ///< m per N s
 };
 
-/// Draws the world as it is after the last step: shapes in the order of their bodies' places, then the rest.
+/// Draws the world as it is after the last step: shapes in the order of their bodies' indices, then the rest.
 template <class Real>
 void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& options = {});
 
-/// Likewise, but `fraction` (0..1) of the way from where bodies were to where they are.
+/// Draws the world interpolated between the poses `before` (`fraction` 0) and the current ones (1).
 template <class Real>
 void draw(const BasicWorld<Real>& world, const PastPoses<Real>& before, double fraction, DebugDraw& out,
           const DrawOptions& options = {});

@@ -3,7 +3,7 @@
 #include "engine/world/definitions.h"
 #include "engine/world/world_members.h"
 
-/// The members of what worlds are made from.
+/// Member lists of the definitions that worlds are made from.
 namespace plumb {
 
 PLUMB_MEMBERS(Circle, radius)

@@ -10,17 +10,16 @@
 #include "engine/scene/scene.h"
 #include "engine/world/solver.h"
 
-/// What bodies and shapes of a world are made from: plain data in SI units, y up, double precision.
+/// Definitions of a world's bodies, shapes and joints: plain data in SI units, y up, double precision.
 namespace plumb {
 
 using ShapeGeometry = std::variant<Circle, Box, Capsule, Polygon, Segment>;
 
 struct Material {
-  double friction = 0.6;   ///< Coulomb's coefficient, >= 0
-  double restitution = 0;  ///< Newton's coefficient, 0..1
-  double rolling_resistance =
-      0;                     ///< share of the rounding radius at which the normal force resists rolling, >= 0
-  double surface_speed = 0;  ///< m/s, of the surface, to the right as seen by who stands on it
+  double friction = 0.6;          ///< Coulomb's coefficient, >= 0
+  double restitution = 0;         ///< Newton's coefficient, 0..1
+  double rolling_resistance = 0;  ///< lever arm of the rolling resistance over the rounding radius, >= 0
+  double surface_speed = 0;       ///< m/s, of the surface, positive to the right of someone standing on it
 };
 
 struct ShapeDefinition {
@@ -30,33 +29,34 @@ struct ShapeDefinition {
   double density = 1;  ///< kg/m^2, >= 0
   Material material{};
   Filter filter{};
-  bool sensor = false;      ///< reports what overlaps it, and touches nothing
-  bool hit_events = false;  ///< reports hard impacts
-  bool pre_solve = false;   ///< asks the pre-solve hook
+  bool sensor = false;      ///< reports overlaps, and collides with nothing
+  bool hit_events = false;  ///< reports impacts faster than a threshold
+  bool pre_solve = false;   ///< calls the pre-solve hook
   std::uint64_t user_data = 0;
 };
 
-/// A line of segments with a front only (to the right of the way from point to point), on which nothing
-/// catches at the seams.
+/// A line of one-sided segments: the front is to the right when walking from point to point. Nothing catches
+/// on its internal edges.
 struct ChainDefinition {
   std::vector<Vec2d> points{};  ///< m, in the body's frame; 2 or more, 3 or more when closed
   bool closed = false;          ///< the last point is joined to the first
   Material material{};
   Filter filter{};
-  bool sensor = false;      ///< each of its segments reports what overlaps it, and touches nothing
-  bool hit_events = false;  ///< reports hard impacts
-  bool pre_solve = false;   ///< asks the pre-solve hook
+  bool sensor = false;      ///< each of its segments reports overlaps, and collides with nothing
+  bool hit_events = false;  ///< reports impacts faster than a threshold
+  bool pre_solve = false;   ///< calls the pre-solve hook
   std::uint64_t user_data = 0;
 };
 
-/// A body's mass, when it is not to follow from its shapes' densities.
+/// Mass of a body that does not follow from its shapes' densities.
 struct MassProperties {
   double mass = 1;  ///< kg, > 0
-  Vec2d centre{};   ///< m, of mass, in the body's frame; a kinematic body turns about its origin all the same
+  Vec2d centre{};   ///< m, centre of mass in the body's frame; kinematic bodies turn about their origin all
+                    ///< the same
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
-/// Holds a body's position along x or y of the world, or its angle.
+/// Locks a body's position along x or y of the world, or its angle.
 struct BodyLocks {
   bool x = false, y = false, rotation = false;
   friend bool operator==(const BodyLocks&, const BodyLocks&) = default;
@@ -67,42 +67,42 @@ struct BodyDefinition {
   BodyType type = BodyType::Dynamic;
   Vec2d position{};             ///< m, of the body's origin
   double angle = 0;             ///< rad
-  Vec2d velocity{};             ///< m/s, of the centre of mass; of a kinematic body of its origin
+  Vec2d velocity{};             ///< m/s, of the centre of mass; of a kinematic body's origin
   double angular_velocity = 0;  ///< rad/s
   std::optional<MassProperties> mass{};
   double gravity_scale = 1;
   double linear_damping = 0;   ///< 1/s: the velocity decays as exp(-damping t), >= 0
-  double angular_damping = 0;  ///< 1/s: likewise
+  double angular_damping = 0;  ///< 1/s: the same for the angular velocity
   bool lock_x = false, lock_y = false, lock_rotation = false;
   bool may_sleep = true;
   bool awake = true;
   std::uint64_t user_data = 0;
 };
 
-/// A joint: what it holds, and when it lets go.
+/// Kind of a joint, and the loads that break it.
 struct JointDefinition {
   JointKind kind = RevoluteDefinition{};
-  bool collide = false;     ///< whether the joined bodies may touch
+  bool collide = false;     ///< the joined bodies may collide
   double break_force = 0;   ///< N, 0: never
   double break_torque = 0;  ///< N m, 0: never
   std::uint64_t user_data = 0;
 };
 
-/// A user's own rule for the coefficient of a contact, from those of its shapes. It has to be a pure
-/// function, symmetric in its arguments: a world is as deterministic as its rules.
+/// Combines a coefficient of two shapes into that of their contact. Must be a pure function, symmetric in its
+/// arguments: a world is as deterministic as its rules.
 using CombineFunction = double (*)(double a, double b);
 
-/// How the world as a whole behaves.
+/// Settings of the whole world.
 struct WorldDefinition {
   Vec2d gravity{0, -9.81};  ///< m/s^2
   Combine combine_friction = Combine::GeometricMean;
   Combine combine_restitution = Combine::Maximum;
-  bool sleeping = true;    ///< islands at rest stop being computed until something touches them
-  bool continuous = true;  ///< nothing tunnels
+  bool sleeping = true;    ///< islands at rest fall asleep until something touches them
+  bool continuous = true;  ///< continuous collision: fast bodies do not tunnel
   Solver solver = Solver::SoftSteps;
-  int iterations = 10;         ///< sweeps a substep, 1..1000: SequentialImpulses and Jakobsen
-  bool direct_islands = true;  ///< SoftSteps solves small islands directly where sweeps would not do
-  bool quarantine = true;  ///< what goes bad is taken out of the motion, and told; false: Error ends the step
+  int iterations = 10;         ///< iterations a substep, 1..1000: SequentialImpulses and Jakobsen
+  bool direct_islands = true;  ///< SoftSteps solves small islands directly that iterations would not hold
+  bool quarantine = true;      ///< takes non-finite bodies out of the simulation; false: Error ends the step
 };
 
 }  // namespace plumb

@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-// A contact's own hardness, outside of direct islands.
+// Returns a contact's hardness outside of direct islands.
 template <class Real>
 ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
@@ -25,16 +25,17 @@ bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
   return joint.active && (a || b) && !in_hinge_tree(w, a ? joint.body_a : joint.body_b);
 }
 
-// Joints that no mechanism holds.
+// Returns the number of active joints that are not part of hinge trees.
 template <class Real>
 int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
-// In the size of an island with joints: left to the sweeps; solved as one.
+// Markers in island_size of an island with joints: solved by iterations; solved as one.
 constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
 
-// Which islands with joints are solved as one: those whose masses are far apart.
+// Chooses the islands with joints that are solved as one: those with a large mass ratio, or all with
+// Solver::Direct.
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -55,7 +56,7 @@ void choose_jointed(WorldData<Real>& w) {
   });
   for (const int body : w.awake) {
     if (!w.gives_way(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
-    // Of contacts there are two rows in the size.
+    // Each contact counts two rows in island_size.
     const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kJointedContacts;
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
@@ -63,8 +64,8 @@ void choose_jointed(WorldData<Real>& w) {
   }
 }
 
-// Takes towers and other slender heaps into the choice, however high: contacts that close no loops, with few
-// on any body, have a factorisation of linear cost.
+// Includes towers and other slender heaps, however high: with few loops and few contacts on any body the
+// factorisation has linear cost.
 template <class Real>
 void choose_slender(WorldData<Real>& w) {
   std::vector<int>& room = w.scratch.island_room;
@@ -81,8 +82,8 @@ void choose_slender(WorldData<Real>& w) {
   }
 }
 
-// Islands by the body that stands for them, with the most rows that each may have in `w.scratch.island_size`:
-// beyond tuning::kDirectRows they are left to the sweeps.
+// Finds the islands, by their root body, and an upper bound of the rows of each in `w.scratch.island_size`.
+// Above tuning::kDirectRows an island is solved by iterations alone.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
@@ -125,7 +126,7 @@ void add_rows(DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
-      // What neither presses nor overlaps is left to the sweeps.
+      // Points without impulse that are separated are left to the iterations.
       if (c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
@@ -140,7 +141,7 @@ void add_rows(DirectIsland<Real>& island) {
   }
 }
 
-// The contacts and joints of islands that are small enough.
+// Collects the contacts and joints of the chosen islands.
 template <class Real>
 void fill_islands(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -165,7 +166,7 @@ void fill_islands(WorldData<Real>& w) {
   });
 }
 
-// Leaves an island to the sweeps, for the rest of the step.
+// Leaves an island to the iterations for the rest of the step.
 template <class Real>
 void give_up(WorldData<Real>& w, DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) c->hardness = hardness_of(w, *c);
@@ -207,7 +208,7 @@ template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
-    if (island.system.rows.empty()) continue;  // left to the sweeps
+    if (island.system.rows.empty()) continue;  // solved by iterations
     std::size_t next = 0;
     double push_speed = 0;
     for (ContactConstraint<Real>* c : island.contacts) {

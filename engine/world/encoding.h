@@ -11,9 +11,9 @@
 #include "engine/scene/error.h"
 #include "engine/world/members.h"
 
-/// Values as bytes, member by member: no padding, no pointers, little-endian, so that equal values are equal
-/// bytes on every platform. Lists and texts begin with their length (64 bits), options with a bool, variants
-/// with the index of what they hold (8 bits).
+/// Serialises values as bytes, member by member: no padding, no pointers, little-endian. So equal values are
+/// equal bytes on every platform. Lists and texts begin with their length (64 bits), options with a bool,
+/// variants with their index (8 bits).
 namespace plumb {
 
 template <class T>
@@ -60,7 +60,7 @@ class Encoder {
 
   std::vector<std::byte>& bytes() { return out_; }
 
-  /// Writes to where there is room, and moves `to` behind it.
+  /// Writes to reserved memory, and advances `to`.
   template <Packed T>
   static void pack(std::byte*& to, const T& value) {
     if constexpr (std::is_enum_v<T>) {
@@ -97,9 +97,9 @@ class Encoder {
   std::vector<std::byte>& out_;
 };
 
-/// Takes values from the front of a buffer, in the order in which they were put. Throws Error (Value,
-/// `subject`) when the buffer ends early or holds what no encoder writes; what is allocated is in proportion
-/// to what is there.
+/// Reads values from the front of a buffer, in the order of writing. Throws Error (Value, `subject`) when the
+/// buffer ends early or holds something that no encoder writes. Allocates no more than in proportion to the
+/// buffer.
 class Decoder {
  public:
   Decoder(std::span<const std::byte> in, const char* subject) : in_(in), subject_(subject) {}
@@ -132,7 +132,7 @@ class Decoder {
     }
   }
 
-  /// What has not been taken. It may be changed by who takes something from the front of it.
+  /// Returns the unread rest. The caller may read from its front.
   std::span<const std::byte>& rest() { return in_; }
 
   void require(bool holds, const char* field, const char* problem) const {
@@ -153,7 +153,7 @@ class Decoder {
       for (T& each : all) unpack(from, each, sound);
       require(sound, field, "holds what no snapshot or recording holds");
     } else {
-      // Each element takes a byte at least.
+      // Each element has at least one byte.
       require(count <= in_.size(), field, "is cut off");
       for (std::uint64_t i = 0; i < count; ++i) get(all.emplace_back(), field);
     }
@@ -174,7 +174,7 @@ class Decoder {
     return from;
   }
 
-  // A bool or an enumeration of other bits than its own would be undefined behaviour.
+  // Checks bits first: a bool or an enumeration with an invalid value would be undefined behaviour.
   template <class T>
   static void unpack(const std::byte*& from, T& value, bool& sound) {
     if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {

@@ -13,26 +13,26 @@
 namespace plumb {
 namespace {
 
-// m/s, no point moves faster.
+// Returns an upper bound of the speed of a body's points, m/s.
 template <class Real>
 Real fastest(Vec2<Real> velocity, Real turning) {
   return std::abs(velocity.x) + std::abs(velocity.y) + turning;
 }
 
-// m/s, of a body's points about its centre of mass.
+// Returns an upper bound of the speed of a body's points relative to its centre of mass, m/s.
 template <class Real>
 Real turning(const WorldData<Real>& w, int body) {
   return std::abs(w.motion[body].angular_velocity) * w.extents[body];
 }
 
-// Whether its way is going to be followed.
+// Returns true if continuous collision will treat the body as fast.
 template <class Real>
 bool is_fast(const WorldData<Real>& w, int body, Real dt) {
   return w.gives_way(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
                                   Real(tuning::kFastShare) * w.bodies[body].half_width;
 }
 
-// Whether nothing but its own weight is going to act on it, as far as is known before the step is solved.
+// Returns true if the body is in free flight, as far as is known before the step is solved.
 template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -47,7 +47,7 @@ bool flies(const WorldData<Real>& w, int body) {
   return !pressed;
 }
 
-// In the step, seen from `origin`.
+// Returns the body's motion in the step, relative to `origin`.
 template <class Real>
 Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
   const BodyMotion<Real>& motion = w.motion[body];
@@ -58,8 +58,8 @@ Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double 
           dt * static_cast<double>(motion.angular_velocity), curve};
 }
 
-// Whether a point's plane may be crossed by the step's end, on ways of `closed` and so many turns. What
-// touches as good as already crosses it by more than a manifold is carried on for, or rests.
+// Returns true if the bodies' displacement `closed` and rotations may carry a point across its contact plane.
+// A point that nearly touches must cross by more than a recycled manifold tolerates; otherwise it rests.
 template <class Real>
 bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
              Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
@@ -67,11 +67,11 @@ bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   const Rotation<Real> q = w.rotation[contact.body_a];
   const Vec2<Real> n = q * manifold.normal;
   const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
-  // A point that turns leaves its tangent by no more than this.
+  // Bound of the distance of a rotating point from its tangent.
   const Real bend =
       Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] + turn_b * turn_b * w.extents[contact.body_b]);
-  // Manifolds leave out what is farther than a way that is cut off: of what moves more, any point may come
-  // first.
+  // Manifolds omit points beyond the speculative margin, which is limited. With larger displacements any
+  // point of the shape may come first.
   const Real turned =
       std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
   const bool any_point =
@@ -86,7 +86,7 @@ bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   return false;
 }
 
-// Whether shapes without points are to be searched.
+// Returns true if shapes without points are to be searched.
 template <class Real>
 bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
   const int a = contact.body_a, b = contact.body_b;
@@ -96,11 +96,11 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
   if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
-  // Bodies of a size, none of them fast, come no nearer than twice that.
+  // Two bodies of similar size, neither of them fast, approach by no more than twice that.
   return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
 }
 
-// The manifold at a fraction of the step.
+// Returns the speculative contact at a fraction of the step.
 template <class Real>
 Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
                              const Sweep<double>& way_a, const Sweep<double>& way_b, double fraction,
@@ -139,7 +139,7 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
-  // Bodies of a pile push each other off the ways that they have now: a plane between two of them stays.
+  // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
   if (closest.count > 0 && w.gives_way(a) && w.gives_way(b) && !(flies(w, a) && flies(w, b))) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};

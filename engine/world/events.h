@@ -9,12 +9,12 @@
 
 namespace plumb {
 
-/// Two shapes began or ceased to touch. A shape that was destroyed meanwhile has a handle that is gone.
+/// Two shapes began or ceased to touch. The handle of a shape that was destroyed meanwhile is invalid.
 struct TouchEvent {
   ShapeId shape_a{}, shape_b{};
 };
 
-/// Two shapes met hard.
+/// Two shapes hit each other hard.
 struct HitEvent {
   ShapeId shape_a{}, shape_b{};
   Vec2d point{};     ///< m
@@ -27,25 +27,25 @@ struct SensorEvent {
 };
 
 struct JointEvent {
-  JointId joint{};  ///< gone: it broke
+  JointId joint{};  ///< invalid now: the joint broke
 };
 
-/// What of a body went bad.
+/// Quantity of a body that was not finite, or beyond 1e12.
 enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity };
 inline constexpr const char* kBadFieldNames[] = {"force", "torque", "velocity", "angular_velocity"};
 
-/// A body was taken out of the motion, because a number of it was none, or beyond 1e12.
+/// A body was quarantined, because one of its numbers was not finite, or beyond 1e12.
 struct QuarantineEvent {
   BodyId body{};
-  std::string name{};     ///< the body's, as it was made
-  BadField field{};       ///< what a law returned, or what a step led to
-  double value = 0;       ///< the first bad part of it: SI units
-  std::int64_t step = 0;  ///< that it would have spoiled, from 1
+  std::string name{};     ///< of the body's definition
+  BadField field{};       ///< returned by a force law, or reached in a step
+  double value = 0;       ///< its first invalid component, in SI units
+  std::int64_t step = 0;  ///< step that was affected, from 1
 };
 
-/// What happened in the last step (and, for the endings, since the one before); the next step empties it.
-/// What began ends once, whatever happens to it. Bodies that wake and fall asleep over and over between two
-/// steps may be told of once.
+/// Events of the last step, and of the time between it and the step before; the next step clears them. Every
+/// begin has exactly one end. Bodies that wake and fall asleep over and over between two steps may be
+/// reported once.
 struct Events {
   std::vector<TouchEvent> begin, end;
   std::vector<HitEvent> hits;

@@ -18,7 +18,7 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Whether nothing but its own weight is going to act on a body until its impact.
+// Returns true if a body is in free flight until its impact, or is not dynamic.
 template <class Real>
 bool flies_freely(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -33,7 +33,7 @@ bool flies_freely(const WorldData<Real>& w, int body) {
   return !held;
 }
 
-// Adds a body to a list once.
+// Adds a dynamic body to a list, unless it is in there.
 template <class Real>
 void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& noted, int body) {
   if (!w.gives_way(body)) return;
@@ -43,7 +43,8 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
   append(list, body);
 }
 
-// Leaves to the solver who meets two bodies that give way: what comes at once is resolved at once there.
+// Leaves bodies to the solver that meet two or more dynamic bodies: it resolves simultaneous impacts
+// together.
 template <class Real>
 void leave_crowds(WorldData<Real>& w) {
   std::vector<char>& met = w.scratch.expecting;
@@ -117,7 +118,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
   if (impacts.empty()) return;
   if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
   leave_crowds(w);
-  // One that the solver takes may throw its bodies out of their flight, and others with them.
+  // An impact left to the solver may end the free flight of its bodies, and so of others.
   bool more = true;
   while (more) {
     more = false;

@@ -5,27 +5,27 @@
 
 namespace plumb {
 
-/// Whether a contact with points holds its bodies: it presses, or touches without parting.
+/// Returns true if a contact with points holds its bodies: it has an impulse, or touches without separating.
 template <class Real>
 bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c);
 
-/// Forgets the expectations of the step before.
+/// Clears the expected impacts of the step before.
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w);
 
-/// Whether the shapes of a contact, which is going to touch as `at` says, bounce there: fast enough, and with
-/// restitution, and nobody is to be asked about it. `c` is the constraint made from `at`.
+/// Returns true if a contact's speculative contact `at` will bounce: it closes fast enough, has restitution,
+/// and no pre-solve hook. `c` is the constraint made from `at`.
 template <class Real>
 bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
                  const ContactConstraint<Real>& c, Real dt);
 
-/// Notes that a contact is going to press on its bodies in this step: these do not fly freely.
+/// Marks the bodies of a contact that will press in this step: they are not in free flight.
 template <class Real>
 void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c);
 
-/// Decides about the expected impacts. Those of bodies that nothing else holds, nor those that they meet, are
-/// left to free flight: their contacts have no points in this step, and the bodies are thrown back at the
-/// time of the impact (continuous.cpp). All others are marked as left to the solver.
+/// Decides between continuous collision and the solver for each expected impact. If nothing else holds either
+/// body, the contact has no points in this step. The bodies then rebound at the time of impact
+/// (continuous.cpp). All other impacts are marked as left to the solver.
 template <class Real>
 void decide_expected_impacts(WorldData<Real>& w);
 

@@ -13,8 +13,7 @@
 namespace plumb {
 namespace {
 
-// Steps between two times that a body's rotation is computed anew from its angle; in between rounding adds
-// up.
+// Steps after which a body's rotation is recomputed from its angle, because rounding accumulates in between.
 constexpr int kRefresh = 256;
 
 template <class Real>
@@ -25,8 +24,8 @@ void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Re
   record.still_for = is_still ? record.still_for + dt : Real(0);
 }
 
-// In double what a sum rounds off is kept for the next one (Kahan 1965): 1e7 m from the origin 600 steps
-// would lose 1e-6 m. In float the steps themselves are coarser than that.
+// Returns the Kahan compensation of positions (Kahan, 1965), in double only: 1e7 m from the origin, 600 steps
+// would otherwise lose 1e-6 m. In float the steps themselves are coarser than that.
 template <class Real>
 Vec2d* remainders_of(WorldData<Real>& w) {
   if (!std::is_same_v<Real, double> || w.bodies.size() == 0) return nullptr;
@@ -34,7 +33,7 @@ Vec2d* remainders_of(WorldData<Real>& w) {
   return w.remainders.data();
 }
 
-// Moves a body by what the solver found.
+// Moves a body by the displacement and rotation that the solver found.
 template <class Real>
 void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
                [[maybe_unused]] Vec2d* remainders) {
@@ -67,7 +66,7 @@ Aabb<Real> box_of(const WorldData<Real>& w, int shape) {
 
 namespace {
 
-// What the box covers while it moves by `way`.
+// Returns the AABB swept by a displacement `way`.
 template <class Real>
 Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   box.lower.x += std::min(way.x, Real(0)), box.lower.y += std::min(way.y, Real(0));
@@ -81,11 +80,11 @@ template <class Real>
 Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
   const int body = w.shapes[shape].body;
   Aabb<Real> box = w.boxes[shape];
-  // Far from the origin positions are coarse: the margin covers their rounding.
+  // The margin covers the rounding of positions far from the origin.
   const Real far =
       std::max(std::abs(box.lower.x) + std::abs(box.lower.y), std::abs(box.upper.x) + std::abs(box.upper.y));
   const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * far;
-  // What does not move needs no margin: a ground would be paired with all that is as near as a tenth of it.
+  // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
   return stretched(box, (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity);
@@ -93,7 +92,7 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
 
 namespace {
 
-// Stores what a shape is going to need from here on, in a tree or in what passes it on to one.
+// Stores the fat AABB of a shape in a tree (or its LateEnlarging), and adds it to the move buffer.
 template <class Real, class Tree>
 void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];
@@ -103,8 +102,8 @@ void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
   w.enlarged[record.body] = 1;
 }
 
-// What a fast shape is going to cover in the next step, so that it leaves its stored box in no step. One that
-// turns too fast for that leaves it in any case.
+// Returns the AABB of a fast shape through the next step, so that it never leaves its fat AABB in a step.
+// Shapes that rotate too fast for that are not predicted.
 template <class Real>
 Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) {
   const Aabb<Real>& box = w.boxes[shape];
@@ -138,9 +137,9 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const remainders = remainders_of(w);
   const bool sleeping = w.settings.sleeping, expects = !w.scratch.expecting_bodies.empty();
-  // What stands has no margin: who comes near it has to be stored a step before.
+  // Static AABBs have no margin, so other shapes must be enlarged one step ahead.
   const bool grounds = w.still_tree.size() > 0;
-  // Whoever is awake is in the moving tree.
+  // Awake bodies are never static, so all their proxies are in the dynamic tree.
   LateEnlarging<Real> moving(w.moving_tree);
   const AwakeAhead<Real> ahead(w);
   const std::size_t count = w.awake.size();
@@ -172,7 +171,7 @@ void finish_motion(WorldData<Real>& w, Real dt) {
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
         covered = refresh_box_in(w, shape, dt, turned, moving) && covered;
       }
-      // Whoever stays within its stored boxes, and has no pair, meets nothing.
+      // A body that stays within its fat AABBs and has no contact meets nothing.
       const bool alone = covered && record.first_contact == kNone;
       if (!alone) w.scratch.fast_bodies.push_back({body, covered, expected});
     } else {

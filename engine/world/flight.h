@@ -6,41 +6,41 @@
 
 namespace plumb {
 
-/// Describes how a body moves from some place within the step to its end: on a parabola where nothing but
-/// constant forces acts on it, else straight, and turning evenly.
+/// Motion of a body from some time within the step to its end. The path is a parabola where only constant
+/// forces act, else straight; the rotation is uniform.
 struct Flight {
   int body = -1;
   bool covered = false;   ///< see FastBody
-  bool expected = false;  ///< likewise
-  bool changed = false;   ///< it is not any more as the solver had it
-  bool yields = true;     ///< may be thrown back where it first touches something
-  bool shown = false;     ///< all of its way is stored in the tree
-  bool stands = false;    ///< it has been stopped for the rest of the step
-  bool squeezed = false;  ///< between what pushes it along and something else
-  int impacts = 0;        ///< in this step
-  int version = 0;        ///< of what follows
-  int carrier = -1;       ///< the kinematic body that it is pushed along by for the rest of the step
+  bool expected = false;  ///< see FastBody
+  bool changed = false;   ///< differs from the solver's result
+  bool yields = true;     ///< may rebound at an impact
+  bool shown = false;     ///< the whole swept AABB is in the tree
+  bool stands = false;    ///< stopped for the rest of the step
+  bool squeezed = false;  ///< stopped between the body that pushes it and another one
+  int impacts = 0;        ///< impacts with rebound in this step
+  int version = 0;        ///< counts changes of the trajectory
+  int carrier = -1;       ///< kinematic body that pushes it along for the rest of the step
 
-  Vec2d first{};         ///< m, where the step started
-  double from = 0;       ///< fraction of the step
-  Vec2d start{}, way{};  ///< m, of the centre of mass at `from`, and on to the step's end
-  Vec2d curve{};         ///< m, by how much more, in proportion to the square of the time; none with an arm
+  Vec2d first{};              ///< m, centre of mass at the step's start
+  double from = 0;            ///< fraction of the step
+  Vec2d start{}, way{};       ///< m, centre of mass at `from`, and displacement until the step's end
+  Vec2d curve{};              ///< m, quadratic part of the displacement; 0 with an arm
   Rotation<double> rotation;  ///< at `from`
-  double turn = 0;            ///< rad, until the step's end
+  double turn = 0;            ///< rad, rotation until the step's end
   double turned_before = 0;   ///< rad, from the step's start to `from`
-  /// m, from the centre of mass to the point of the body whose way is straight, in the body's frame: what
-  /// turns about a hinge, or is pushed along by what turns, goes round in an arc.
+  /// m, from the centre of mass to the body's point that moves straight, in the body's frame. Bodies that
+  /// turn about a hinge, or are pushed along by a rotating one, move on an arc about it.
   Vec2d arm{};
 
-  Vec2d velocity{}, gain{};     ///< m/s, at `from`, and what it gains in a whole step
+  Vec2d velocity{}, gain{};     ///< m/s, at `from`, and its gain in a whole step
   double angular_velocity = 0;  ///< rad/s
 
-  /// The share of what is left at `from` that is over at a fraction of the step.
+  /// Returns the elapsed fraction of the time from `from` to the step's end.
   double share(double fraction) const { return from < 1 ? (fraction - from) / (1 - from) : 1; }
   Vec2d start_at(double fraction) const {
     return arm == Vec2d{} ? centre_at(fraction) : straight_at(fraction) - rotation_at(fraction) * arm;
   }
-  /// Where the point at `arm` is.
+  /// Returns the position of the point at `arm`, m.
   Vec2d straight_at(double fraction) const {
     if (arm == Vec2d{}) return centre_at(fraction);
     const Vec2d there = start + rotation * arm;
@@ -54,7 +54,7 @@ struct Flight {
   }
   Vec2d velocity_at(double fraction) const { return velocity + (fraction - from) * gain; }
 
-  /// The rest of the way from a fraction on, of the point at `arm`, seen from `origin`.
+  /// Returns the remaining motion of the point at `arm`, relative to `origin`.
   Sweep<double> sweep(double fraction, Vec2d origin) const {
     const double s = share(fraction), left = 1 - s;
     const Vec2d there = straight_at(fraction);
@@ -62,7 +62,7 @@ struct Flight {
     return {there - origin, left * (way + (2 * s) * curve), rotation_at(fraction), left * turn,
             (left * left) * curve};
   }
-  /// Goes on from a fraction of the step with new velocities; `dt` is the step, s.
+  /// Continues from a fraction of the step with new velocities, after an impact; `dt` is the step, s.
   void go_on(double fraction, Vec2d new_velocity, double new_spin, double dt) {
     begin_anew(fraction);
     const double left = (1 - fraction) * dt;
@@ -71,15 +71,14 @@ struct Flight {
     arm = {}, stands = false, carrier = -1;
     ++impacts;
   }
-  /// Stays where it is at a fraction of the step.
+  /// Stops at a fraction of the step.
   void stop(double fraction) {
     velocity = velocity_at(fraction);
     begin_anew(fraction);
     gain = way = curve = arm = {}, turn = 0;
     stands = true;
   }
-  /// Goes on from a fraction of the step as if it were a part of what pushes it along, but for what is
-  /// locked.
+  /// Continues from a fraction of the step as a rigid part of `pusher`, except along locked axes.
   void go_along(const Flight& pusher, double fraction, BodyLocks locks) {
     velocity = velocity_at(fraction);
     begin_anew(fraction);
@@ -89,7 +88,7 @@ struct Flight {
     arm = rotation.inverse() * (there - start);
     const Rotation<double> r = rotation_of(turn);
     way = pusher.straight_at(1) - r * (there - start) - start;
-    if (locks.x || locks.y || locks.rotation) arm = {};  // and goes straight
+    if (locks.x || locks.y || locks.rotation) arm = {};  // moves straight then
     if (locks.x) way.x = 0;
     if (locks.y) way.y = 0;
     if (locks.rotation) turn = 0;
@@ -98,7 +97,7 @@ struct Flight {
   }
 
  private:
-  // Of a flight without an arm.
+  // Position of a flight without an arm.
   Vec2d centre_at(double fraction) const {
     const double s = share(fraction);
     return start + s * (way + s * curve);
@@ -113,13 +112,13 @@ struct Flight {
   }
 };
 
-/// What a flight is to meet next, as it was found.
+/// Next time-of-impact event of a flight, as it was found.
 struct Meeting {
-  double fraction = 1;  ///< of the step; 1: nothing
-  int flight = 0;       ///< its place
-  int version = 0;      ///< of its way then
+  double fraction = 1;  ///< of the step; 1: no impact
+  int flight = 0;       ///< its index
+  int version = 0;      ///< of the flight when the event was found
   int shape = -1, other = -1;
-  int other_version = 0;  ///< of the other one's way, 0 when that is as the solver had it
+  int other_version = 0;  ///< of the other body's flight then, 0 if that is the solver's motion
 };
 
 }  // namespace plumb

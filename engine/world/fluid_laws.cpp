@@ -48,7 +48,7 @@ void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOpti
   const Vec2d gravity = w.settings.gravity;
   const double g = std::sqrt(length_squared(gravity));
   const Vec2d up = g > 0 ? (-1 / g) * gravity : Vec2d{0, 1};
-  // Into the water's frame, whose y axis is up.
+  // Rotation into the water's frame, whose y axis is up.
   const Rotation<double> level{up.y, up.x};
 
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {

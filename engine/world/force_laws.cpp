@@ -29,7 +29,8 @@ LawBody view_of(const WorldData<Real>& w, int body) {
           w.body_data.get(body)};
 }
 
-// What moves a body besides drag, in free flight; what else holds it is not known before the step.
+// Returns weight and applied forces of a body in free flight. A body with constraints gets none, because
+// their forces are not known before the step.
 template <class Real>
 Wrench<double> known_load(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -109,7 +110,7 @@ template <class Real>
 void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
                               LawOptions options) {
   check(law, dt);
-  world.position(centre);  // throws when the body is gone
+  world.position(centre);  // throws for an invalid handle
   WorldData<Real>& w = settled(world);
   const int source = static_cast<int>(centre.index);
   const Vec2d place = place_of(w, source, dt);
@@ -144,7 +145,7 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
 
   const Vec2d way = end_b - end_a;
   const double length = std::sqrt(length_squared(way));
-  if (length == 0) return;  // it has no direction to pull in
+  if (length == 0) return;  // the direction is undefined
   const Vec2d axis = (1 / length) * way;
   const double rate = dot(axis, world.velocity_at(b, end_b) - world.velocity_at(a, end_a));
   const Vec2d arm_a = end_a - w.position[body_a], arm_b = end_b - w.position[body_b];
@@ -154,7 +155,8 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
            static_cast<double>(w.motion[body].inverse_inertia) * turn * turn;
   };
   const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
-  // The tension is that of the step's middle: the length is given so that it is right at the places' share.
+  // spring_tension extrapolates to the middle of the step. The length is shifted so that the bodies'
+  // positions are those at place_share.
   const auto shift = [&](BodyId body, int index, Vec2d end) {
     return (place_share(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
   };

@@ -8,24 +8,24 @@
 #include "engine/world/query_filter.h"
 #include "engine/world/world.h"
 
-/// Laws of force for a world: each call before a step adds the forces of that one step, and `dt` is its
-/// length in s. Laws act on dynamic bodies that are awake; with `wakes` they act on sleeping ones as well,
-/// and wake those that they push. All laws are computed before any force is added: a call that throws has
-/// changed nothing. SI units.
+/// Force laws for a world: each call before a step adds the forces of that one step, and `dt` is its length
+/// in s. Laws act on awake dynamic bodies. With `wakes` they act on sleeping ones as well, and wake those
+/// that they push. All forces are computed before any is added, so a call that throws has changed nothing. SI
+/// units.
 ///
 /// Functions throw Error (Value) for numbers out of their range or forces that are not finite, and Error
-/// (Name) for handles of what is gone. Exist for BasicWorld<float> and BasicWorld<double>. They allocate
-/// nothing once a world of the size was seen.
+/// (Name) for invalid handles. They exist for BasicWorld<float> and BasicWorld<double>, and allocate nothing
+/// after the first calls for a world of that size.
 namespace plumb {
 
 struct LawOptions {
   bool wakes = false;
 };
 
-/// A body as a law sees it.
+/// State of a body, as passed to a law.
 struct LawBody {
   BodyId id{};
-  Vec2d centre{};  ///< m, of mass
+  Vec2d centre{};  ///< m, centre of mass
   double angle = 0;
   Vec2d velocity{};  ///< m/s, of the centre of mass
   double angular_velocity = 0;
@@ -35,62 +35,66 @@ struct LawBody {
 
 using BodyLaw = FunctionRef<Wrench<double>(const LawBody&)>;
 
-/// A law of one's own: force and torque (about the centre of mass) on each body. Calls that would change the
-/// world throw Error (Unsupported) from within it. A body for which it returns what is not finite, or beyond
-/// 1e12, is quarantined (world.h).
+/// Applies the user's law: force and torque (about the centre of mass) for each body. Changes to the world
+/// from within the law throw Error (Unsupported). A body for which it returns a number that is not finite, or
+/// beyond 1e12, is quarantined (world.h).
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options = {});
 
-/// F = -c v and torque -c_w w; c in N s/m, c_w in N m s. In free flight the step ends at the velocity that
-/// the law, the weight and the forces added before have in closed form; no step reverses a velocity.
+/// Applies F = -c v and torque -c_w w; c in N s/m, c_w in N m s. In free flight the velocity at the step's
+/// end is the closed-form solution for the drag, the weight and the forces added before. No step reverses a
+/// velocity.
 struct LinearDragRates {
   double linear = 0, angular = 0;
 };
 template <class Real>
 void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, double dt,
                        LawOptions options = {});
-/// F = -c |v| v, c in N s^2/m^2; likewise, exact at the terminal speed.
+/// Applies F = -c |v| v, c in N s^2/m^2. Of second order in `dt`, exact at the terminal speed; no step
+/// reverses a velocity.
 template <class Real>
 void apply_quadratic_drag(BasicWorld<Real>& world, double coefficient, double dt, LawOptions options = {});
 
-/// Attraction to a point, evaluated at the middle of the step.
+/// Applies attraction to a point. In free flight it is evaluated at the middle of the step.
 template <class Real>
 void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& law, double dt,
                       LawOptions options = {});
-/// To a body's centre of mass. A dynamic one feels the opposite of all the forces, so that momentum stays.
+/// Applies attraction to a body's centre of mass. If that body is dynamic, the reaction acts on it, which
+/// conserves momentum.
 template <class Real>
 void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
                               LawOptions options = {});
 
-/// Wind on the outlines of all shapes but sensors and chains. Where its force could reverse the motion of a
-/// light body in the wind within the step, it is less.
+/// Applies wind to the outlines of all shapes but sensors and chains. The force is limited so that it cannot
+/// reverse the motion of a light body relative to the wind within the step.
 template <class Real>
 void apply_wind(BasicWorld<Real>& world, const Wind& wind, double dt, LawOptions options = {});
 
-/// Water below a plane across the world's gravity. What is under it is lifted by the weight of the water in
-/// its place, at the centroid of that part; drag acts there too, never past the water's own motion.
+/// Water below a plane perpendicular to gravity. Buoyancy is the weight of the displaced water, and acts at
+/// the centroid of the submerged part. Drag acts there too, and never reverses the motion relative to the
+/// water.
 struct Water {
-  double level = 0;         ///< m, of the surface, along "up": y, where gravity points down
+  double level = 0;         ///< m, height of the surface along "up": y if gravity points down
   double density = 1;       ///< kg/m^2, >= 0
-  Vec2d velocity{};         ///< m/s, of the current
+  Vec2d velocity{};         ///< m/s, current
   double linear_drag = 0;   ///< N s/m for each m^2 under water, >= 0
   double angular_drag = 0;  ///< N m s for each m^2 under water, >= 0
 };
 template <class Real>
 void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOptions options = {});
 
-/// A spring between points of two bodies (in the bodies' frames), without a joint. Acts when one of them is
-/// awake.
+/// Applies a spring between points of two bodies (in the bodies' frames), without a joint. Acts if either
+/// body is awake.
 template <class Real>
 void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Vec2d point_b,
                   const ElasticSpring& spring, double dt, LawOptions options = {});
 
 struct ExplosionOptions {
-  bool occlusion = false;  ///< what another body covers, as rays from the centre see it, is spared
-  QueryFilter cover{};     ///< what counts as cover
+  bool occlusion = false;  ///< spares points that another body covers from the centre, tested by rays
+  QueryFilter cover{};     ///< shapes that count as cover
 };
-/// A blast: impulses at once on all dynamic bodies in reach, sleeping ones too. A shape that the centre lies
-/// in is not pushed.
+/// Applies a blast: immediate impulses to all dynamic bodies within its radius, sleeping ones too. A shape
+/// that contains the centre is not pushed.
 template <class Real>
 void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions& options = {});
 

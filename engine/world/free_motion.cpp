@@ -9,7 +9,8 @@
 namespace plumb {
 namespace {
 
-// exp(-x) for x >= 0 without a library: exp(-x / 2^k)^(2^k) with the series where it is short.
+// Returns exp(-x) for x >= 0 without a library: exp(-x / 2^k)^(2^k), where x / 2^k is small enough for the
+// series.
 double decay(double x) {
   int halvings = 0;
   for (; x > 0.125; x *= 0.5) ++halvings;
@@ -20,7 +21,7 @@ double decay(double x) {
   return sum;
 }
 
-// What a body's velocity gains and keeps in a time of its own accord.
+// Returns the velocity increments and damping factors of a body for a time, s.
 template <class Real>
 Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -48,7 +49,8 @@ void apply(const Kick<Real>& kick, BodyMotion<Real>& motion) {
   if (kick.locked_y) motion.velocity.y = 0;
 }
 
-// In free flight constant acceleration is exact: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2) t.
+// Moves a body in free flight. Exact for constant acceleration: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2)
+// t.
 template <class Real>
 void fly(WorldData<Real>& w, int body, double dt) {
   const Kick<Real> kick = kick_of(w, body, dt);
@@ -65,13 +67,13 @@ void fly(WorldData<Real>& w, int body, double dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
-// Whether gravity alone moves a body in free flight.
+// Returns true if gravity alone acts on a body in free flight, unless it has a load.
 template <class Real>
 bool falls_only(const BodyRecord<Real>& record) {
   return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
 }
 
-// The same for a body that only gravity moves, by `gain` of its velocity.
+// Moves a body in free flight under gravity alone, which adds `gain` to its velocity.
 template <class Real>
 void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
   BodyMotion<Real>& motion = w.motion[body];

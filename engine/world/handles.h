@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// Names something of a world. It knows when what it names is gone: the place may be used again, with the
-/// next generation. A default-constructed handle names nothing.
+/// Identifies an object of a world. The generation makes it invalid when the object is gone and its index is
+/// reused. A default-constructed handle is invalid.
 template <class Tag>
 struct Handle {
   std::uint32_t index = 0xFFFFFFFFu;

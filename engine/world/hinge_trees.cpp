@@ -19,7 +19,7 @@ bool may_hold(const WorldData<Real>& w) {
          (w.settings.solver == Solver::SoftSteps && w.settings.direct_islands);
 }
 
-// Chains of a few like links are held well by sweeps, which cost less.
+// Leaves trees of a few similar links to the iterations, which hold them well and cost less.
 template <class Real>
 void leave_to_sweeps(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -41,14 +41,14 @@ void leave_to_sweeps(WorldData<Real>& w) {
   }
 }
 
-// Marks the sets of tied bodies, by the smallest of each, that are no mechanisms.
+// Finds sets of bodies connected by joints, and marks those that are no hinge trees, by their smallest body.
 template <class Real>
 void find_sets(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   UnionFind sets(s.tree_of, w.bodies.size());
   std::vector<char>&bad = s.not_a_tree, &grounded = s.tree_grounded;
   bad.assign(w.bodies.size(), 0), grounded.assign(w.bodies.size(), 0);
-  // Of joined sets what stands for both is told of both.
+  // Marks apply to the root of the joined set.
   const auto spoil = [&](int body) {
     if (w.gives_way(body)) bad[sets.find(body)] = 1;
   };
@@ -76,7 +76,7 @@ void find_sets(WorldData<Real>& w) {
   if (w.settings.solver != Solver::Direct) leave_to_sweeps(w);
 }
 
-// The first hinge of a set that leads to what does not give way becomes its root, or else its first body.
+// Builds trees. The root is the non-dynamic body that a hinge connects, or else body a of the first joint.
 template <class Real>
 class TreeMaker {
  public:
@@ -132,7 +132,7 @@ class TreeMaker {
     add(link, hinge.impulse);
   }
 
-  // The sizes of the last tree.
+  // Computes the lengths of the last tree's links.
   void measure() {
     double largest = 0;
     for (std::size_t i = first_; i < trees_.links.size(); ++i) {
@@ -142,7 +142,7 @@ class TreeMaker {
       const double own = length_squared(link.anchor), far = length_squared(link.parent_anchor);
       link.reach_squared = std::max(link.reach_squared, own);
       if (parent.moves) parent.reach_squared = std::max(parent.reach_squared, far);
-      // What does not give way may be as far away as it likes.
+      // A non-dynamic parent may be arbitrarily far away, so its anchor does not count.
       link.span_squared = own + (parent.moves ? far : 0);
       largest = std::max(largest, link.span_squared);
     }
@@ -175,7 +175,7 @@ void make_trees(WorldData<Real>& w) {
   });
 }
 
-// Pose and velocity, in double.
+// Loads rotation, velocity and inverse masses, in double.
 template <class Real>
 void load_body(const WorldData<Real>& w, TreeLink& link) {
   const BodyMotion<Real>& motion = w.motion[link.body];

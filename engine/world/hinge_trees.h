@@ -2,21 +2,21 @@
 
 #include "engine/world/world_data.h"
 
-/// Mechanisms: bodies that plain revolute joints tie to each other, and to at most one point of what does not
-/// give way, without a loop, a contact or another joint: pendulums, hanging chains, levers, trees. They are
-/// moved as what they are, engine/solve/hinge_tree.h says how, by the soft steps and the direct ones. Joints
-/// that close a loop, and all of what touches something, are left to the other solvers.
+/// Articulated bodies: bodies that plain revolute joints connect without a loop, a contact or another joint.
+/// At most one point of a non-dynamic body holds them. Examples are pendulums, hanging chains, levers, trees.
+/// The soft and the direct solver move them as in engine/solve/hinge_tree.h. Joints in loops, and all bodies
+/// with contacts, are left to the other solvers.
 namespace plumb {
 
-/// Finds them where ties have changed.
+/// Finds the hinge trees, if contacts, joints or awake bodies have changed.
 template <class Real>
 void find_hinge_trees(WorldData<Real>& w);
 
-/// Moves them through the step. Kicks are those of its substeps.
+/// Moves the hinge trees through the step, with the kicks of its substeps.
 template <class Real>
 void move_hinge_trees(WorldData<Real>& w, double h, int substeps);
 
-/// Whether a mechanism moves the body.
+/// Returns true if the body is part of a hinge tree.
 template <class Real>
 bool in_hinge_tree(const WorldData<Real>& w, int body) {
   return !w.scratch.trees.empty() && w.scratch.trees.holds[body] != 0;

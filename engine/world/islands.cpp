@@ -17,8 +17,8 @@ BodyId id_of(const WorldData<Real>& w, int body) {
   return {static_cast<std::uint32_t>(body), w.bodies.generation(body)};
 }
 
-// Between two steps bodies may be woken and put to sleep without end: of those that are there each is told
-// once.
+// Adds an event. Bodies may wake and sleep without end between two steps, so a long list is reduced to one
+// event for each existing body.
 template <class Real>
 void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
   if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
@@ -36,7 +36,7 @@ bool has_points(const ContactRecord& contact) {
   return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
 }
 
-// Calls visit(other body) for every body that `body` is tied to by a contact with points or a joint.
+// Calls visit(other body) for every body that a contact with points or a joint connects to `body`.
 template <class Real, class Visit>
 void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
@@ -51,8 +51,8 @@ bool gives_way_awake(const WorldData<Real>& w, int body) {
   return w.bodies[body].awake && w.gives_way(body);
 }
 
-// Constraints are solved while they have an awake body to move. A kinematic one moves sleepers that it
-// touches after they were woken alone.
+// Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while a kinematic
+// body of it is awake.
 template <class Real, class Record>
 bool is_solved(const WorldData<Real>& w, const Record& record) {
   return gives_way_awake(w, record.body_a) || gives_way_awake(w, record.body_b);
@@ -88,7 +88,7 @@ bool still(const WorldData<Real>& w, int body) {
   return record.may_sleep && record.still_for >= Real(tuning::kSleepTime);
 }
 
-// Room for the contacts of bodies that fall asleep.
+// Reserves memory for the contacts of bodies that fall asleep.
 template <class Real>
 void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
   std::size_t contacts = 0;
@@ -128,7 +128,7 @@ template <class Real>
 void fall_asleep(WorldData<Real>& w, int body) {
   tell(w, w.log().fell_asleep, body);
   leave_awake(w, body);
-  // What lies on a kinematic body asks how long that has been still.
+  // Islands on a kinematic body check its sleep timer.
   w.bodies[body].still_for = std::max(w.bodies[body].still_for, Real(tuning::kSleepTime));
   BodyMotion<Real>& motion = w.motion[body];
   motion.velocity = {}, motion.angular_velocity = 0;
@@ -140,7 +140,7 @@ void wake_body(WorldData<Real>& w, int body) {
   const auto sleeps = [&](int i) { return !w.bodies[i].awake && w.bodies[i].type != BodyType::Static; };
   if (!sleeps(body)) return;
   std::vector<int>& queue = w.scratch.queue;
-  const std::size_t first = queue.size();  // a waking may start another one
+  const std::size_t first = queue.size();  // calls may be nested
   const auto wake = [&](int i) {
     if (!sleeps(i)) return;
     ensure_room(w.awake, w.awake.size() + 1), ensure_room(queue, queue.size() + 1);
@@ -156,7 +156,8 @@ void wake_body(WorldData<Real>& w, int body) {
       if (w.gives_way(current)) for_each_tie(w, current, wake);
     }
   } catch (...) {
-    // Half an island must not be awake: all of it sleeps on. There is room for what slept before.
+    // Half an island must not be awake, so all of it sleeps on. This needs no memory: the lists held these
+    // before.
     for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
     for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);
     queue.resize(first);
@@ -176,12 +177,12 @@ void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
   UnionFind islands(w.scratch.island_of, w.bodies.size());
-  w.scratch.islands_known = false;  // what a step found is overwritten
+  w.scratch.islands_known = false;  // they are overwritten here
   std::vector<char>& restless = w.scratch.restless;
   restless.assign(w.bodies.size(), 0);
   const auto tie = [&](int a, int b) {
     if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
-    // What lies on a moving platform does not sleep.
+    // Bodies on a moving kinematic body do not sleep.
     for (const auto& [platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
       if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) restless[rider] = 1;
     }

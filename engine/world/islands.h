@@ -2,20 +2,20 @@
 
 #include "engine/world/world_data.h"
 
-/// Sleeping: bodies that are tied to each other by contacts and joints (an island) stop being computed
-/// together when all of them have been still for long enough, and start again together.
+/// Sleeping: an island (bodies connected by contacts and joints) falls asleep when all its bodies have been
+/// at rest for long enough. It wakes as a whole.
 namespace plumb {
 
-/// Wakes the body and all that it holds or is held by, as far as dynamic bodies reach: one that is kinematic
-/// wakes alone. Nothing happens to bodies that are awake or static. Where memory is out, all sleep on.
+/// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic one wakes alone.
+/// Awake and static bodies are left as they are. If memory runs out, throws, and all of them sleep on.
 template <class Real>
 void wake_body(WorldData<Real>& w, int body);
 
-/// Wakes whatever touches the body or is joined to it, and the body.
+/// Wakes the body, and all bodies that touch it or are joined to it.
 template <class Real>
 void wake_neighbours(WorldData<Real>& w, int body);
 
-/// Puts islands to sleep whose bodies are all still. They are looked for only when some body could sleep.
+/// Puts islands to sleep whose bodies are all at rest. Islands are searched only if some body could sleep.
 template <class Real>
 void sleep_islands(WorldData<Real>& w);
 
@@ -23,11 +23,11 @@ void sleep_islands(WorldData<Real>& w);
 template <class Real>
 void put_to_sleep(WorldData<Real>& w, int body);
 
-/// Takes one body out of the motion; what ties it to others is the caller's business.
+/// Puts one body to sleep. The caller parks its contacts and joints.
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body);
 
-/// Puts a body into the list of awake ones, or takes it out; nothing else.
+/// Adds a body to the list of awake ones, or removes it; nothing else.
 template <class Real>
 void enter_awake(WorldData<Real>& w, int body);
 template <class Real>

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-// Bodies go where forces take them; sweeps move them until all constraints hold there; their velocities are
-// the way that they came.
+// Moves bodies by forces, then projects positions onto all constraints by iterations. The velocity is the
+// displacement over h.
 template <class Real>
 void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
   const Real step = static_cast<Real>(h), inverse_h = static_cast<Real>(1 / h);

@@ -29,7 +29,7 @@ int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
   return place;
 }
 
-// Rows of a joint or contact, at most, on the average: for what factorising them may cost.
+// Typical number of a contact's rows, to estimate the cost of the factorisation.
 constexpr int kContactRows = 3;
 
 template <class Real>
@@ -60,7 +60,7 @@ BoundedRow::State state_of(double impulse, double lower, double upper) {
   return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
 }
 
-// The rows of an island where its bodies are, for one of a substep's two solutions.
+// Computes the rows of an island at the current positions, for one stage of a substep.
 template <class Real>
 class RowMaker {
  public:
@@ -85,18 +85,19 @@ class RowMaker {
            row.angular_b * b.spin_before;
   }
 
-  // The same after the first solution.
+  // Rate of a row's coordinate after the first solve.
   double held_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
     return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
            row.angular_b * b.spin;
   }
 
-  // `applied`: what the first solution has found; the second one adds to it.
+  // `applied` is the impulse of the first solve; the second one adds to it.
   void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
     const std::size_t place = island_.ties.size();
     if (close_) {
-      // Springs and motors hold no place; what is open, or does not press, may stay so.
+      // Springs and motors correct no positions. Unilateral rows that are open and have no impulse may stay
+      // so.
       const bool holds = lower < 0 ? row.gap != 0 || rigid_ : row.gap < 0 || island_.impulses[place] > 0;
       row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
       row.compliance = row.coupled_compliance = 0;
@@ -113,9 +114,9 @@ class RowMaker {
     island_.ties.push_back(tie);
   }
 
-  // Rate of a row that is open by `gap` and may close: as the way's mean, or as the velocity at the end.
-  // There it closes no faster than it does; impulses that are taken back until a gap closes would gain
-  // energy.
+  // Returns the target rate of a unilateral row with `gap`: as the mean of the displacement, or as the
+  // velocity at its end. The latter closes no faster than it does already: impulses that are taken back until
+  // a gap closes would gain energy.
   double closing(double gap, const BoundedRow& row) const {
     const double rate = -std::max(gap, 0.0) / h_;
     return hold_ ? 2 * rate - velocity_along(row) : std::max(rate, std::min(held_along(row), 0.0));
@@ -133,7 +134,7 @@ class RowMaker {
       row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
       row.block = block_;
       const double most = from.most, gap = from.row.residual;
-      // At the substep's start, where springs pull from and limits are measured.
+      // Gap at the substep's start, from which springs pull and limits are measured.
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       double lower = -most;
       rigid_ = from.role == RowRole::Rigid;
@@ -166,7 +167,7 @@ class RowMaker {
     }
   }
 
-  // How fast a row's coordinate has changed in the substep, m/s.
+  // Rate at which a row's coordinate has changed in the substep, m/s.
   double moved_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
     return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
@@ -194,7 +195,7 @@ class RowMaker {
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
-      // What bounces is let through until its time.
+      // A contact that bounces is disabled until its time of impact.
       const bool passes = !(c.mass[i] > 0);
       add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
       if (passes) island_.impulses[island_.ties.size() - 1] = 0;
@@ -214,7 +215,7 @@ class RowMaker {
     }
   }
 
-  // Motors yield to limits and to what is rigid by this share.
+  // Compliance of motors relative to their mobility: limits and rigid rows prevail over them.
   static constexpr double kDriven = 1e-6;
 
   WorldData<Real>& w_;
@@ -225,7 +226,8 @@ class RowMaker {
   bool rigid_ = false;
 };
 
-// Bounds that follow from impulses: Coulomb's, and of vectors. Whether any has changed such that it matters.
+// Updates bounds that depend on other impulses: Coulomb friction, and pairs of rows bounded as a vector.
+// Returns true if a bound has changed so much that another solve is needed.
 template <class Real>
 bool renew_bounds(JointedIsland<Real>& island, bool hold) {
   bool changed = false;
@@ -293,7 +295,7 @@ void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
   w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
 }
 
-// Moves bodies such that gaps close by a share.
+// Moves bodies to close a fraction of the gaps.
 template <class Real>
 void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   RowMaker<Real>(w, island, step, Stage::Close).make();

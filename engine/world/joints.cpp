@@ -12,14 +12,14 @@ template <class Real>
 void take_out_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
   w.ties_changed = true;
-  w.joint_set.remove(record.slot);  // which alone may run out of memory
+  w.joint_set.remove(record.slot);  // the only call that may run out of memory
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
   std::erase(w.breakable, joint);
   w.joints.remove(joint);
 }
 
-// Room to tell the end of what two bodies do now.
+// Reserves memory for the end events of the contacts between two bodies.
 template <class Real>
 void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
   std::size_t contacts = 0;
@@ -33,7 +33,7 @@ void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
 
 template <class Real>
 int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
-  // First what may refuse the definition or run out of memory.
+  // First everything that may refuse the definition or run out of memory.
   const bool breaks = definition.break_force > 0 || definition.break_torque > 0;
   w.joints.make_room(1);
   ensure_room(w.breakable, w.breakable.size() + (breaks ? 1 : 0));
@@ -77,7 +77,7 @@ void remove_joint(WorldData<Real>& w, int joint) {
   wake_body(w, record.body_a), wake_body(w, record.body_b);
   take_out_joint(w, joint);
   if (record.collide) return;
-  // What the joint kept apart may meet from now on.
+  // Shapes that the joint kept from colliding need pairs again.
   const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     note_moved(w, shape);

@@ -12,7 +12,7 @@
 #include "engine/world/validate.h"
 #include "engine/world/world.h"
 
-/// What force laws have in common: which bodies they act on, and how their forces get there.
+/// Common part of force laws: selects the bodies, and applies the forces.
 namespace plumb {
 
 struct BodyWrench {
@@ -20,7 +20,7 @@ struct BodyWrench {
   Wrench<double> wrench{};
 };
 
-/// A list of wrenches that keeps its room from call to call, and may be used within another's use.
+/// List of wrenches that keeps its memory from call to call. Uses may be nested.
 class WrenchList {
  public:
   WrenchList() : items_(std::move(kept())) { items_.clear(); }
@@ -42,10 +42,10 @@ class WrenchList {
   std::vector<BodyWrench> items_;
 };
 
-/// Throws Error (Value) with the body's name or handle; `field` says what is not finite.
+/// Throws Error (Value) with the body's name or handle; `field` is the quantity that is not finite.
 [[noreturn]] void report_not_finite(const std::string& name, int body, const char* field);
 
-/// Whether forces and torques are numbers that a world takes.
+/// Returns true if force and torque are finite and within the world's limits.
 inline bool is_sound(const Wrench<double>& wrench) {
   const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
   return fits(wrench.force.x) && fits(wrench.force.y) && fits(wrench.torque);
@@ -57,7 +57,7 @@ void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<doub
   if (!is_sound(wrench)) report_not_finite(w.uncommon_of(body).name, body, field);
 }
 
-/// Takes a body out of the motion because of a wrench that is not sound.
+/// Quarantines a body because of a wrench that is not sound.
 template <class Real>
 void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrench) {
   const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };
@@ -66,11 +66,12 @@ void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrenc
   quarantine_body(w, body, BadField::Torque, wrench.torque);
 }
 
-/// The share of a step after which forces that depend on the place are taken, so that springs neither gain
-/// nor lose energy. Under a constant acceleration a a step leads to x + dt v + c dt^2 a, with c = 1/2 in free
-/// flight, and (1 + 1/n)/2 by the n substeps of what touches something: with the force of x + s dt v the
-/// phase area is kept when s = 1 - c. By 1/2 in contact a spring of omega dt = 1/6 would lose three quarters
-/// of its energy in ten periods. The next step is taken to have the substeps of the last.
+/// Returns the fraction s of a step after which position-dependent forces are evaluated, such that springs
+/// neither gain nor lose energy. Under a constant acceleration a, a step leads to x + dt v + c dt^2 a. In
+/// free flight c = 1/2; for bodies in contact c = (1 + 1/n)/2 with n substeps. With the force at x + s dt v,
+/// phase-space area is conserved for s = 1 - c. With s = 1/2 in contact, a spring of omega dt = 1/6 would
+/// lose three quarters of its energy in ten periods. The next step is assumed to have the substeps of the
+/// last.
 template <class Real>
 double place_share(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -88,7 +89,7 @@ double place_share(const WorldData<Real>& w, int body, double dt) {
   return 0.5 * (1 - 1 / substeps);
 }
 
-/// Whoever is pushed does not fall asleep at once.
+/// Wakes a pushed body, and resets its sleep timer.
 template <class Real>
 void wake_pushed(WorldData<Real>& w, int body) {
   if (!w.bodies[body].awake) {
@@ -111,7 +112,8 @@ void for_each_law_body(WorldData<Real>& w, bool wakes, Visit&& visit) {
   });
 }
 
-/// Adds the wrenches to what the next step applies. Bodies that would get a bad one are taken out first.
+/// Adds the wrenches to the loads of the next step. Bodies with a wrench that is not sound are quarantined
+/// first.
 template <class Real>
 void add_wrenches(WorldData<Real>& w, const WrenchList& list) {
   for (const BodyWrench& item : list) {
@@ -135,8 +137,9 @@ void apply_to_bodies(WorldData<Real>& w, bool wakes, Law&& wrench_of) {
   add_wrenches(w, list);
 }
 
-/// A wrench against motion, shortened so that through `dt` it ends that motion at most: its power falls by
-/// W M^-1 W dt, and may not change sign. `power` (W) is that of the wrench in the motion that it opposes.
+/// Returns a drag wrench, scaled down so that it stops the relative motion within `dt` at most. Its power
+/// falls by W M^-1 W dt, and may not change sign. `power` (W) is that of the wrench in the motion that it
+/// opposes.
 template <class Real>
 Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>& wrench, double power,
                             double dt) {
@@ -145,8 +148,7 @@ Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>
   return loss > power ? (power / loss) * wrench : wrench;
 }
 
-/// A shape in double precision, placed with a body that is turned by `turn` and seen from `offset` m off its
-/// centre of mass.
+/// Copy of a shape in double, rotated by `turn`, with its body's centre of mass at `offset` (m).
 class LawShape {
  public:
   template <class Real>
@@ -166,7 +168,7 @@ class LawShape {
   double radius_;
 };
 
-/// The body's shapes that fluids and blasts act on.
+/// Calls `visit(shape)` for the body's shapes that fluids and blasts act on.
 template <class Real, class Visit>
 void for_each_solid_shape(const WorldData<Real>& w, int body, Visit&& visit) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {

@@ -4,36 +4,36 @@
 #include "engine/world/world.h"
 #include "engine/world/world_data.h"
 
-/// A world that calls the user's code (a pre-solve hook, a combine rule, a force law, a query's visitor or
-/// filter) is at work on itself, or has others at work on it: until that code has returned it is locked, and
-/// whatever would change it throws Error (Unsupported), with nothing changed. Reading is allowed.
+/// While a world calls the user's code (a pre-solve hook, a combine rule, a force law, a query's visitor or
+/// filter) it is locked. Calls that would change it throw Error (Unsupported) then, with nothing changed.
+/// Reading is allowed.
 namespace plumb {
 
-/// Throws when the world is locked.
+/// Throws if the world is locked.
 template <class Real>
 void require_unlocked(const WorldData<Real>& w);
-/// Throws when the world is in a step: its state is of no step then.
+/// Throws during a step: the state is that of no step then.
 template <class Real>
 void require_between_steps(const WorldData<Real>& w);
 
-/// What a call that changes the world works on.
+/// Returns the data of an unlocked world, for calls that change it.
 template <class Real>
 WorldData<Real>& unlocked(BasicWorld<Real>& world);
-/// Likewise, with all masses known: for whatever acts on motions.
+/// Does the same, and updates all masses: for calls that act on motions.
 template <class Real>
 WorldData<Real>& settled(BasicWorld<Real>& world);
 
-/// Ends a use of the world. Who destroys a world from a callback leaves what it consists of to the last use.
+/// Ends a use of the world. If the user destroyed the world from a callback, the last use deletes its data.
 template <class Real>
 void end_use(const WorldData<Real>& w) {
   if (w.abandoned && !w.stepping && w.callers == 0) delete &w;
 }
 
-/// Locks the world while the user's code looks at it. Such looks may be taken side by side.
+/// Locks the world while the user's code reads it. Locks may overlap, also from several threads.
 template <class Real>
 class Lock {
  public:
-  /// `wanted`: whether there is code of the user's.
+  /// `wanted`: there is user code to call; otherwise nothing is locked.
   explicit Lock(const WorldData<Real>& w, bool wanted = true) : w_(wanted ? &w : nullptr) {
     if (w_ != nullptr) w_->callers.fetch_add(1, std::memory_order_relaxed);
   }

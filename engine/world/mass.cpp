@@ -16,7 +16,7 @@
 namespace plumb {
 namespace {
 
-// Moves the frame that corners and anchors stand in.
+// Moves the origin of the frame in which corners and anchors are stored to `centre`.
 template <class Real>
 void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   BodyRecord<Real>& record = w.bodies[body];
@@ -25,7 +25,7 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   typename CornerPool<Real>::Runs runs{};
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
     ++runs[static_cast<std::size_t>(w.forms[shape].stored())];
-  w.corners.make_room_for(runs);  // from here on nothing is allocated
+  w.corners.make_room_for(runs);  // nothing is allocated from here on
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     ShapeForm<Real>& form = w.forms[shape];
     Corner<Real> moved[kMaxCorners + 2];
@@ -36,7 +36,7 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
     form.corner = w.corners.add({moved, corners.size()});
   }
   const Vec2<Real> arm = w.rotation[body] * shift;
-  w.motion[body].velocity += cross(w.motion[body].angular_velocity, arm);  // of the new centre
+  w.motion[body].velocity += cross(w.motion[body].angular_velocity, arm);  // velocity of the new centre
   w.position[body] += arm.template as<double>();
   record.centre = centre;
   for_each_edge(w.joints, record.first_joint, [&](int, JointRecord& joint) {
@@ -56,7 +56,7 @@ void update_extents(WorldData<Real>& w, int body) {
   record.half_width = half_width;
 }
 
-// Shapes may weigh more than a number holds, or so little that its reciprocal is none.
+// Clamps masses to the largest finite number: a mass or the inverse of one may exceed it.
 template <class Real>
 Real held(double x) {
   return static_cast<Real>(std::min<double>(x, std::numeric_limits<Real>::max()));
@@ -94,7 +94,7 @@ ConvexMass mass_of(const WorldData<Real>& w, int shape) {
                      static_cast<double>(w.shapes[shape].density));
 }
 
-// Calls visit(part) for what each shape of a body adds to its mass.
+// Calls visit(part) with the mass properties of each shape that has mass.
 template <class Real, class Visit>
 void for_each_part(const WorldData<Real>& w, int body, const Visit& visit) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
@@ -104,7 +104,7 @@ void for_each_part(const WorldData<Real>& w, int body, const Visit& visit) {
 
 }  // namespace
 
-// A dynamic body whose shapes have no mass weighs 1 kg and does not turn: it could not be moved otherwise.
+// Shapes without mass make a body of 1 kg that does not rotate: it could not be moved otherwise.
 template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -117,10 +117,10 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
     mass += part.mass;
     moment += part.mass * part.centroid;
   });
-  // Where the reciprocal is no number, what there is does not count.
+  // A mass whose inverse is not finite counts as none.
   if (!(mass > 0 && 1 / mass <= std::numeric_limits<double>::max()))
     return {1, record.centre.template as<double>(), 0};
-  const Vec2d centre = (1 / mass) * moment;  // seen from the frame
+  const Vec2d centre = (1 / mass) * moment;  // in the body's frame
   for_each_part(w, body, [&](const ConvexMass& part) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);
   });
@@ -153,7 +153,7 @@ template <class Real>
 void note_mass_change(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   if (own_type(w, body) == BodyType::Static) {
-    if (!record.mass_given) record.mass = -1;  // not known
+    if (!record.mass_given) record.mass = -1;  // unknown
     return;
   }
   if (is_unsettled(w, body)) return;

@@ -5,52 +5,51 @@
 #include "engine/world/new_shape.h"
 #include "engine/world/world_data.h"
 
-/// Masses, centres of mass and sizes of bodies, as they follow from their shapes.
+/// Masses, centres of mass and sizes of bodies, computed from their shapes.
 ///
-/// The frame of a dynamic body is at its centre of mass. That of a kinematic one is at its origin, about
-/// which it turns; that of a static one stays where the shapes that it was made with had their centre: nobody
-/// asks what it weighs. So shapes that come to a static body and go cost the same, however many there are.
-/// What changes the mass of another one is noted, and seen to at once for all of them before it matters:
-/// before a step, and before any call that acts on motions.
+/// The frame of a dynamic body is at its centre of mass, that of a kinematic one at its origin, about which
+/// it rotates. A static body's frame stays at the centre of its first shapes, because its mass is not needed.
+/// So adding a shape to a static body or removing one has constant cost. Changes of other masses are noted,
+/// and all computed at once before they are needed: before a step, and before calls that act on motions.
 namespace plumb {
 
-/// Finds the mass, the centre and the sizes of a body anew, and moves its frame there.
+/// Recomputes a body's mass, centre and sizes, and moves its frame to the centre.
 template <class Real>
 void update_mass(WorldData<Real>& w, int body);
-/// The same for a body whose type has changed.
+/// Does the same for a body whose type has changed.
 template <class Real>
 void find_mass(WorldData<Real>& w, int body);
-/// From now on the body has this mass, whatever its shapes weigh.
+/// Sets a body's mass, which replaces that of its shapes from now on.
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
 
-/// A shape is about to come to the body, or to go.
+/// Notes that a shape is about to be added to the body or removed from it.
 template <class Real>
 void note_mass_change(WorldData<Real>& w, int body);
-/// The body reaches at least as far as a shape that came to it.
+/// Grows the body's sizes by a shape that was added.
 template <class Real>
 void grow_extents(WorldData<Real>& w, int body, int shape);
-/// Sees to all that was noted.
+/// Updates all bodies that were noted.
 template <class Real>
 void settle(WorldData<Real>& w);
-/// Whether something was noted that has not been seen to.
+/// Returns true if a change of the body's shapes was noted and not yet applied.
 template <class Real>
 bool is_unsettled(const WorldData<Real>& w, int body) {
   return w.bodies[body].half_width < 0;
 }
 
-/// What the body weighs, settled or not; the centre is in its frame.
+/// Returns the body's mass properties, whether settled or not; the centre is in the body's frame.
 template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body);
-/// The way, m, from the body's frame to its centre of mass; none once it is settled.
+/// Returns the offset of the body's centre of mass from its stored one, m; 0 once the mass is settled.
 template <class Real>
 Vec2<Real> way_to_centre(const WorldData<Real>& w, int body);
 
-/// Error (Value) where the densities of a body's shapes give it a mass that `Real` does not hold.
+/// Throws Error (Value) if the densities of a body's shapes give a mass that `Real` cannot hold.
 template <class Real>
 void require_weights(const WorldData<Real>& w, int body);
 
-/// Room for a new body's shapes to be seen from its centre of mass.
+/// Reserves memory to move a new body's shapes into the frame of its centre of mass.
 template <class Real>
 void make_room_to_recentre(WorldData<Real>& w, std::span<const NewShape<Real>> shapes);
 

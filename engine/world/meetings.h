@@ -11,8 +11,7 @@
 /// Finds the first impact of a flight within the step. For continuous.cpp alone.
 namespace plumb {
 
-/// Returns whether two bodies move fast relative to each other: no slower than one could pass through the
-/// other.
+/// Returns true if two bodies move fast relative to each other, so that one could pass through the other.
 template <class Real>
 bool pass_fast(const WorldData<Real>& w, int a, int b) {
   const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
@@ -21,8 +20,8 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
   return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
 }
 
-/// Returns whether a body may be in the way of another one: fast for it, or not where the solver has brought
-/// it.
+/// Returns true if another body may be an obstacle: it is fast relative to this one, or its motion differs
+/// from the solver's.
 template <class Real>
 bool may_block(const WorldData<Real>& w, int body, int other) {
   if (pass_fast(w, body, other)) return true;
@@ -30,7 +29,7 @@ bool may_block(const WorldData<Real>& w, int body, int other) {
   return met != nullptr && met->changed;
 }
 
-/// Returns a box around all that the body covers for the rest of its way.
+/// Returns an AABB of the body's motion until the step's end.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
   const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
@@ -40,7 +39,7 @@ Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
   return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm + aside);
 }
 
-/// Returns the constraint that the solver had between two shapes in contact; null when it had none.
+/// Returns the solver's constraint of a contact, or null if it had none.
 template <class Real>
 const ContactConstraint<Real>* constraint_in(const WorldData<Real>& w, const ContactRecord& contact) {
   if (contact.home != ContactHome::Graph) return nullptr;
@@ -63,7 +62,7 @@ const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int 
   return found;
 }
 
-/// Takes a pair's impact for the first one if it is sooner.
+/// Replaces the first impact by a pair's impact if that is earlier.
 template <class Real>
 void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
   const double fraction = fraction_of_impact(w, way, pair);
@@ -71,7 +70,7 @@ void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
-/// Finds the first of all that the body meets, when all of that has a contact with it.
+/// Finds the first impact of a body whose obstacles all have a contact with it.
 template <class Real>
 void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
@@ -84,7 +83,7 @@ void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
   });
 }
 
-/// Returns whether both are pushed along by the same body.
+/// Returns true if the same body pushes both along.
 template <class Real>
 bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
   if (flight.carrier == kNone) return false;
@@ -93,8 +92,8 @@ bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
   return met != nullptr && met->carrier == flight.carrier;
 }
 
-/// Finds the first of all that the body meets, in the trees: after an impact it goes where the solver saw to
-/// no contacts.
+/// Finds the first impact by queries of the trees: after an impact the solver has no contacts along the new
+/// trajectory.
 template <class Real>
 void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
@@ -115,7 +114,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   }
 }
 
-/// Notes the version of the way of what is met.
+/// Stores the current version of the other body's trajectory.
 template <class Real>
 Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
   if (found.other == kNone) return found;
@@ -123,7 +122,7 @@ Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
   return found;
 }
 
-/// Returns the first meeting of a flight from a fraction of the step on.
+/// Returns the first impact of a flight from a fraction of the step on.
 template <class Real>
 Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
   const Flight& flight = w.scratch.flights[place];

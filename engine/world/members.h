@@ -10,12 +10,12 @@
 #include "engine/geometry/convex.h"
 #include "engine/math/vec2.h"
 
-/// What structs consist of, said once for all that writes or reads them.
+/// Member lists of structs, defined once for all code that writes or reads them.
 namespace plumb {
 
 /// `Members<T>::of(value)` is a tuple of references to all members of `value`, in their order. The lists are
-/// structured bindings, which have to name every member: a list that misses a new one does not compile.
-/// `kNames` has their names, with commas between.
+/// structured bindings, which must name every member: a list that misses a new one does not compile. `kNames`
+/// has their names, separated by commas.
 template <class T>
 struct Members;
 
@@ -49,13 +49,14 @@ PLUMB_REAL_MEMBERS(Rotation, c, s)
 PLUMB_REAL_MEMBERS(Aabb, lower, upper)
 PLUMB_REAL_MEMBERS(Corner, point, normal)
 
-/// How many values an enumeration has: they are 0, 1, ... To be said of each that is written.
+/// Number of values of an enumeration, which are 0, 1, ... To be specialised for each that is written.
 template <class Enum>
 inline constexpr int kEnumerators = 0;
 template <>
 inline constexpr int kEnumerators<std::byte> = 256;
 
-/// Bytes of a T that is written member by member, without padding; 0 when they depend on the value.
+/// Returns the size in bytes of a T that is written member by member, without padding; 0 if it depends on the
+/// value.
 template <class T>
 consteval std::size_t packed_size() {
   if constexpr (std::is_arithmetic_v<T>) {

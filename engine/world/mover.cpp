@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-// Surfaces that it may run into in one move, and rounds of pushing out of overlaps: more than corners have.
+// Limits of hit surfaces in one move, and of iterations out of overlaps: more than corners need.
 constexpr int kMostRounds = 16;
 constexpr int kMostPushes = 8;
 
@@ -28,7 +28,7 @@ struct Planes {
   Vec2d nearest(Vec2d wanted) const { return solve_planes(std::span(items.data(), count), wanted).point; }
 };
 
-// One move in its parts; position and velocity are what has become of them so far.
+// One move. Position and velocity are the current ones.
 template <class Real>
 class Move {
  public:
@@ -75,21 +75,22 @@ class Move {
   double dt_, remaining_ = 0;
   Vec2d position_{}, velocity_{};
   std::optional<MoverGround> ground_{};
-  Planes held_{};     // of bodies that it could not be pushed out of
-  Planes touched_{};  // what it touches now, for the way
-  Planes met_{};      // all that it met, for the velocity
+  Planes held_{};     // of overlaps that it could not leave
+  Planes touched_{};  // current contacts, for the displacement
+  Planes met_{};      // all contacts of the move, for the velocity
   MoverResult result_{};
 };
 
-// Of the ground as who stands on it sees it. The surface moves to the right along (n.y, -n.x).
+// Returns the velocity of the ground's surface. The surface moves along (n.y, -n.x), to the right of someone
+// standing on it.
 template <class Real>
 Vec2d Move<Real>::velocity_of(const MoverContact& contact) const {
   const double surface = world_.material(contact.shape).surface_speed;
   return world_.velocity_at(contact.body, contact.point) - surface * perpendicular(contact.normal);
 }
 
-// The deepest overlap first, until none is left: each adds the half plane out of it, and the way out is the
-// shortest into all of them. Where there is none, it goes as far as what stands in the way lets it.
+// Pushes the mover out of overlaps, the deepest first. Each adds its half plane, and the displacement is the
+// shortest into all of them. Without a solution it goes as far as obstacles allow.
 template <class Real>
 void Move<Real>::push_out() {
   const Vec2d start = position_;
@@ -101,7 +102,7 @@ void Move<Real>::push_out() {
     all.add({deepest->normal, least});
     const MoverWay way = senses_.squeeze(position_, start + all.nearest({}) - position_);
     position_ = way.position;
-    // Not farther into that.
+    // No further into the obstacle.
     if (way.stop) all.add({way.stop->normal, dot(way.stop->normal, position_ - start)});
   }
   const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
@@ -123,8 +124,8 @@ void Move<Real>::feel_ground() {
   }
 }
 
-// Notes a contact that it runs into at `velocity` (relative to the world), with the impulse; returns the
-// surface's speed along the normal afterwards.
+// Records a hit at `velocity` (relative to the world), with its impulse. Returns the surface's speed along
+// the normal afterwards.
 template <class Real>
 double Move<Real>::note_hit(const MoverContact& contact, Vec2d velocity) {
   const Vec2d normal = contact.normal;
@@ -135,7 +136,7 @@ double Move<Real>::note_hit(const MoverContact& contact, Vec2d velocity) {
   }
   double impulse = 0, gained = 0;
   if (options_.mass > 0 && closing > 0 && world_.type(contact.body) == BodyType::Dynamic) {
-    // Inelastic: both go on at one speed, as far as the force reaches.
+    // Inelastic: both continue at one speed, within the force limit.
     const double lever = cross(contact.point - world_.centre(contact.body), normal);
     const double inertia = world_.inertia(contact.body);
     const double gives = 1 / world_.mass(contact.body) + (inertia > 0 ? lever * lever / inertia : 0);
@@ -151,7 +152,7 @@ void Move<Real>::block(const MoverContact& contact, Vec2d velocity) {
   const double speed = std::min(0.0, note_hit(contact, velocity));
   touched_.add({contact.normal, 0});
   met_.add({contact.normal, speed});
-  // What is too steep to walk on is not climbed in the air either: it is a wall besides.
+  // A surface too steep to walk on is not climbed in the air either: it also acts as a vertical wall.
   const double rise = dot(contact.normal, senses_.up());
   const Vec2d across = contact.normal - rise * senses_.up();
   if (rise > 0 && !senses_.is_walkable(contact.normal) && length(across) > 0) {
@@ -171,7 +172,7 @@ void Move<Real>::land(const MoverGround& ground) {
   touched_.count = met_.count = 0;
 }
 
-// Ground that is as near as feel_ground() looks for it counts as reached.
+// Lands on ground within the distance that feel_ground() searches.
 template <class Real>
 void Move<Real>::touch_down() {
   if (dot(velocity_, senses_.up()) > 0) return;
@@ -179,7 +180,7 @@ void Move<Real>::touch_down() {
   if (ground) land(*ground);
 }
 
-// In the air: straight on, or along what it touches. False: it has come to the end of its way.
+// Moves in the air: straight, or along current contacts. Returns false at the end of the move.
 template <class Real>
 bool Move<Real>::fly() {
   Vec2d going = touched_.nearest(velocity_);
@@ -201,7 +202,7 @@ bool Move<Real>::fly() {
   return true;
 }
 
-// On the ground: along it, up steps, until something stops it. False: it has come to the end of its way.
+// Moves along the ground and up steps, until an obstacle stops it. Returns false at the end of the move.
 template <class Real>
 bool Move<Real>::walk() {
   const double speed = dot(velocity_, senses_.right());
@@ -227,7 +228,7 @@ bool Move<Real>::walk() {
     change_ground({*way.stop, way.stop->normal, false});
     return true;
   }
-  // A surface that gives way lets it follow as fast as that.
+  // The mover follows a receding surface at that speed.
   const Vec2d ground_velocity = velocity_of(ground_->contact);
   const double surface = note_hit(*way.stop, std::abs(speed) * direction + ground_velocity);
   const double receding = std::max(0.0, dot(way.stop->normal, ground_velocity) - surface);
@@ -236,7 +237,8 @@ bool Move<Real>::walk() {
   return false;
 }
 
-// Up, ahead and down again: where that leads to ground which is not higher than a step, it goes there.
+// Climbs a step: tries up, ahead and down again. Goes there if that leads to ground no higher than a step,
+// and returns true.
 template <class Real>
 bool Move<Real>::step_up(double speed) {
   const double whole = remaining_ * std::abs(speed), height = senses_.step_height();
@@ -254,7 +256,7 @@ bool Move<Real>::step_up(double speed) {
   return true;
 }
 
-// Its velocity is relative to what it stands on.
+// Changes the ground. The velocity becomes relative to the new one.
 template <class Real>
 void Move<Real>::change_ground(const MoverGround& ground) {
   if (ground.contact.shape != ground_->contact.shape) {
@@ -263,7 +265,7 @@ void Move<Real>::change_ground(const MoverGround& ground) {
   ground_ = ground;
 }
 
-// Down to the ground as far as a step reaches, or off it.
+// Follows the ground down as far as a step, or leaves it.
 template <class Real>
 void Move<Real>::stay_on_ground(double press) {
   const std::optional<MoverGround> ground =
@@ -278,8 +280,8 @@ void Move<Real>::stay_on_ground(double press) {
   note_hit(ground->contact, velocity_of(ground->contact) - press * senses_.up());
 }
 
-// The ground moves during dt, and takes it along: the point it stands on moves on a circle about the body's
-// centre, which moves on a line. It meets everything but the ground's own body on the way.
+// Carries the mover with the ground's motion during dt. The contact point moves on a circle about the body's
+// centre, which moves on a line. Everything but the ground's own body stops the mover.
 template <class Real>
 void Move<Real>::ride() {
   const MoverContact& contact = ground_->contact;

@@ -62,7 +62,7 @@ MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& cap
 
 template <class Real>
 MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, BodyId except) const {
-  constexpr double kSliding = 1e-9;  // sine of the angle below which it goes along a surface, not into it
+  constexpr double kSliding = 1e-9;  // sine of the angle up to which a motion is along a surface, not into it
   const double whole = length(way);
   if (!(whole > 0)) return {from, 0, {}};
   const Vec2d direction = (1 / whole) * way;
@@ -72,7 +72,7 @@ MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, B
     if (hit.body == except) return 1.0;
     MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
     if (hit.overlapped) {
-      // Nearer than the grown shape keeps away: it may part from it or go along it.
+      // Within the skin already: it may move away from the shape or along it.
       const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
       if (!near || near->gap < 0) return 1.0;
       contact = *near;
@@ -101,7 +101,7 @@ std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const Mo
   constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, are slopes
   const double rise = dot(contact.normal, up_);
   if (!(rise > kUpright)) return {};
-  // The capsule's round end touches a slope, or the edge of a step. What lies behind the edge tells.
+  // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge tells which.
   const Vec2d across = contact.normal - rise * up_;
   if (length(across) > kUpright && is_within_step(contact.point, position)) {
     const Vec2d inward = (-1 / length(across)) * across;

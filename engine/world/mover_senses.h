@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// What a mover meets.
+/// Contact of a mover with a shape.
 struct MoverContact {
   ShapeId shape{};
   BodyId body{};
@@ -16,21 +16,21 @@ struct MoverContact {
   double gap = 0;           ///< m, negative: overlap
 };
 
-/// How far it got on a way, and what stopped it.
+/// Result of a shape cast: the position reached, and the contact that stopped it.
 struct MoverWay {
   Vec2d position{};
   double travelled = 0;  ///< m
   std::optional<MoverContact> stop{};
 };
 
-/// What it stands on.
+/// Ground below a mover.
 struct MoverGround {
   MoverContact contact{};
-  Vec2d floor{};      ///< unit; the normal to walk along: of the tread at the edge of a step
-  bool edge = false;  ///< of a step
+  Vec2d floor{};      ///< unit; the normal to walk along: that of the tread at the edge of a step
+  bool edge = false;  ///< edge of a step
 };
 
-/// A mover's knowledge of the world around it: everything that it does is built from these.
+/// Queries of the surroundings of a mover, of which all its motion is built.
 template <class Real>
 class MoverSenses {
  public:
@@ -43,19 +43,20 @@ class MoverSenses {
   double radius() const { return radius_; }
   bool is_walkable(Vec2d normal) const { return dot(normal, up_) >= walkable_; }
 
-  /// Goes from `from` by `way`, and stops a skin before what it meets; shapes that it overlaps already, and
+  /// Moves from `from` by `way`, and stops a skin before an obstacle. Shapes that it overlaps already, and
   /// the body `except`, do not stop it.
   MoverWay go(Vec2d from, Vec2d way, BodyId except = {}) const { return go(with_skin_, from, way, except); }
-  /// The same, but stops only a quarter of a skin before what it meets: to get out of overlaps.
+  /// Does the same, but stops only a quarter of a skin before an obstacle: to leave overlaps.
   MoverWay squeeze(Vec2d from, Vec2d way) const { return go(with_quarter_, from, way, {}); }
-  /// Goes down until it stands on ground, by `most` m at most; none when it would not stand there.
+  /// Moves `position` down onto ground, by `most` m at most; returns nullopt and stays if there is none to
+  /// stand on.
   std::optional<MoverGround> find_ground(Vec2d& position, double most) const;
-  /// Whether a contact of a mover at `position` is ground: flat enough, or the edge of a step.
+  /// Returns the ground if a contact of a mover at `position` is flat enough, or the edge of a step.
   std::optional<MoverGround> ground_at(Vec2d position, const MoverContact& contact) const;
-  /// The contact with the smallest gap, if that is below three quarters of the skin. A mover that goes away
-  /// from a chain with `velocity` passes through it.
+  /// Returns the contact with the smallest gap, if that is below three quarters of the skin. A mover that
+  /// moves away from a chain with `velocity` passes through it.
   std::optional<MoverContact> deepest(Vec2d position, Vec2d velocity) const;
-  /// Whether a point is no higher than a step above the ground that a mover at `position` stands on.
+  /// Returns true if a point is no higher than a step above the ground that a mover at `position` stands on.
   bool is_within_step(Vec2d point, Vec2d position) const {
     // It stands a skin above the ground; a tenth of that is for rounding.
     return dot(point - position, up_) - lowest_ <= step_height_ - 0.9 * skin_;

@@ -6,10 +6,10 @@
 #include "engine/scene/subject.h"
 #include "engine/world/world_data.h"
 
-/// Errors of calls name the thing that the call is about.
+/// Error messages of calls name the subject of the call.
 namespace plumb {
 
-/// Calls `check`; what it refuses is refused about `subject()`.
+/// Calls `check` and rethrows its errors with `subject()` as their subject.
 template <class Subject, class Check>
 void naming(Subject&& subject, Check&& check) {
   try {
@@ -19,7 +19,7 @@ void naming(Subject&& subject, Check&& check) {
   }
 }
 
-/// "body 'ball'", or "body 3" by its handle's index where it has no name.
+/// Returns "body 'ball'", or "body 3" by its handle's index if it has no name.
 template <class Real>
 std::string body_subject(const WorldData<Real>& w, int body) {
   return body_subject(static_cast<std::size_t>(body), w.uncommon_of(body).name);
@@ -30,7 +30,7 @@ void naming_body(const WorldData<Real>& w, int body, Check&& check) {
   naming([&] { return body_subject(w, body); }, check);
 }
 
-/// "shape of body 'ball'"; `part` is what of the body it is about.
+/// Checks a part of a body; errors name "shape of body 'ball'", with `part` for "shape".
 template <class Real, class Check>
 void naming_part(const WorldData<Real>& w, const std::string& part, int body, Check&& check) {
   naming([&] { return part + " of " + body_subject(w, body); }, check);

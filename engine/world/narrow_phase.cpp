@@ -23,8 +23,8 @@ Real size_of(Vec2<Real> v) {
   return std::abs(v.x) + std::abs(v.y);
 }
 
-// How near shapes have to be for a contact to be prepared: a share of the smaller one, and the way that they
-// may come closer in the step.
+// Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in the
+// step.
 template <class Real>
 Real reach_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b, Real dt) {
   const Real smaller = std::min(extent_a, extent_b);
@@ -33,8 +33,8 @@ Real reach_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_
   return Real(tuning::kContactReach) * smaller + std::min(closing, Real(tuning::kContactReachMost) * smaller);
 }
 
-// Far from the origin boxes are as coarse as positions there: both have their place, and their size about it,
-// rounded.
+// Returns true if two AABBs are farther apart than `reach`. Far from the origin both are rounded as coarsely
+// as positions, so a rounding margin is added.
 template <class Real>
 bool boxes_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
   const Aabb<Real>& box = w.boxes[shape_a];
@@ -60,7 +60,7 @@ ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord&
   return collide_shapes(w, contact, b_in_a, reach);
 }
 
-// Arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).
+// Computes arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).
 template <class Real>
 void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Vec2<Real>* arms_a,
                   Vec2<Real> between, ContactConstraint<Real>& c) {
@@ -82,7 +82,7 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
     middle *= Real(0.5);
     c.between = coupling(c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
     const Real determinant = k[0] * k[1] - c.between * c.between;
-    // Points that are as good as one share its load.
+    // Points that nearly coincide share their load.
     const bool apart = determinant > Real(1e-3) * k[0] * k[1];
     const Real d = apart ? 1 / determinant : Real(0);
     c.inverse_pp = apart ? d * k[1] : Real(0.5) * c.mass[0];
@@ -96,8 +96,8 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
   c.tangent_mass = inverse(coupling(c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
 }
 
-// Writes the manifold into the constraint; points that were there before, by feature, keep their impulses.
-// `q` is the rotation of a, `between` the way from its centre of mass to that of b.
+// Writes the manifold into the constraint; points with a known feature keep their impulses. `q` is the
+// rotation of a, `between` the vector from its centre of mass to that of b.
 template <class Real>
 void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
              Rotation<Real> q, Vec2<Real> between, ContactConstraint<Real>& c) {
@@ -136,7 +136,7 @@ void rebuild(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   rebuild(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(), c);
 }
 
-// Builds a constraint where the shapes are going to meet in the step; separations are those of now.
+// Builds a speculative constraint at the predicted impact; separations are the present ones.
 template <class Real>
 void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
                  ContactConstraint<Real>& c) {
@@ -146,7 +146,7 @@ void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const E
     c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
 }
 
-// What a rule of the user's says, when it can be a coefficient.
+// Calls a user's combine rule; throws if its result is not a valid coefficient.
 double ask(CombineFunction rule, double a, double b, const char* what, double most) {
   const double answer = rule(a, b);
   if (answer >= 0 && answer <= most) return answer;
@@ -167,8 +167,8 @@ Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b) {
 
 namespace {
 
-// Whether the solver is to note how a contact approaches, and its largest impulses. What touches already, and
-// neither bounces nor is reported, needs neither.
+// Returns true if the solver must record approach and largest impulses. A touching contact that neither
+// bounces nor is reported needs neither.
 template <class Real>
 bool is_watched(const ContactRecord& contact, const ContactConstraint<Real>& c) {
   return !c.touching || c.restitution > 0 || contact.hit_events || contact.pre_solve;
@@ -195,8 +195,8 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
 
 namespace {
 
-// The bodies have moved little since the manifold was made: separations follow to first order. False when
-// they moved too much for that.
+// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
+// that.
 template <class Real>
 bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
@@ -210,7 +210,7 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
   return true;
 }
 
-// Most of a load, and all of it where it has pressed the shapes into each other.
+// Updates the load estimate: most of a load, and all of it if the load pressed the shapes into each other.
 template <class Real>
 void expect_loads(ContactConstraint<Real>& c) {
   constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
@@ -233,13 +233,13 @@ void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   for (int i = 0; i < c.count; ++i) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
-  // What approaches at one point by so much that its normal turns may be two discs.
+  // A single point with a fast approach may belong to two discs, whose normal will rotate.
   const Real travel = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
   if (c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel))
     append(w.scratch.bouncing, c.contact);
 }
 
-// Whether it touches, as events tell it.
+// Updates the touching state that events report.
 template <class Real>
 void note_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching) {
   const ContactRecord& contact = w.contacts[c.contact];
@@ -252,7 +252,7 @@ void note_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching
 template <class Real>
 bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
-  // What struck and bounced off within a step has touched as well.
+  // A contact that bounced off within a step has touched, too.
   const auto touch = [&](int i) {
     return c.separation[i] <= near_enough || c.normal_impulse[i] > 0 || (c.watched && c.peak_impulse[i] > 0);
   };
@@ -290,13 +290,13 @@ ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord
   return manifold_of(w, contact, reach);
 }
 
-// Whether a hook of the user's says that a contact is to be passed over in this step.
+// Returns true if the user's pre-solve hook disables a contact in this step.
 template <class Real>
 bool is_waived(WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
   return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);
 }
 
-// A contact gets points: `build` makes them.
+// Prepares a new constraint, with the points that `build` makes.
 template <class Real, class Build>
 void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
   const ContactRecord& contact = w.contacts[id];
@@ -309,7 +309,7 @@ void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
   w.scratch.begun_contacts.push_back(c);
 }
 
-// The same for one whose shapes are going to meet: bounces in free flight are decided about later.
+// Does the same for a predicted impact; bounces in free flight are decided later.
 template <class Real>
 void begin_ahead(WorldData<Real>& w, int id, const Encounter<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
@@ -327,9 +327,9 @@ void begin_ahead(WorldData<Real>& w, int id, const Encounter<Real>& at, Real dt)
   w.scratch.begun_contacts.push_back(c);
 }
 
-// Records of contacts, and of what they are between, lie anywhere in memory: the memory is asked for them so
-// many contacts ahead, the latter once the former are there. GCC 12 drops calls of a function that does
-// nothing else, unless they are expanded first.
+// Prefetches contact records kRecords ahead and, once these are loaded, their bodies and shapes kShapes
+// ahead: they are scattered in memory. Always inlined, because GCC 12 drops calls of a function that only
+// prefetches.
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_near(const WorldData<Real>& w, std::size_t i) {
   constexpr std::size_t kRecords = 16, kShapes = 8;
@@ -342,7 +342,8 @@ template <class Real>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
 }
 
-// Of the contacts without points, those that get some begin, and those whose boxes have parted are lost.
+// Updates contacts without points: starts those that get points, and ends those whose fat AABBs have
+// separated.
 template <class Real>
 void look_at_near(WorldData<Real>& w, Real dt, Real h) {
   for (std::size_t i = 0; i < w.near.size(); ++i) {
@@ -363,7 +364,7 @@ void look_at_near(WorldData<Real>& w, Real dt, Real h) {
   }
 }
 
-// Makes a manifold anew; false when there is none.
+// Rebuilds a manifold; returns false if there is none.
 template <class Real>
 bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, ContactConstraint<Real>& c) {
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
@@ -381,11 +382,10 @@ bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, Co
   return c.count > 0 && at.outlook != Outlook::Misses;
 }
 
-// A contact with points is carried on, or made anew where its bodies have moved too much for that.
+// Recycles the manifold of a contact with points, or rebuilds it if its bodies have moved too much.
 template <class Real>
 void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt, Real h) {
-  // Also of what is gone again since. Noted after all were looked at, or, should a hook throw, in the next
-  // step.
+  // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   if (touches(c) != c.touching) w.scratch.touch_changes.push_back(c.contact);
   if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
     if (stored_boxes_apart(w, w.contacts[c.contact])) {
@@ -407,7 +407,7 @@ void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt,
 
 namespace {
 
-// The solver takes what does not bounce in free flight.
+// Passes predicted impacts that do not bounce in free flight to the solver.
 template <class Real>
 void settle_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w);

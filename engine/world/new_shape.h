@@ -5,15 +5,15 @@
 #include "engine/geometry/convex_hull.h"
 #include "engine/world/world_data.h"
 
-/// Shapes are made in three steps, so that a call that runs out of memory has changed nothing: all that may
-/// be refused or allocate comes first.
+/// Shapes are created in three steps. All that may throw or allocate comes first, so that a call that runs
+/// out of memory changes nothing.
 namespace plumb {
 
-/// A shape before it is in a body.
+/// A shape that is not yet part of a body.
 template <class Real>
 struct NewShape {
-  Corners corners;  ///< in the body's frame; a chain's segment has its neighbours before and after
-  int count = 0;    ///< of corners that are its own
+  Corners corners;  ///< in the body's frame; for a chain's segment also its neighbours, before and after
+  int count = 0;    ///< number of its own corners
   ShapeForm<Real> form{};
   ShapeRecord<Real> record{};
   std::uint64_t user_data = 0;
@@ -21,16 +21,16 @@ struct NewShape {
 
 template <class Real>
 NewShape<Real> prepare_shape(const ShapeDefinition& definition);
-/// The segment that begins at point number `which`.
+/// Prepares the segment that begins at point `which`.
 template <class Real>
 NewShape<Real> prepare_segment(const ChainDefinition& definition, int which);
 
-/// Makes room for shapes of a body that has this type.
+/// Reserves memory for shapes of a body of this type.
 template <class Real>
 void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes);
 
-/// Puts a shape into the body's list; mass and tree are the caller's business. Allocates nothing once there
-/// is room.
+/// Adds a shape to the body's list; the caller updates mass and tree. Does not allocate if memory is
+/// reserved.
 template <class Real>
 int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made);
 

@@ -5,8 +5,8 @@
 namespace plumb {
 namespace {
 
-// Whether most of what moved has no contact, by a sample of up to 512: who looks at all of a million
-// bodies for that waits for each.
+// Returns true if most moved shapes have no contact. Estimated from at most 512 samples, because checking a
+// million bodies would cause a cache miss for each.
 template <class Real>
 bool mostly_alone(const WorldData<Real>& w) {
   constexpr std::size_t kSample = 512;
@@ -19,8 +19,8 @@ bool mostly_alone(const WorldData<Real>& w) {
   return 8 * alone >= 7 * looked;
 }
 
-// Finds out at once which of the boxes in the moving tree meet any other, when that promises to spare most of
-// many a query: when most of what moved had no contact. False: it is not known.
+// If most moved shapes had no contact, finds in one self-overlap pass which proxies of the dynamic tree
+// overlap any other; this saves their queries. Returns false if the pass was skipped.
 template <class Real>
 bool mark_meetings(WorldData<Real>& w) {
   const int moved = static_cast<int>(w.moved_shapes.size()), all = w.moving_tree.size();
@@ -30,8 +30,8 @@ bool mark_meetings(WorldData<Real>& w) {
   return mostly_alone(w) && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
 }
 
-// Places in the set of pairs lie anywhere in memory: they are asked for so many pairs ahead. A million shapes
-// that moved fit into no cache: so are their records.
+// Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
+// moved shapes exceed the cache.
 constexpr std::size_t kAhead = 8, kShapesAhead = 32;
 
 template <class Real>
@@ -52,13 +52,14 @@ void find_pairs(WorldData<Real>& w) {
     ask_for_moved(w, i);
     const int shape = w.moved_shapes[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
-    if (!record.moved || record.proxy == kNone) continue;  // gone meanwhile
-    // Without static shapes all are in the moving tree: who meets nobody there needs no look at its body.
+    if (!record.moved || record.proxy == kNone) continue;  // destroyed meanwhile
+    // Without static shapes every proxy is in the dynamic tree, so one without an overlap can be skipped
+    // without reading its body.
     if (marked && !grounds && w.scratch.meets[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
     const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
     const auto visit = [&](int other, int) {
-      // Of two that moved, one finds the other.
+      // Of two moved shapes, only one reports the pair.
       if (other != shape && !(w.shapes[other].moved && other < shape)) found.emplace_back(shape, other);
       return true;
     };
@@ -73,7 +74,7 @@ void find_pairs(WorldData<Real>& w) {
     const auto [a, b] = found[i];
     if (!w.pairs.contains(a, b) && may_collide(w, a, b)) create_contact(w, a, b);
   }
-  // Last, so that what runs out of memory meanwhile is looked for again.
+  // Clear the flags last: if memory runs out above, these pairs are searched again.
   for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
     ask_for_moved(w, i);
     w.shapes[w.moved_shapes[i]].moved = false;

@@ -7,25 +7,25 @@
 
 namespace plumb {
 
-/// Where the bodies of a world were before its last step, so that it can be drawn between two steps: frames
-/// that come at other times than steps do then show even motion.
+/// Poses of a world's bodies before its last step, for render interpolation: motion looks smooth if frames
+/// come at other times than steps.
 template <class Real>
 class PastPoses {
  public:
-  /// Keeps where the bodies are now: to be called before each step. Allocates only while the world grows.
+  /// Stores the present poses; call it before each step. Allocates only while the world grows.
   void keep(const BasicWorld<Real>& world);
 
-  /// The pose of the centre of mass of the body at a place of `data`, `fraction` (0..1) of the way from where
-  /// it was to where it is. Bodies that are younger than what was kept are where they are.
+  /// Returns the interpolated pose of the centre of mass of body `body` of `data`, at `fraction` (0..1)
+  /// between the stored and the present pose. Bodies created since get their present pose.
   Pose<double> between(const WorldData<Real>& data, int body, double fraction) const;
 
  private:
   struct Past {
     Vec2d position{};              ///< m, of the centre of mass
     double angle = 0;              ///< rad
-    std::uint32_t generation = 0;  ///< even: the place was free
+    std::uint32_t generation = 0;  ///< even: the slot was free
   };
-  std::vector<Past> past_;  // by the body's place
+  std::vector<Past> past_;  // by the body's index
 };
 
 extern template class PastPoses<float>;

@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// The body's rotation at unit length in double: one Newton step from what a Real holds of it.
+/// Returns the body's rotation at unit length in double: one Newton step from its Real value.
 template <class Real>
 Rotation<double> exact_rotation(const WorldData<Real>& w, int body) {
   const double c = static_cast<double>(w.rotation[body].c), s = static_cast<double>(w.rotation[body].s);
@@ -14,8 +14,8 @@ Rotation<double> exact_rotation(const WorldData<Real>& w, int body) {
   return {scale * c, scale * s};
 }
 
-/// A shape of the world in double precision, along the world's axes and seen from a point of it: what a query
-/// near that point can compute with, wherever in the world it is.
+/// A shape of the world in double precision, along the world's axes and relative to `seen_from`. Queries near
+/// that point lose no precision far from the origin.
 class PlacedShape {
  public:
   template <class Real>
@@ -38,7 +38,7 @@ class PlacedShape {
 
  private:
   union {
-    Corner<double> corners_[kMaxCorners];  // the first `count_` alone are made
+    Corner<double> corners_[kMaxCorners];  // only the first `count_` are constructed
   };
   int count_;
   double radius_;

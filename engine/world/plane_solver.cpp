@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The best point so far. Of points that are in all half planes the nearest counts, before that the one that
-// is least outside.
+// The best point so far: the nearest one inside all half planes or, if none is inside, the one least outside.
 struct Best {
   std::span<const HalfPlane> planes;
   Vec2d wanted;
@@ -33,7 +32,7 @@ struct Best {
 
 PlaneSolution solve_planes(std::span<const HalfPlane> planes, Vec2d wanted) {
   constexpr double kRounding = 1e-12;
-  constexpr double kParallel = 1e-9;  // sine of the angle below which borders do not cross
+  constexpr double kParallel = 1e-9;  // sine of the angle below which borders count as parallel
   double size = std::abs(wanted.x) + std::abs(wanted.y);
   for (const HalfPlane& plane : planes) size = std::max(size, std::abs(plane.least));
   Best best{planes, wanted, kRounding * size};

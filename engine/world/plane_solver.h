@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// The displacements d with dot(normal, d) >= least.
+/// The half plane of displacements d with dot(normal, d) >= least.
 struct HalfPlane {
   Vec2d normal{};    ///< unit
   double least = 0;  ///< m (or m/s, for velocities)
@@ -14,11 +14,12 @@ struct HalfPlane {
 
 struct PlaneSolution {
   Vec2d point{};
-  bool feasible = true;  ///< false: no point is in all of them; this one is as little outside as was found
+  bool feasible = true;  ///< false: no point is in all of them; this is the least outside that was found
 };
 
-/// The point of all half planes that is nearest to `wanted`. Exact but for roundings, without iteration: it
-/// is `wanted` itself, or lies on one border, or where two of them cross. So what is in a corner stays there.
+/// Returns the point inside all half planes that is nearest to `wanted`, exact to rounding and without
+/// iteration. It is `wanted` itself, or lies on one border or at the intersection of two. A character in a
+/// corner therefore stays there.
 PlaneSolution solve_planes(std::span<const HalfPlane> planes, Vec2d wanted);
 
 }  // namespace plumb

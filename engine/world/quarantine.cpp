@@ -23,7 +23,7 @@ bool fits(Vec2d v) { return fits(v.x) && fits(v.y); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// NaNs have signs and more, which differ from compiler to compiler.
+// Sign and payload of NaNs differ between compilers.
 double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quiet_NaN(); }
 
 [[noreturn]] void report(const QuarantineEvent& why) {
@@ -41,7 +41,7 @@ double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quie
 
 template <class Real>
 void let_go(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // of the other body
+  if (lets_go(w, joint)) return;  // still off because of the other body
   if (joint.active) w.joint_set.set_active(joint.slot, false), joint.active = false;
   --w.bodies[joint.body_a].constraints, --w.bodies[joint.body_b].constraints;
   w.joint_set.forget(joint.slot);
@@ -49,7 +49,7 @@ void let_go(WorldData<Real>& w, JointRecord& joint) {
 
 template <class Real>
 void hold_again(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // of the other body still
+  if (lets_go(w, joint)) return;  // still off because of the other body
   ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
   w.joint_set.set_dynamic(joint.slot, w.gives_way(joint.body_a), w.gives_way(joint.body_b));
   w.joint_set.forget(joint.slot);
@@ -57,7 +57,7 @@ void hold_again(WorldData<Real>& w, JointRecord& joint) {
   if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
 }
 
-// What of a motion is bad, and how.
+// Returns the field of a motion that is not valid, with its value.
 template <class Real>
 std::pair<BadField, double> fault_of(const BodyMotion<Real>& motion) {
   for (const Real x : {motion.velocity.x, motion.velocity.y, motion.moved.x, motion.moved.y}) {
@@ -90,7 +90,7 @@ void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   w.enlarged[body] = 0;
 }
 
-// What a body in free flight had before the step: it moved by the mean of both ends.
+// Returns the velocity before the step of a body in free flight, which moved by the mean of both velocities.
 template <class Real>
 BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
   const Vec2d before = (2 / dt) * motion.moved.template as<double>() - motion.velocity.template as<double>();
@@ -99,7 +99,7 @@ BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
   return {before.as<Real>(), static_cast<Real>(spin)};
 }
 
-// A constraint passes what is not finite on to bodies that do not give way.
+// Resets static bodies, to which constraints pass non-finite values.
 template <class Real>
 void mend_static_bodies(WorldData<Real>& w) {
   for (int body = 0; body < w.bodies.size(); ++body) {
@@ -110,7 +110,8 @@ void mend_static_bodies(WorldData<Real>& w) {
   }
 }
 
-// Contacts and joints of the body start from nothing; what substeps carried on in them is not finite either.
+// Clears impulses of the body's contacts and joints, and updated separations, because they are not finite
+// either.
 template <class Real>
 void forget_impulses(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
@@ -127,7 +128,7 @@ void forget_impulses(WorldData<Real>& w, int body) {
                 [&](int, const JointRecord& joint) { w.joint_set.forget(joint.slot); });
 }
 
-// Moves as it is told, whatever it met.
+// Moves a kinematic body by its given velocity, without contacts.
 template <class Real>
 void move_on(WorldData<Real>& w, int body, double dt) {
   BodyMotion<Real>& motion = w.motion[body];
@@ -141,16 +142,17 @@ void move_on(WorldData<Real>& w, int body, double dt) {
     refresh_box(w, shape, t, turned);
 }
 
-// A body whose motion cannot be used.
+// A body with an invalid motion.
 struct Fault {
   int body = 0;
   BadField field{};
   double value = 0;
   double speed = 0;  ///< m/s, before the step
-  bool own = false;  ///< nobody else may have brought it about
+  bool own = false;  ///< cannot be caused by another body
 };
 
-// Those of one failure that a constraint passed on: the fastest began it, or all that ran away before.
+// Returns the causes of a failure that a constraint passed on: the fastest body, or all that were runaway
+// before.
 std::vector<Fault> culprits_of(const std::vector<Fault>& faults) {
   constexpr double kRunaway = 1e-3 * kLargestNumber;
   std::vector<Fault> culprits;
@@ -216,7 +218,7 @@ void quarantine_body(WorldData<Real>& w, int body, BadField field, double value)
   w.loads.renew(body, w.bodies.size());
   w.enlarged[body] = 0;
   w.ties_changed = true;
-  // A body that is released and pushed beyond all limits again, between two steps, is told of once.
+  // Between two steps, a body that is released and pushed beyond the limits again is reported once.
   std::vector<QuarantineEvent>& told = w.log().quarantined;
   if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
   told.push_back(std::move(why));
@@ -284,7 +286,7 @@ void quarantine_lost(WorldData<Real>& w, double dt) {
   const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
   std::vector<Fault> faults;
   bool shared = false;
-  std::size_t kick = 0;  // kicks and bad bodies are both in the order of those awake
+  std::size_t kick = 0;  // kicks and bad bodies are both in the order of `awake`
   for (const int body : w.scratch.bad_bodies) {
     const int place = w.bodies[body].awake_index;
     while (kick < kicks.size() && w.bodies[kicks[kick].body].awake_index < place) ++kick;

@@ -2,57 +2,57 @@
 
 #include "engine/world/world_data.h"
 
-/// Bodies that go bad: a force law returned NaN, or a step led to a number that is none or beyond 1e12. They
-/// are taken out of the motion with the state that they had before, and the others go on.
+/// Bodies whose state became non-finite or exceeded 1e12 (for example because a force law returned NaN). They
+/// are removed from the simulation with their previous state, and the others continue.
 namespace plumb {
 
-/// Takes the body out: no motion, no contacts, no queries see it, its joints let go. Told by an event.
-/// Nothing happens to one that is out already. Throws Error when the world's settings want that instead.
+/// Quarantines the body and reports it by an event: it has no motion, contacts or joint forces, and queries
+/// skip it. Does nothing if it is quarantined already. Throws Error if the world's settings say so.
 template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value);
 
-/// Puts it back in, of the type that it had, where it is and as fast as it was.
+/// Releases the body from quarantine, with its previous type, pose and velocity.
 template <class Real>
 void release_body(WorldData<Real>& w, int body);
 
-/// The type that the user gave the body, in quarantine or not.
+/// Returns the type that the user gave the body, even in quarantine.
 template <class Real>
 BodyType own_type(const WorldData<Real>& w, int body);
-/// The record of a body that is in quarantine.
+/// Returns the record of a body in quarantine.
 template <class Real>
 QuarantinedBody& quarantine_of(WorldData<Real>& w, int body);
 
-/// Whether the joint lets go because one of its bodies is in quarantine.
+/// Returns true if the joint is off because one of its bodies is in quarantine.
 template <class Real>
 bool lets_go(const WorldData<Real>& w, const JointRecord& joint) {
   return w.bodies[joint.body_a].quarantined || w.bodies[joint.body_b].quarantined;
 }
 
-/// An impulse, N s, and one about the centre of mass, N m s. A body that they would carry beyond all limits
-/// is taken out instead.
+/// Applies an impulse, N s, and an angular one about the centre of mass, N m s. Quarantines a body that would
+/// exceed the limits instead.
 template <class Real>
 void push_body(WorldData<Real>& w, int body, Vec2d impulse, double angular_impulse);
 
-/// Before a step: takes out the bodies whose loads would carry them beyond all limits within `dt`, before
-/// anything else feels them.
+/// Quarantines, before a step, bodies whose loads would take them beyond the limits within `dt`, before they
+/// affect others.
 template <class Real>
 void quarantine_overloaded(WorldData<Real>& w, double dt);
 
-/// Whether what a step made of a body is numbers, however large.
+/// Returns true if a body's motion is finite, of any magnitude.
 template <class Real>
 bool is_finite_motion(const BodyMotion<Real>& motion) {
   const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
                    motion.angular_velocity;
   return sum - sum == 0;
 }
-/// Whether it is numbers that a world takes.
+/// Returns true if a motion is finite and within the world's limits.
 template <class Real>
 bool is_sound_motion(const BodyMotion<Real>& motion);
 
-/// After a step's solver: sees to the bodies in `scratch.bad_bodies`, whose motion is not sound and that have
-/// not been moved. Those that flew freely, or are too fast, are taken out. Of those that a common failure
-/// made not finite (a constraint passes it on) the fastest are taken out; the others stay where they are for
-/// this step, without the impulses that they had, and go on with the velocity from before it.
+/// Handles, after a step's solver, the bodies in `scratch.bad_bodies`, whose motion is invalid and was not
+/// applied. Bodies in free flight, or too fast, are quarantined. Of bodies with a common failure (a
+/// constraint passes it on), the fastest are quarantined. The others stay in place for this step, lose their
+/// impulses, and continue with the velocity before it.
 template <class Real>
 void quarantine_lost(WorldData<Real>& w, double dt);
 

@@ -19,7 +19,7 @@ namespace {
 
 bool is_finite(double v) { return std::abs(v) <= kLargestNumber; }
 
-// Names are made only when there is something to say.
+// Builds names only for errors.
 void check(const char* query, const char* field, Vec2d v) {
   if (!is_finite(v.x) || !is_finite(v.y)) require_finite(query, field, v);
 }
@@ -51,10 +51,10 @@ bool sees(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
   return filter.condition(shape_id(w, shape));
 }
 
-// How much a query must be grown, m, to meet the stored box of every shape that it meets itself. Stored boxes
-// contain the shapes as a Real knows them: the position of the body, the corners turned, their sum and the
-// radius are rounded, by less than 2 epsilon of the coordinates there and 3 epsilon of the body's size, of
-// which the tree's is a bound. The query's own numbers are rounded by less than epsilon of themselves.
+// Returns the margin, m, by which to grow a query so that it overlaps the fat AABB of every shape that it
+// hits. Fat AABBs contain the shapes as rounded to Real: position, rotated corners, their sum and the radius.
+// These errors are below 2 epsilon of the coordinates and 3 epsilon of the body's size, which the tree's size
+// bounds. The query's own numbers are rounded by less than epsilon of themselves.
 template <class Real>
 double slack_at(const WorldData<Real>& w, double reach) {
   double size = 0;
@@ -65,14 +65,14 @@ double slack_at(const WorldData<Real>& w, double reach) {
   return 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (reach + size);
 }
 
-// `value` >= 0 as a Real that is not less.
+// Returns `value` >= 0 as a Real, rounded up.
 template <class Real>
 Real rounded_up(double value) {
   return static_cast<Real>(value * (1 + 2 * static_cast<double>(std::numeric_limits<Real>::epsilon()))) +
          std::numeric_limits<Real>::min();
 }
 
-// Calls visit(shape) -> bool for shapes whose stored boxes may overlap `box`, until it returns false.
+// Calls visit(shape) -> bool for shapes whose fat AABBs may overlap `box`, until it returns false.
 template <class Real, class Visit>
 void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const QueryFilter& filter,
                    const Visit& visit) {
@@ -88,8 +88,8 @@ void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const Quer
   if (going) w.moving_tree.query(rounded, filter.mask, visit_leaf);
 }
 
-// Sweeps a box about `start` by `translation`. Calls visit(shape, limit) -> fraction up to which to go on,
-// for shapes whose stored boxes may be met before the least that was returned so far, `limit`; stops at 0.
+// Sweeps a box around `start` by `translation`. Calls visit(shape, limit) -> new limit for shapes whose fat
+// AABBs may be hit before the smallest fraction returned so far, `limit`; stops at 0.
 template <class Real, class Visit>
 void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, Vec2d half,
                      const QueryFilter& filter, const Visit& visit) {
@@ -105,7 +105,7 @@ void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, V
   w.moving_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
 }
 
-// Keeps the first of hits: at the smaller fraction, then of the smaller shape index.
+// Keeps the first hit: smallest fraction, then smallest shape index.
 template <class Result>
 struct Closest {
   std::optional<Result> best{};
@@ -113,17 +113,17 @@ struct Closest {
     const bool first = !best || hit.fraction < best->fraction ||
                        (hit.fraction == best->fraction && hit.shape.index < best->shape.index);
     if (first) best = hit;
-    // Never 0, which would stop before another hit at the same place was seen.
+    // Never 0, which would stop before another hit at the same place is found.
     return std::max(best->fraction, std::numeric_limits<double>::min());
   }
 };
 
-// The front of a chain's segment: to the right of its way.
+// Returns the front direction of a chain's segment: to the right of its direction.
 Vec2d front_of(const Convex<double>& segment) {
   return -perpendicular(segment.corners[1].point - segment.corners[0].point);
 }
 
-// A shape at a place: its corners turned, about its own position.
+// A shape with rotated corners, relative to its own position.
 class TurnedShape {
  public:
   TurnedShape(const QueryShape& shape, double angle) : shape_(shape), pose_{{}, rotation_of(angle)} {}
@@ -157,7 +157,7 @@ void sort_by_index(std::vector<ShapeId>& shapes) {
   std::sort(shapes.begin(), shapes.end(), [](ShapeId a, ShapeId b) { return a.index < b.index; });
 }
 
-// Runs a query with a visitor that collects.
+// Runs a query with a visitor that collects shapes.
 template <class Query>
 void collect(std::vector<ShapeId>& found, const Query& query) {
   found.clear();
@@ -343,7 +343,7 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
   if (!(max_distance >= 0)) require_not_negative("nearest", "max_distance", max_distance);
   const WorldData<Real>& w = world.data();
   const Lock<Real> lock(w, filter.condition.asks());
-  double limit = std::min(max_distance, 4 * kLargestNumber);  // farther than anything is
+  double limit = std::min(max_distance, 4 * kLargestNumber);  // farther than any shape
   const double slack = slack_at(w, size_of(point));
   std::optional<NearestResult> best;
   const auto visit_leaf = [&](int shape, Real) {
@@ -369,7 +369,7 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
 
 template <class Real>
 ShapeDistance distance(const BasicWorld<Real>& world, ShapeId a, ShapeId b) {
-  world.body(a), world.body(b);  // throw for handles of what is gone
+  world.body(a), world.body(b);  // throw for handles of destroyed shapes
   const WorldData<Real>& w = world.data();
   const int shape_a = static_cast<int>(a.index), shape_b = static_cast<int>(b.index);
   const Vec2d here = w.position[w.shapes[shape_a].body];

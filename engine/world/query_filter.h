@@ -13,8 +13,8 @@ namespace plumb {
 template <class Signature>
 class FunctionRef;
 
-/// A view of something that can be called; it owns nothing and allocates nothing. What it views must outlive
-/// it: as a parameter it may view a temporary.
+/// A non-owning view of a callable, without allocation. The callable must outlive it; as a parameter it may
+/// view a temporary.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
@@ -36,8 +36,8 @@ class FunctionRef<Result(Arguments...)> {
   Result (*call_)(void*, Arguments...);
 };
 
-/// A condition on shapes that a filter views. It must have a name and outlive the filter; temporaries are
-/// refused.
+/// A condition on shapes that a filter views. It must be a named object and outlive the filter; temporaries
+/// are rejected.
 class ShapeCondition {
  public:
   ShapeCondition() = default;
@@ -52,7 +52,7 @@ class ShapeCondition {
       ShapeCondition(const Function&& function)
   = delete;
 
-  /// Whether there is one.
+  /// Returns true if a condition is set.
   bool asks() const { return call_ != nullptr; }
   bool operator()(ShapeId shape) const { return call_ == nullptr || call_(object_, shape); }
 
@@ -61,14 +61,14 @@ class ShapeCondition {
   bool (*call_)(const void*, ShapeId) = nullptr;
 };
 
-/// Which shapes a query sees: those whose category is in its mask, and whose mask has one of its categories.
-/// By default all but sensors and shapes whose mask is empty.
+/// Filter of a query: it sees shapes with a category in its mask, if their mask has one of its categories. By
+/// default all but sensors and shapes with an empty mask.
 struct QueryFilter {
-  std::uint32_t category = 0xFFFFFFFFu;  ///< what the query counts as
-  std::uint32_t mask = 0xFFFFFFFFu;      ///< what it looks for
-  bool sensors = false;                  ///< whether it sees sensors too
-  BodyId ignore{};                       ///< a body that it does not see
-  ShapeCondition condition{};            ///< asked last; must not change the world, which refuses that
+  std::uint32_t category = 0xFFFFFFFFu;  ///< categories of the query
+  std::uint32_t mask = 0xFFFFFFFFu;      ///< categories that it looks for
+  bool sensors = false;                  ///< true: includes sensors
+  BodyId ignore{};                       ///< a body to skip
+  ShapeCondition condition{};            ///< tested last; must not change the world, whose calls then throw
 };
 
 }  // namespace plumb

@@ -11,7 +11,7 @@ namespace {
 bool is_size(double v) { return v >= kSmallestNumber && v <= kLargestNumber; }
 bool is_place(Vec2d v) { return std::abs(v.x) <= kLargestNumber && std::abs(v.y) <= kLargestNumber; }
 
-// What needs no closer look. Validating makes names for messages, which may allocate.
+// Returns true for geometry that needs no validation, which would allocate names for messages.
 struct IsSound {
   bool operator()(const Circle& circle) const { return is_size(circle.radius); }
   bool operator()(const Box& box) const { return is_size(box.width) && is_size(box.height); }

@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// A convex shape to ask the world about, in double precision and in its own frame. Made once and used for
-/// many queries; a circle, a box, a capsule and a segment are made without allocation. Throws Error (Value)
-/// as creating such a shape in a world does.
+/// A convex shape for queries, in double precision and in its own frame. Create it once for many queries; a
+/// circle, a box, a capsule and a segment do not allocate. Throws Error (Value) as creating such a shape in a
+/// world does.
 class QueryShape {
  public:
   QueryShape(const ShapeGeometry& geometry);
@@ -18,10 +18,10 @@ class QueryShape {
       QueryShape(const Geometry& geometry)
       : QueryShape(ShapeGeometry(geometry)) {}
 
-  /// A box of half sizes >= 0, m: a line or a point where they are 0.
+  /// Returns a box of half sizes >= 0, m: a line or a point if they are 0.
   static QueryShape box(double half_width, double half_height);
 
-  /// Views this object.
+  /// Returns a view of this object.
   Convex<double> convex() const { return {corners_, count_, radius_}; }
   Vec2d middle() const;  ///< m, mean of the corners
 

@@ -15,7 +15,7 @@
 namespace plumb {
 namespace {
 
-// Nothing but its own weight acts on it.
+// Returns true if only gravity acts on the body.
 template <class Real>
 bool is_free(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -31,7 +31,8 @@ bool is_free(const WorldData<Real>& w, int body) {
   return !presses;
 }
 
-// With constant acceleration the way is (v0 + v1) dt / 2. What rounding alone makes of it is none.
+// For constant acceleration the displacement is (v0 + v1) dt / 2. An acceleration below rounding error counts
+// as zero.
 template <class Real>
 void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
   const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * flight.way);
@@ -42,7 +43,7 @@ void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
   flight.curve = (0.5 * dt) * gain, flight.way -= flight.curve;
 }
 
-// What is written to a body while its impact is looked at, to be put back when there is none.
+// Saves the body state that is overwritten while testing an impact, and restores it if there is none.
 template <class Real>
 struct Kept {
   Kept(WorldData<Real>& world, const Flight* flight)
@@ -77,8 +78,9 @@ void set_velocity(WorldData<Real>& w, const Flight& flight, double fraction) {
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-// Newton's and Coulomb's laws together at one point: the friction of an impact off the centre changes the
-// normal velocity too. Where that would gain energy, or slide back, nothing happens, and false is returned.
+// Solves Newton's and Coulomb's laws together at one point, because the friction of an off-centre impact also
+// changes the normal velocity. Returns false and does nothing if that would gain energy or reverse the
+// sliding.
 template <class Real>
 bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
   const ContactConstraint<Real>& c = pair.c;
@@ -108,16 +110,16 @@ bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
   return true;
 }
 
-enum class Throw { None, Slide, Bounce };  // nothing approaches; nothing does so fast enough to bounce
+enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
 
-// Throws two bodies back: Newton's law at the points that touch, with friction. Impulses of the normals alone
-// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0, and friction that does no more than stop
-// what slides takes some too: none is ever gained.
+// Resolves an impact of two bodies: Newton's law at the touching points, with friction. Normal impulses alone
+// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0. Friction that at most stops sliding also
+// removes energy, so none is ever gained.
 template <class Real>
 Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
-  // Gaps that rounding leaves: points that cannot be told apart in time are struck at once.
+  // Gaps by rounding: points that are indistinguishable in time are resolved together.
   const Real rounding =
       Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
@@ -136,7 +138,8 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   const bool one = !strikes[0] || !strikes[1];
   const int point = strikes[0] ? 0 : 1;
   if (!(c.friction > 0) || !one || !strike_and_rub(pair, point, wanted[point])) {
-    // Twice: what rounding leaves of the one goes with the other, so that no energy trickles away.
+    // Solve twice: the second pass removes the rounding residual of the first, which would otherwise
+    // dissipate energy.
     pair.press(wanted, strikes[0], strikes[1]);
     pair.press(wanted, strikes[0], strikes[1]);
   }
@@ -146,7 +149,7 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   return fast ? Throw::Bounce : Throw::Slide;
 }
 
-// Tells that the shapes have met; they are apart again at the end of the step.
+// Reports that the shapes touched; they are apart again at the end of the step.
 template <class Real>
 void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c) {
   const ContactReading reading = reading_of(w, contact, c);
@@ -198,7 +201,7 @@ bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, dou
   if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
   const ContactRecord contact = contact_of(w, shape, other);
   ContactConstraint<Real> c = constraint_between(w, contact);
-  // A cascade that takes energy each time comes to its end.
+  // Ends a cascade of impacts that loses energy each time.
   const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
   const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
   if (thrown != Throw::None) report(w, contact, c);
@@ -206,7 +209,7 @@ bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, dou
   const auto go_on = [&](Flight* flight, Kept<Real>& kept) {
     if (flight == nullptr || thrown == Throw::None || !w.gives_way(flight->body)) return kept.restore();
     const BodyMotion<Real>& motion = w.motion[flight->body];
-    // The surface bears what presses on it.
+    // The surface supports the pressing acceleration.
     if (thrown == Throw::Slide) {
       const double side = flight->body == contact.body_a ? 1 : -1;
       flight->gain -= (side * std::max(side * dot(flight->gain, normal), 0.0)) * normal;

@@ -4,11 +4,11 @@
 
 namespace plumb {
 
-/// The way of a body in a step of `dt`, as the solver had it.
+/// Returns the trajectory of a body in a step of `dt`, as computed by the solver.
 template <class Real>
 Flight flight_of(const WorldData<Real>& w, int body, double dt);
 
-/// The one that it has had an impact in, or is to have; null when there is none.
+/// Returns the body's flight if it has had, or is to have, an impact in it; else null.
 template <class Real>
 const Flight* flight_in(const WorldData<Real>& w, int body) {
   if (w.scratch.flight_places.size() <= static_cast<std::size_t>(body)) return nullptr;
@@ -16,19 +16,18 @@ const Flight* flight_in(const WorldData<Real>& w, int body) {
   return place == kNone ? nullptr : &w.scratch.flights[place];
 }
 
-/// Whether two shapes part again after an impact, and nothing else holds their bodies in this step: no joint,
-/// no contact that presses. Then a flight may be thrown back on its way.
+/// Returns true if two shapes separate after an impact and no joint or pressing contact holds their bodies in
+/// this step. Only then may a flight bounce within the step.
 template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other);
 
-/// Resolves an impact in flight: `a`, with its `shape`, and `b` (none: what does not move), with its `other`,
-/// go on from a fraction of the step with the velocities that Newton's and Coulomb's laws give them. What
-/// comes too slowly to bounce slides on along the surface. False, and nothing happens, when they do not
-/// approach.
+/// Resolves an impact in flight: `a` with its `shape`, and `b` with its `other` (null: it does not move),
+/// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; approaches
+/// too slow to bounce slide along the surface. Returns false and does nothing if they do not approach.
 template <class Real>
 bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt);
 
-/// Puts a body where its flight has brought it.
+/// Moves a body to the end of its flight.
 template <class Real>
 void land(WorldData<Real>& w, const Flight& flight);
 

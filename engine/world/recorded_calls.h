@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-/// Every call that changes a world, once: X(what it is called in recordings, member, result, arguments...).
-/// Recordings number them in this order: a new one goes to the end.
+/// Lists every call that changes a world, once: X(name in recordings, member, result, arguments...).
+/// Recordings number calls in this order: append new ones at the end.
 #define PLUMB_WORLD_CALLS(X)                                                                  \
   X(Step, step, void, double, int)                                                            \
   X(SetGravity, set_gravity, void, Vec2d)                                                     \
@@ -56,7 +56,7 @@ enum class WorldCall : std::uint8_t {
 #undef PLUMB_NAME
 };
 
-/// The names of the members, by WorldCall.
+/// Names of the members, by WorldCall.
 inline constexpr const char* kWorldCallNames[] = {
 #define PLUMB_NAME(id, name, result, ...) #name,
     PLUMB_WORLD_CALLS(PLUMB_NAME)
@@ -65,7 +65,7 @@ inline constexpr const char* kWorldCallNames[] = {
 
 inline constexpr int kWorldCalls = static_cast<int>(std::size(kWorldCallNames));
 
-/// The members themselves, by WorldCall.
+/// Returns the member pointers, by WorldCall.
 template <class Real>
 constexpr auto world_calls() {
   using Type = BasicWorld<Real>;

@@ -28,8 +28,8 @@ RecordedWorld<Real>::RecordedWorld(const std::filesystem::path& file, BasicWorld
   record_state();
 }
 
-// What the world refuses has changed nothing and is not recorded. A step that fails is another matter: it is
-// in the file before it is taken.
+// Records a call after it succeeded: a rejected call changes nothing and is not recorded. A step that fails
+// differs, as it is written before it is taken.
 template <class Real>
 template <WorldCall kCall, class... Arguments>
 auto RecordedWorld<Real>::call(const Arguments&... arguments) {
@@ -69,7 +69,7 @@ void RecordedWorld<Real>::record_hash() {
 
 template <class Real>
 void RecordedWorld<Real>::step(double dt, int substeps) {
-  // What the world refuses at once is not recorded; that of a step that fails later is.
+  // A step that is rejected at once is not recorded; one that fails later is.
   require_unlocked(world_.data());
   if (!(dt >= kSmallestNumber && dt <= kLargestNumber) || substeps < 1 || substeps > 1000)
     return world_.step(dt, substeps);
@@ -102,7 +102,7 @@ void RecordedWorld<Real>::edit(const std::function<void(BasicWorld<Real>&)>& cha
   record_state();
 }
 
-// ---- The calls
+// ---- Calls
 
 template <class Real>
 void RecordedWorld<Real>::set_gravity(Vec2d gravity) {

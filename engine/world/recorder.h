@@ -12,24 +12,24 @@
 namespace plumb {
 
 struct RecordOptions {
-  /// After each step the hash of each body that is awake is written as well (8 bytes a body), so that a
-  /// replay can say which bodies differ. Without it a step takes 40 bytes in all.
+  /// Writes the hash of each awake body after each step (8 bytes per body), so that a replay can report which
+  /// bodies differ. Without it a step takes 40 bytes in all.
   bool bodies = true;
 };
 
-/// A world whose calls are written to a file, to be repeated later or elsewhere (replay.h). It is used like
-/// the world itself: calls that change it are its own members, all others go through `->`.
+/// A world whose calls are written to a file, for a replay (replay.h). It is used like the world itself:
+/// calls that change it are members of this class, all others go through `->`.
 ///
-/// A call is in the file, and with the operating system, before the step that it acts on is taken: a program
-/// that crashes in a step, or is killed, leaves a recording that leads there. Calls that are refused are not
-/// recorded. All members throw Error (Io) when the file cannot be written to any more.
+/// Calls are written, and flushed to the operating system, before the step that they affect is taken. A
+/// program that crashes in a step, or is killed, leaves a recording that leads there. Rejected calls are not
+/// recorded. All members throw Error (Io) if the file cannot be written to any more.
 template <class Real>
 class RecordedWorld {
  public:
-  /// A new world. Throws Error (Io) when the file cannot be written; what it held is lost.
+  /// Creates a new world. Throws Error (Io) if the file cannot be written; its previous contents are lost.
   explicit RecordedWorld(const std::filesystem::path& file, const WorldDefinition& definition = {},
                          RecordOptions options = {});
-  /// Goes on with a world that there is: its state comes first in the file.
+  /// Continues with an existing world, whose state is written first.
   RecordedWorld(const std::filesystem::path& file, BasicWorld<Real>&& world, RecordOptions options = {});
 
   const BasicWorld<Real>& operator*() const { return world_; }
@@ -82,14 +82,14 @@ class RecordedWorld {
   void destroy(JointId joint);
   void change(JointId joint, const JointKind& kind);
 
-  /// A hook is code and cannot be recorded: the replay has to be given the same one.
+  /// Sets the hook. It is code and cannot be recorded: the replay needs the same one.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
-  /// The world becomes the one of a snapshot (snapshot.h).
+  /// Restores the world from a snapshot (snapshot.h).
   void restore(std::span<const std::byte> snapshot);
 
-  /// For what has no call of its own here (force laws, a rollback): `change(world)` may do anything but step,
-  /// and the state that it leaves is recorded as a whole.
+  /// Makes changes that have no call here (force laws, a rollback). `change(world)` may do anything but step;
+  /// the resulting state is recorded as a whole.
   void edit(const std::function<void(BasicWorld<Real>&)>& change);
 
  private:

@@ -11,10 +11,10 @@ namespace {
 
 constexpr char kSubject[] = "recording";
 
-// To be raised when records come to mean something else. New calls at the end of the table need no other one.
+// Increase it when the meaning of records changes. New calls at the end of the table need no increase.
 constexpr std::uint32_t kVersion = 3;
 
-// "plumbrec" where numbers are little-endian.
+// "plumbrec" in little-endian order.
 constexpr std::uint64_t kMagic = 0x636572626D756C70u;
 
 struct FileHeader {
@@ -24,8 +24,8 @@ struct FileHeader {
 };
 
 struct RecordHeader {
-  std::uint32_t size = 0;  ///< bytes of what follows: kind and content
-  std::uint32_t sum = 0;   ///< the lower half of their checksum
+  std::uint32_t size = 0;  ///< bytes of kind and content
+  std::uint32_t sum = 0;   ///< lower half of their checksum
 };
 
 std::uint32_t short_sum(std::span<const std::byte> bytes) {

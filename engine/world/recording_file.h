@@ -10,31 +10,31 @@
 #include <string>
 #include <vector>
 
-/// The file of a recording: a header, then records one after another, each with its size and checksum.
-/// docs/guide/recording.md has the format.
+/// The file of a recording: a header, then records in sequence, each with its size and checksum.
+/// docs/guide/recording.md describes the format.
 namespace plumb {
 
-/// What a record holds, besides the calls: those have their WorldCall.
+/// Kind of a record; a Call also has its WorldCall.
 enum class RecordKind : std::uint8_t {
   Call = 0,        ///< WorldCall and arguments
-  Definition = 1,  ///< what the world was made from
-  State = 2,       ///< a snapshot: the world is this from here on
-  Hash = 3,        ///< after a step: the world's hash, and those of the bodies that are awake
-  Hook = 4,        ///< a pre-solve hook was set (true) or taken away
+  Definition = 1,  ///< the world's definition
+  State = 2,       ///< a snapshot that replaces the world's state
+  Hash = 3,        ///< after a step: hashes of the world and of the awake bodies
+  Hook = 4,        ///< a pre-solve hook was set (true) or removed
 };
 
-/// Writes records; those of a step reach the operating system before the step is taken.
+/// Writes records; those before a step reach the operating system before the step is taken.
 class RecordingWriter {
  public:
-  /// Begins a new file. Throws Error (Io) when it cannot be written.
+  /// Creates a new file. Throws Error (Io) if it cannot be written.
   RecordingWriter(const std::filesystem::path& file, int bytes_of_real);
 
-  /// The record that is being made: kind and content are to be put here.
+  /// Starts a record; kind and content are appended to the returned buffer.
   std::vector<std::byte>& begin(RecordKind kind);
-  /// Puts it into the file.
+  /// Writes it to the file.
   void commit();
-  /// Hands all records to the operating system: they outlive this process. Throws Error (Io) when the disk is
-  /// full.
+  /// Passes all records to the operating system, so that they outlive this process. Throws Error (Io) if the
+  /// disk is full.
   void flush();
 
  private:
@@ -51,21 +51,21 @@ class RecordingWriter {
 /// Reads records.
 class RecordingReader {
  public:
-  /// Throws Error (Io) when the file cannot be read, Error (Value, "recording") when it is none, of another
-  /// version or of the other precision.
+  /// Throws Error (Io) if the file cannot be read. Throws Error (Value, "recording") if it is no recording,
+  /// or one of another version or precision.
   RecordingReader(const std::filesystem::path& file, int bytes_of_real);
 
   struct Record {
     RecordKind kind;
     std::span<const std::byte> content;
   };
-  /// The next record; none at the end. A last record that is cut off, as when the program that recorded was
-  /// killed, ends the file with a message. Throws Error (Value, "recording") for one that is damaged.
+  /// Returns the next record; none at the end. A truncated last record, as after a kill of the recording
+  /// program, ends the file with a message. Throws Error (Value, "recording") for a damaged record.
   std::optional<Record> next();
 
-  /// What there is to say about the end of the file; empty: nothing.
+  /// Returns a message about the end of the file, or an empty string.
   const std::string& message() const { return message_; }
-  /// Records that were read so far.
+  /// Returns the number of records read so far.
   int count() const { return count_; }
 
  private:

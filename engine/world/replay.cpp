@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kSubject[] = "recording";
 
-// What an argument is read into: it owns what the argument refers to.
+// Type of a decoded argument, which owns the data that the argument refers to.
 template <class T>
 struct Owned {
   using Type = std::remove_cvref_t<T>;
@@ -36,7 +36,7 @@ void dispatch(BasicWorld<Real>& world, std::size_t which, Decoder& in, std::inde
   ((kEach == which ? call(world, std::get<kEach>(kCalls), in) : void()), ...);
 }
 
-// The places of bodies that are in one list alone, or with another hash. Both ascend.
+// Returns the indices of bodies that are in one list only, or have different hashes. Both lists ascend.
 std::vector<int> differences(const std::vector<BodyHash>& a, const std::vector<BodyHash>& b) {
   std::vector<int> all;
   std::size_t i = 0, j = 0;
@@ -135,7 +135,7 @@ void Replay<Real>::compare(std::span<const std::byte> content) {
   }
 }
 
-// The first message tells most.
+// Keeps only the first message, which is the most relevant.
 template <class Real>
 void Replay<Real>::say(const std::string& message) {
   if (report_.message.empty()) report_.message = message;

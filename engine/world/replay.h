@@ -17,27 +17,27 @@ struct BodyDifference {
   std::string name{};
 };
 
-/// What came of repeating a recording.
+/// Result of a replay.
 struct ReplayReport {
   int calls = 0;           ///< repeated, steps included
   std::int64_t steps = 0;  ///< repeated
-  /// The world's number of steps after the first one that ended in another state; none: all were the same.
+  /// Step count of the world after the first step that ended in another state; none: all were the same.
   std::optional<std::int64_t> first_difference{};
   std::uint64_t recorded_hash = 0, hash = 0;  ///< of the world, after the last step that was compared
-  std::vector<BodyDifference> bodies{};       ///< that differ then, as far as they were recorded
-  std::string message{};  ///< a cut-off end, a call that was refused, a hook that is missing; else empty
+  std::vector<BodyDifference> bodies{};       ///< bodies that differ then, if they were recorded
+  std::string message{};                      ///< truncated end, rejected call or missing hook; else empty
 };
 
-/// Repeats a recording (recorder.h) step by step on a world of its own.
+/// Replays a recording (recorder.h) step by step on a world of its own.
 template <class Real>
 class Replay {
  public:
-  /// Throws Error (Io) when the file cannot be read, Error (Value, "recording") when it is not a recording of
+  /// Throws Error (Io) if the file cannot be read, Error (Value, "recording") if it is not a recording of
   /// this precision and version.
   explicit Replay(const std::filesystem::path& file, std::function<bool(const ContactReading&)> hook = {});
 
-  /// Repeats all calls up to the next step, takes the step and compares; false at the recording's end. Throws
-  /// Error (Value, "recording") for a record that is damaged, unless it is the last one.
+  /// Repeats all calls up to the next step, takes the step and compares; returns false at the end of the
+  /// recording. Throws Error (Value, "recording") for a damaged record, unless it is the last one.
   bool step();
 
   const BasicWorld<Real>& world() const { return world_; }
@@ -57,7 +57,7 @@ class Replay {
 extern template class Replay<float>;
 extern template class Replay<double>;
 
-/// Repeats a recording until a step differs, or to its end.
+/// Replays a recording until a step differs, or to its end.
 template <class Real = float>
 ReplayReport replay(const std::filesystem::path& file, std::function<bool(const ContactReading&)> hook = {}) {
   Replay<Real> all(file, std::move(hook));

@@ -18,7 +18,7 @@ void copy(const JointSet<Real>& from, JointSet<Real>& to) {
   to.assign(from);
 }
 
-// Copies into the room that is there. Hook and scratch stay as they are.
+// Copies state into existing memory; hook and scratch are unchanged.
 template <class Real>
 void copy_state(const WorldData<Real>& from, WorldData<Real>& to) {
   const auto source = state_of(from);

@@ -8,34 +8,34 @@
 
 namespace plumb {
 
-/// The last states of a world, to go back to: for network play, where inputs arrive late and the steps since
-/// then are taken again. States are copies in memory, not bytes: no checksum is made and nothing has to be
-/// checked. Once each place of the ring has been used, neither saving nor going back allocates (unless the
-/// world has grown since).
+/// Stores the last states of a world for rollback: in network play, inputs arrive late and the steps since
+/// then are repeated. States are copies in memory, without serialisation, checksum or validation. Once each
+/// slot of the ring has been used, neither saving nor rolling back allocates (unless the world has grown
+/// since).
 ///
-/// The world must outlive this and stay where it is. A state holds what a snapshot holds (snapshot.h);
-/// handles from after it are gone once the world went back.
+/// The world must outlive this object and must not move. A state contains the same data as a snapshot
+/// (snapshot.h). After a rollback, handles created since that state are invalid.
 template <class Real>
 class Rollback {
  public:
-  /// Keeps the last `frames` states that are saved. Throws Error (Value) unless there are 1 to 10000.
+  /// Keeps up to `frames` saved states. Throws Error (Value) unless that is 1 to 10000.
   Rollback(BasicWorld<Real>& world, int frames);
   ~Rollback();
   Rollback(Rollback&&) noexcept;
   Rollback& operator=(Rollback&&) noexcept;
 
-  /// Keeps the world as it is now, under its number of steps. What was kept of this step or a later one is
-  /// dropped; when the ring is full, the oldest state is.
+  /// Saves the present state under its step number. Drops states of this step and later ones and, if the ring
+  /// is full, the oldest.
   void save();
 
-  /// Makes the world what it was when `step` steps had been taken; later states are dropped. Throws Error
-  /// (Value) when that one is not kept; nothing has changed then.
+  /// Restores the state after `step` steps and drops later ones. Throws Error (Value) if there is none, and
+  /// then changes nothing.
   void back_to(std::int64_t step);
 
   bool holds(std::int64_t step) const { return find(step) >= 0; }
   int size() const { return size_; }
   int capacity() const;
-  /// Steps of the first and last state; -1 when there is none.
+  /// Steps of the first and last state; -1 if there is none.
   std::int64_t oldest() const { return size_ > 0 ? step_of(0) : -1; }
   std::int64_t latest() const { return size_ > 0 ? step_of(size_ - 1) : -1; }
 

@@ -10,8 +10,8 @@
 namespace plumb {
 namespace {
 
-/// Springs that turn by more than this in a step, rad, are stiff: from 2 on the explicit midpoint method is
-/// not stable, here its energy swings by 2 %.
+/// Phase per step, rad, above which a spring is stiff. The explicit midpoint method is unstable from 2 on; at
+/// this value its energy oscillates by 2 %.
 constexpr double kStiffTurn = 0.3;
 
 Scene without_springs(const Scene& scene) {
@@ -55,7 +55,7 @@ void SceneForces<Real>::place(const BasicWorld<Real>& world) {
   }
 }
 
-/// To the middle of the step, half of `dt` on, under the forces in `wrenches_`; places by their own share.
+/// Advances velocities to the middle of the step under the forces in `wrenches_`; positions by `place_share`.
 template <class Real>
 void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   const double half = 0.5 * dt;
@@ -72,16 +72,16 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   }
 }
 
-/// Tells stiff springs from the others, from the motion at the step's start, and what they pull with.
-/// Implicit midpoint: the tension where the step's middle is, at l + dt/2 l' - dt^2/4 w T, is that at l +
-/// dt/2 l' over 1 + dt^2/4 k w + dt/2 c w, w the inverse mass of both ends along the line (Hairer, Lubich,
-/// Wanner, Geometric Numerical Integration, VI.1). Its direction is that of the middle, too, where the line
-/// only turns.
+/// Finds the stiff springs from the motion at the start of the step, and their forces by the implicit
+/// midpoint method. The tension at the middle of the step is taken at l + dt/2 l' - dt^2/4 w T. It equals
+/// that at l + dt/2 l' divided by 1 + dt^2/4 k w + dt/2 c w. w is the inverse mass of both ends along the
+/// line (Hairer, Lubich, Wanner, Geometric Numerical Integration, VI.1). The direction, too, is that at the
+/// middle, even if the line only rotates.
 template <class Real>
 void SceneForces<Real>::stiffen(const BasicWorld<Real>& world, double dt) {
   struct End {
     Vec2d point{}, velocity{}, arm{};
-    double ahead = 0;  // s, after which its place counts
+    double ahead = 0;  // s, time at which its position is taken
     double inverse_mass = 0, inverse_inertia = 0;
   };
   const auto end_of = [&](int body, Vec2d anchor) -> End {

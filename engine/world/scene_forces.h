@@ -7,19 +7,19 @@
 
 namespace plumb {
 
-/// The force laws of a scene in a world that `add_scene` has put it into.
+/// Force laws of a scene in a world to which `add_scene` has added it.
 template <class Real>
 class SceneForces {
  public:
-  /// The scene is valid, and `parts` are what became of it.
+  /// The scene must be valid, and `parts` be the result of `add_scene`.
   SceneForces(const Scene& scene, const SceneParts& parts);
 
   bool empty() const { return laws_.empty() && springs_.empty(); }
 
-  /// Adds the laws' forces of the step of `dt` s that comes next. They are those at the step's middle, where
-  /// the motion without joints and contacts leads, so that bodies in free flight move as by the midpoint
-  /// method; laws that depend on time act with their mean over the step. Springs too stiff for the step act
-  /// as by the implicit midpoint method, along their line: they swing too slowly, and gain and lose nothing.
+  /// Adds the laws' forces for the next step of `dt` s. They are evaluated at the middle of the step,
+  /// predicted without joints and contacts, so that free flight follows the midpoint method. Laws that depend
+  /// on time act with their mean over the step. Springs too stiff for the step follow the implicit midpoint
+  /// method along their line: they oscillate too slowly, but conserve energy.
   void apply(BasicWorld<Real>& world, double dt);
 
  private:
@@ -27,11 +27,11 @@ class SceneForces {
   void advance(const BasicWorld<Real>& world, double dt);
   struct Spring {
     SpringForceLaw<double> law;
-    bool stiff = false;             ///< in the step that comes next
-    Wrench<double> on_a{}, on_b{};  ///< where it is
+    bool stiff = false;             ///< in the next step
+    Wrench<double> on_a{}, on_b{};  ///< of a stiff spring
   };
   void stiffen(const BasicWorld<Real>& world, double dt);
-  void add_springs(bool stiff);  ///< those that are stiff too, or the others alone
+  void add_springs(bool stiff);  ///< true: all springs; false: only those that are not stiff
 
   Forces<double> laws_;  // all but springs
   std::vector<Spring> springs_;

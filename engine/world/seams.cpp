@@ -22,11 +22,11 @@ Pose<Real> inverse(const Pose<Real>& pose) {
   return {-(back * pose.position), back};
 }
 
-// A contact, as seen from one of its shapes.
+// One side of a contact.
 template <class Real>
 struct Side {
-  int shape = 0, body = 0;  // the touched one's
-  int mover = 0;            // the other's shape
+  int shape = 0, body = 0;  // of the touched shape
+  int mover = 0;            // the other shape
   TouchedSurface<Real> touched{};
   SeamAnswer<Real> answer{};
 };
@@ -63,7 +63,7 @@ Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool 
   return side;
 }
 
-// A manifold's points in the world, and how far around them neighbours count.
+// A manifold's points in the world, and the margin within which neighbours count.
 template <class Real>
 struct Region {
   Vec2<Real> points[2];
@@ -91,7 +91,7 @@ Region<Real> region_of(const WorldData<Real>& w, const ContactRecord& contact,
   return region;
 }
 
-// Whether a shape is as near to one of the points as a neighbour has to be.
+// Returns true if a shape is within the margin of one of the points.
 template <class Real>
 bool is_near(const WorldData<Real>& w, int shape, const Region<Real>& region) {
   const Convex<Real> convex = w.convex(shape);
@@ -115,13 +115,14 @@ Pose<Real> pose_in(const WorldData<Real>& w, int body, int frame) {
           {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
 }
 
-// Whether a neighbour and the touched shape stay beside each other: on one body, or where neither gives way.
+// Returns true if a neighbour and the touched shape cannot move relative to each other: on one body, or if
+// neither is dynamic.
 template <class Real>
 bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbour) {
   return neighbour == side.body || (!w.gives_way(neighbour) && !w.gives_way(side.body));
 }
 
-// Asks a neighbour; of several answers the face that the mover is farthest in front of stays.
+// Tests a neighbour; of several faces it keeps the one that the other shape is farthest in front of.
 template <class Real>
 void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
   using Kind = typename SeamAnswer<Real>::Kind;
@@ -137,7 +138,8 @@ void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
     side.answer = answer;
 }
 
-// The body whose contacts tell what lies beside: of two that give way the one with fewer ties.
+// Returns the body whose contacts are searched for neighbours: of two dynamic ones that with fewer
+// constraints.
 template <class Real>
 int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
   if (!w.gives_way(contact.body_a)) return contact.body_b;
@@ -158,9 +160,9 @@ ContactManifold<Real> on_face(const WorldData<Real>& w, const ContactRecord& con
   return seen_from_other(found, b_in_a);
 }
 
-// Whether the contact's bodies slide along a face of one of them rather than towards it. Where four corners
-// meet in a point, each body is a seam in the surface that the others make up: which one it is, the motion
-// says.
+// Returns true if the contact's bodies slide along a face of one of them rather than approach it. If four
+// corners meet in a point, each body could belong to a surface with an internal edge there; the motion
+// decides which.
 template <class Real>
 bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -183,7 +185,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
                                    const Pose<Real>& b_in_a, Real reach,
                                    const ContactManifold<Real>& manifold, Real way) {
   using Kind = typename SeamAnswer<Real>::Kind;
-  // Only what stays beside a touched shape counts: of two single shapes that both give way nothing does.
+  // Only neighbours fixed to a touched shape count: two dynamic bodies of one shape each have none.
   const auto is_single = [&](int body) {
     const int shape = w.bodies[body].first_shape;
     return shape == kNone || w.shapes[shape].next == kNone;
@@ -227,7 +229,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   }
   if (!looked) return manifold;
   if (sides[0].answer.kind == Kind::Hidden || sides[1].answer.kind == Kind::Hidden) return {};
-  // What does not give way goes first.
+  // Static and kinematic bodies first.
   const int order = !w.gives_way(contact.body_a) || w.gives_way(contact.body_b) ? 0 : 1;
   for (const int i : {order, 1 - order}) {
     if (sides[i].answer.kind != Kind::Face) continue;

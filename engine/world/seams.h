@@ -5,17 +5,17 @@
 
 namespace plumb {
 
-/// The manifold of a contact as the shapes beside its own leave it: where what is touched is made of several
-/// shapes, a normal that belongs to none but the seam between them is replaced by the surface's, or the
-/// contact has no points. `b_in_a` and `reach` are those that the manifold was found with, after its bodies
-/// have moved by no more than `way` (m). Two points far apart are no seam's.
+/// Corrects a contact's manifold at internal edges. If the surface consists of several shapes, the normal of
+/// an edge between them is replaced by the surface's, or all points are removed. `b_in_a` and `reach` are
+/// those of the manifold, after its bodies have moved by at most `way` (m). Manifolds of two points far apart
+/// are not changed.
 template <class Real>
 ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord& contact,
                                    const Pose<Real>& b_in_a, Real reach,
                                    const ContactManifold<Real>& manifold, Real way = 0);
 
-/// Returns the manifold of a contact's two shapes, b's body at `b_in_a`, with what seams make of it; `way` as
-/// above.
+/// Returns the manifold of a contact's two shapes, b's body at `b_in_a`, corrected at internal edges; `way`
+/// as above.
 template <class Real>
 ContactManifold<Real> collide_shapes(const WorldData<Real>& w, const ContactRecord& contact,
                                      const Pose<Real>& b_in_a, Real reach, Real way = 0) {

@@ -47,7 +47,7 @@ void update_sensors(WorldData<Real>& w) {
       w.still_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);
-    // What is told is noted: neither runs out of memory half-way.
+    // Reserve first, so that events and visitors stay consistent if memory runs out.
     Events& told = w.log();
     ensure_room(sensor.visitors, now.size());
     ensure_room(told.sensor_begin, told.sensor_begin.size() + now.size());

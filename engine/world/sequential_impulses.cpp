@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-// Semi-implicit Euler: velocities first, sweeps until they fit all constraints, then positions.
+// Semi-implicit Euler: forces, then iterations over all velocity constraints, then positions.
 template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const Real inverse_h = static_cast<Real>(1 / h), feedback = static_cast<Real>(tuning::kFeedback);

@@ -2,8 +2,8 @@
 
 #include "engine/world/world_data.h"
 
-/// Shapes and chains as definitions that could be added again: what `create_shape` and `create_chain` were
-/// given, in the body's frame and rounded to Real.
+/// Returns shapes and chains as definitions that could be added again: the arguments of `create_shape` and
+/// `create_chain`, in the body's frame and rounded to Real.
 namespace plumb {
 
 template <class Real>
@@ -17,7 +17,7 @@ Material material_of(const ShapeRecord<Real>& record) {
   return {record.friction, record.restitution, record.rolling_resistance, record.surface_speed};
 }
 
-/// A circle stands where its centre is; all else has corners in the body's frame. Boxes are polygons.
+/// A circle's position is its centre; other shapes have corners in the body's frame. Boxes become polygons.
 template <class Real>
 ShapeDefinition shape_definition(const WorldData<Real>& w, int shape) {
   const ShapeForm<Real>& form = w.forms[shape];

@@ -33,8 +33,7 @@ struct MakeOutline {
   }
 };
 
-// Keeps what still stands for a shape, each once: what came and went since the last step left its number
-// behind.
+// Removes duplicates and stale entries, left by shapes destroyed since the last step, from the move buffer.
 template <class Real>
 void tidy_moved_shapes(WorldData<Real>& w) {
   std::erase_if(w.moved_shapes, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
@@ -86,7 +85,7 @@ template <class Real>
 NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
   const std::vector<Vec2d>& points = definition.points;
   const int count = static_cast<int>(points.size());
-  // The vertex at `i`; an open end is its own neighbour: a corner.
+  // Returns the vertex at `i`; an open end is its own neighbour, which makes it a corner.
   const auto vertex = [&](int i) {
     if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
     return points[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
@@ -94,7 +93,7 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
   NewShape<Real> made;
   const Corners segment = capsule_corners(vertex(which), vertex(which + 1));
   made.corners = {{vertex(which - 1), {}}, segment[0], segment[1], {vertex(which + 2), {}}};
-  made.count = 2;  // of four corners two are the segment's
+  made.count = 2;  // two of the four corners are the segment's own
   made.form.chain = true;
   made.form.sensor = definition.sensor;
   put_material(made.record, definition.material);
@@ -133,7 +132,7 @@ int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
   if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
   ShapeForm<Real>& form = w.forms[shape];
   form = made.form;
-  // Seen from the centre of mass.
+  // Relative to the centre of mass.
   const Vec2d shift = -w.bodies[body].centre.template as<double>();
   Corner<Real> corners[kMaxCorners + 2];
   for (std::size_t i = 0; i < made.corners.size(); ++i) {
@@ -179,7 +178,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
 template <class Real>
 void leave_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (record.proxy == kNone) return;  // in quarantine, or meets nothing
+  if (record.proxy == kNone) return;  // in quarantine, or collides with nothing
   w.tree_of(w.bodies[record.body].type).remove(record.proxy);
   record.proxy = kNone;
 }
@@ -234,7 +233,8 @@ void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
   wake_touched(w, shape);
 }
 
-// Contacts mixed the old one in: it is mixed anew, first for trial, as a rule of the user's may refuse.
+// Contacts contain the old material: mixes them again, first on a copy, because a user's combine rule may
+// throw.
 template <class Real>
 void set_material(WorldData<Real>& w, int shape, const Material& material) {
   const ShapeRecord<Real> before = w.shapes[shape];

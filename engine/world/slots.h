@@ -11,17 +11,17 @@
 
 namespace plumb {
 
-/// Things in slots that stay where they are. A slot that becomes free is used again, the last freed first,
-/// with the next generation. An odd generation is in use.
+/// Items in slots with stable indices. A free slot is reused, the last freed first, with the next generation.
+/// An odd generation is in use.
 template <class T>
 class Slots {
  public:
-  /// Makes room for `more` things: adding them, and removing any, allocates nothing then.
+  /// Reserves memory for `more` items, so that adding them, and removing any, does not allocate.
   void make_room(std::size_t more) {
     const std::size_t wanted = items_.size() + more - std::min(more, free_.size());
     ensure_room(items_, wanted), ensure_room(generations_, wanted), ensure_room(free_, wanted);
   }
-  /// Where memory is out, nothing has changed.
+  /// Changes nothing if memory runs out.
   int add(T value) {
     make_room(1);
     int index;
@@ -46,7 +46,7 @@ class Slots {
   T& operator[](int index) { return items_[index]; }
   const T& operator[](int index) const { return items_[index]; }
 
-  /// Slots, in use or free: indices are below this.
+  /// Returns the number of slots, in use or free; indices are below it.
   int size() const { return static_cast<int>(items_.size()); }
   int count() const { return static_cast<int>(items_.size() - free_.size()); }
   bool used(int index) const { return (generations_[index] & 1) != 0; }
@@ -62,7 +62,7 @@ class Slots {
     }
   }
 
-  /// Items, generations and free slots: all that there is, for snapshots.
+  /// Returns items, generations and free slots: the whole state, for snapshots.
   auto parts() { return std::tie(items_, generations_, free_); }
   auto parts() const { return std::tie(items_, generations_, free_); }
 

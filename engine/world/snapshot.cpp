@@ -13,10 +13,10 @@
 namespace plumb {
 namespace {
 
-// To be raised when bytes of the same sizes come to mean something else.
+// Increase it when the meaning of bytes changes while their sizes stay the same.
 constexpr std::uint32_t kVersion = 2;
 
-// "plumbsav" where numbers are little-endian.
+// "plumbsav" in little-endian order.
 constexpr std::uint64_t kMagic = 0x766173626D756C70u;
 
 constexpr char kSubject[] = "snapshot";
@@ -25,8 +25,8 @@ struct Header {
   std::uint64_t magic = kMagic;
   std::uint32_t version = kVersion;
   std::uint32_t layout = 0;  ///< of the records and the precision
-  std::uint64_t size = 0;    ///< bytes of what follows
-  std::uint64_t sum = 0;     ///< of what follows
+  std::uint64_t size = 0;    ///< bytes after the header
+  std::uint64_t sum = 0;     ///< checksum of these bytes
 };
 
 }  // namespace
@@ -37,7 +37,7 @@ namespace {
 
 constexpr std::size_t kHeaderSize = packed_size<Header>();
 
-// Another set of members has, as a rule, another number here, whether or not somebody raised the version.
+// Returns a number that usually changes with the set of members, even if nobody increased the version.
 template <class Real>
 constexpr std::uint32_t layout() {
   std::uint32_t mixed = 0;
@@ -83,7 +83,7 @@ class Save {
     ByteWriter writer(out_.bytes());
     joints.save(writer);
   }
-  // The pairs are those of the contacts.
+  // The pairs follow from the contacts.
   void operator()(const PairSet&) {}
 
  private:
@@ -132,7 +132,7 @@ class Restore {
   Decoder in_;
 };
 
-// What comes after the header; throws unless all of it is as it was written.
+// Returns the bytes after the header; throws unless they are exactly as written.
 std::span<const std::byte> content_of(std::span<const std::byte> bytes, std::uint32_t expected_layout) {
   Decoder in(bytes, kSubject);
   const Header header = in.get<Header>("header");
@@ -196,11 +196,11 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
                       "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
-  // What is destroyed later allocates nothing.
+  // So that destroying objects later does not allocate.
   fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
   fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
   fresh.still_tree.make_room(0), fresh.moving_tree.make_room(0);
-  // Nothing throws from here on. The hook and the room for a step's work stay.
+  // Nothing throws from here on. The hook and scratch memory stay.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {
     (std::swap(std::get<kEach>(from), std::get<kEach>(to)), ...);

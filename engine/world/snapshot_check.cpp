@@ -30,7 +30,7 @@ bool all_finite(const std::vector<T>& all) {
   return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
 }
 
-// Marks each number once; false for one out of range or marked before.
+// Marks each number once; `mark` returns false for one out of range or marked before.
 class Marks {
  public:
   explicit Marks(int size) : marks_(static_cast<std::size_t>(size), 0) {}
@@ -108,7 +108,7 @@ class Check {
     });
   }
 
-  // A slot is free, and listed once, or in use.
+  // A slot is free and listed once, or in use.
   template <class T>
   void slots(const Slots<T>& all) const {
     const auto [items, generations, free] = all.parts();
@@ -139,7 +139,7 @@ class Check {
             "are not as many everywhere");
   }
 
-  // Each belongs to one body.
+  // Each entry belongs to one body.
   void uncommon() const {
     Marks taken(w_.uncommon.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
@@ -167,11 +167,11 @@ class Check {
     require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
   }
 
-  // Every corner belongs to one run, and every run to shapes of as many corners or to the free ones.
+  // Every corner belongs to one run, and every run to shapes with as many corners, or to the free runs.
   void corners() const {
     const auto [all, free] = w_.corners.parts();
     Marks taken(static_cast<int>(all.size()));
-    std::vector<int> run_at(all.size() + 1, 0);  // by its first corner: its length
+    std::vector<int> run_at(all.size() + 1, 0);  // by first corner: length of the run
     const auto take = [&](int first, int count) {
       for (int i = 0; i < count; ++i) require(taken.mark(first + i), "corners", "belong to two shapes");
     };
@@ -222,7 +222,7 @@ class Check {
             "are not as many as shapes");
   }
 
-  // What is out of the motion is listed, and nothing holds it.
+  // Bodies in quarantine are listed, are static meanwhile, and have no contacts.
   void quarantine() const {
     Marks listed(w_.bodies.size());
     for (const QuarantinedBody& each : w_.quarantine) {
@@ -242,7 +242,7 @@ class Check {
   bool has_body(int body) const { return body >= 0 && body < w_.bodies.size() && w_.bodies.used(body); }
   bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
 
-  // What lists shapes and joints: chains, sensors, what moved, what may break.
+  // Lists of shapes and joints: chains, sensors, moved shapes, breakable joints.
   void lists() const {
     Marks in_chain(w_.shapes.size());
     int segments = 0;
@@ -270,7 +270,7 @@ class Check {
     }
   }
 
-  // Bodies whose mass is to be found are listed; that of a static body need not be known.
+  // Bodies whose mass is to be computed are listed; that of a static body may be unknown.
   void unsettled() const {
     Marks listed(w_.bodies.size());
     for (const int body : w_.unsettled)
@@ -336,7 +336,7 @@ class Check {
     require(placed, "contacts", "are not where they say");
   }
 
-  // Every place belongs to a contact: there are as many, and no two contacts fit the same one.
+  // Every place belongs to one contact: the numbers agree, and no two contacts match the same place.
   void homes() const {
     std::size_t count[4] = {};
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// Whether what was read from a snapshot fits together: sizes, links, places, numbers. Throws Error (Value,
-/// subject "snapshot") where it does not: no step may read beyond an array, whatever the bytes were.
+/// Checks that data read from a snapshot are consistent: sizes, links, places, numbers. Throws Error (Value,
+/// subject "snapshot") if not: no step may read beyond an array, for any bytes.
 template <class Real>
 void check_state(const WorldData<Real>& w);
 

@@ -13,8 +13,8 @@
 namespace plumb {
 namespace {
 
-// A contact's spring, that yields less to loads than it gives way to motion; as stiff as a substep of
-// `longest` lets it be.
+// Returns the softness of a contact, as stiff as a substep of `longest` permits. The impulse scale
+// (compliance under load) is reduced to kContactYield of the spring's.
 template <class Real>
 Softness<Real> contact_softness(double frequency_share, double h, double longest) {
   Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
@@ -23,7 +23,7 @@ Softness<Real> contact_softness(double frequency_share, double h, double longest
   return soft;
 }
 
-// Joints that an impact has driven past their limits.
+// Projects joints that an impact has driven beyond their limits.
 template <class Real>
 void turn_back(WorldData<Real>& w) {
   bool any = true;
@@ -34,7 +34,7 @@ void turn_back(WorldData<Real>& w) {
   }
 }
 
-// Whether free flight and mechanisms were all that there is.
+// Returns true if there was nothing but free flight and articulated bodies.
 template <class Real>
 bool nothing_left(const WorldData<Real>& w) {
   const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
@@ -51,7 +51,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (!jointed && nothing_left(w)) return;
 
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
-  // A step that is shorter than the last one leaves overlaps as they are.
+  // A shorter step than the last keeps the last one's stiffness, so that overlaps at rest do not change.
   const double longest = std::max(h, w.last_h);
   ContactStep<Real> contacts{
       .h = static_cast<Real>(h),
@@ -77,16 +77,16 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
     if (!strikes) return;
     resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
-    hold_locks(w);  // impacts know masses alone, and move bodies back
+    hold_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
     const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
-    // Blows are not repeated, nor what was pressed by contacts that part.
+    // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
     repeat ? repeat_velocities(w) : integrate_velocities(w);
-    // What joints and contacts of a mechanism did last cancels only when they are solved: until then their
-    // impulses make no approach.
+    // The last impulses of joints and contacts cancel only in the solve. Classify impacts before warm
+    // starting, so that these impulses are not mistaken for an approach.
     note_free_velocities(w);
     if (jointed) place();
     if (strikes) note_blows(w);

@@ -6,16 +6,16 @@
 
 namespace plumb {
 
-/// How contacts and joints are held. Each is a file in engine/world; docs/guide/solvers.md compares them.
+/// Solver of contacts and joints. Each is a file in engine/world; docs/guide/solvers.md compares them.
 enum class Solver : std::uint8_t {
-  SoftSteps,           ///< soft constraints with substeps and a relaxation; small islands directly
-  SequentialImpulses,  ///< Catto (2005): sweeps of accumulated impulses, errors fed back
-  Jakobsen,            ///< Jakobsen (2001): sweeps that project positions, velocities from positions
+  SoftSteps,           ///< soft constraints with substeps and relaxation; direct solve of small islands
+  SequentialImpulses,  ///< Catto (2005): accumulated impulses, position errors fed back
+  Jakobsen,            ///< Jakobsen (2001): projection of positions, velocities from positions
   Xpbd,                ///< Macklin and Mueller (2016): a projection with compliance in each substep
-  Direct,              ///< soft steps; whatever joints tie together is solved at once
+  Direct,              ///< soft steps, with a direct solve of islands with joints
 };
 
-/// As command lines and tables write them, by Solver.
+/// Names in command lines and tables, by Solver.
 inline constexpr const char* kSolverNames[] = {"soft_steps", "sequential_impulses", "jakobsen", "xpbd",
                                                "direct"};
 

@@ -2,11 +2,11 @@
 
 #include "engine/world/world_data.h"
 
-/// The solvers that a world chooses from, a file each. Each takes the awake bodies through `substeps`
-/// substeps of length `h`, and leaves the impulses of the last one in contacts and joints.
+/// The solvers of a world, one file each. Each advances the awake bodies by `substeps` substeps of length
+/// `h`, and leaves the last impulses in contacts and joints.
 namespace plumb {
 
-/// Soft constraints (Catto, 2024); with Solver::Direct, articulated islands at once.
+/// Soft constraints (Catto, 2024); with Solver::Direct, a direct solve of articulated islands.
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps);
 

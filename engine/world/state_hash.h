@@ -8,13 +8,13 @@
 
 namespace plumb {
 
-/// Over everything that a snapshot of the world holds: contacts, impulses, trees, free places, where
-/// BasicWorld::hash is over the bodies' state alone. Worlds that it finds equal go on alike. Equal on every
+/// Returns a hash of all data in a snapshot of the world: contacts, impulses, trees, free slots;
+/// BasicWorld::hash covers only the bodies' state. Worlds with equal hashes continue alike. Equal on every
 /// platform for the same calls.
 template <class Real>
 std::uint64_t full_hash(const BasicWorld<Real>& world);
 
-/// The same with a buffer to work in: once it has the room, nothing is allocated.
+/// Does the same in a reusable buffer; does not allocate if it is large enough.
 template <class Real>
 std::uint64_t full_hash(const BasicWorld<Real>& world, std::vector<std::byte>& buffer);
 

@@ -14,14 +14,15 @@
 namespace plumb {
 namespace {
 
-// By how much a substep may be longer than the last one, and how many times the substeps that were asked for
-// a step may take for that. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as it does
-// under equal ones; with 1.1 it creeps ten times as fast, and where nothing bounds the growth it flies apart
-// at 1 and 3 in turn. Beyond the most (a step 60 times as long as the last) what rests is disturbed.
+// kSubstepGrowth: maximum ratio of a substep to the last one. kSubstepsMost: maximum factor on the requested
+// substeps to keep to it. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as under
+// equal ones. With 1.1 it creeps ten times as fast; without a bound it explodes at 1 and 3 in turn. A step
+// over 60 times as long as the last disturbs resting bodies.
 constexpr double kSubstepGrowth = 1.02;
 constexpr int kSubstepsMost = 16;
 
-// While it lives, events are told to the step; what happened between two steps belongs to the later one.
+// While this guard is alive, events go into the current step's buffer. Events raised between two steps are
+// reported with the later step.
 template <class Real>
 struct Stepping {
   explicit Stepping(WorldData<Real>& world) : w(world) {
@@ -36,11 +37,11 @@ struct Stepping {
   WorldData<Real>& w;
 };
 
-// After a step that was ended half-way: bodies stand where they are, turned as far as their angle says, and
-// their boxes hold them.
+// Restores a consistent state after an interrupted step: rotations match angles, and fat AABBs contain their
+// shapes.
 template <class Real>
 void make_good(WorldData<Real>& w) {
-  w.ties_changed = true;  // islands and mechanisms are found anew
+  w.ties_changed = true;  // islands and articulated bodies are found again
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     c.hardness =
         w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
@@ -49,7 +50,7 @@ void make_good(WorldData<Real>& w) {
     const Rotation<double> q = rotation_of(w.bodies[body].angle);
     w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
     w.motion[body].moved = {}, w.motion[body].turned = 0;
-    // Direct islands may have lent links more inertia.
+    // Direct islands may have increased the inertia of links.
     const BodyRecord<Real>& record = w.bodies[body];
     if (record.type == BodyType::Dynamic) {
       w.motion[body].inverse_mass = 1 / record.mass;
@@ -65,17 +66,16 @@ void make_good(WorldData<Real>& w) {
       try {
         note_moved(w, shape);
       } catch (const std::bad_alloc&) {
-        // It is noted when it next leaves its box.
+        // It is added when it next leaves its fat AABB.
       }
     }
   }
 }
 
-// Impulses of the last substep start this step's first, in proportion to h. What sweeps have not converged
-// grows with them, while the velocities that go with it do not: steps that are long and short in turn would
-// pump it up. Overlaps at rest, which go with the square of h, would come and go besides. So a step that is
-// longer than the last takes more substeps instead, and h grows by degrees. Solvers that start from nothing,
-// or sweep until they converge, need none of that.
+// Returns the number of substeps, increased if the step is longer than the last. Warm starting scales
+// impulses with h. Their convergence error grows with h, the velocities do not, so alternating long and short
+// steps would add energy. Overlaps at rest scale with h^2 and would change, too. Hence h may grow only
+// slowly. Solvers without warm starting, or that iterate to convergence, do not need this.
 template <class Real>
 int substeps_of(const WorldData<Real>& w, double dt, int asked) {
   const bool starts_warm = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
@@ -91,7 +91,7 @@ int substeps_of(const WorldData<Real>& w, double dt, int asked) {
 template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps) {
   settle(w);
-  // Let go of even when a stage throws.
+  // RAII guard: resets `stepping` even if a stage throws.
   const Stepping<Real> stepping(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
   find_pairs(w);

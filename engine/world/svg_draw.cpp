@@ -12,7 +12,7 @@ struct Style {
   std::string_view name, rules;
 };
 
-// By role. Strokes keep their width whatever the scale.
+// By role. Stroke widths do not scale.
 constexpr Style kStyles[] = {
     {"static", "fill:#d9d9d2;stroke:#6b6b63"},
     {"kinematic", "fill:#cfd8ea;stroke:#3f5f9f"},
@@ -40,7 +40,7 @@ std::string number(double value) {
   return {text, end};
 }
 
-// Pictures have y down.
+// In SVG y points down.
 std::string pair(Vec2d v) { return number(v.x) + " " + number(v.y == 0 ? 0 : -v.y); }
 
 std::string open(std::string_view element, DrawRole role) {
@@ -67,7 +67,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-// The unit normal to the right of the way from a to b.
+// Returns the unit normal to the right of the direction from a to b.
 Vec2d right_of(Vec2d a, Vec2d b) {
   const Vec2d way = b - a;
   const double length = std::sqrt(length_squared(way));
@@ -84,7 +84,7 @@ void SvgDraw::reach(Vec2d point, double radius) {
   empty_ = false;
 }
 
-// Each edge moved outwards, and an arc about each corner.
+// Draws each edge moved outwards, and an arc about each corner.
 void SvgDraw::polygon(std::span<const Vec2d> corners, double radius, DrawRole role) {
   const std::size_t count = corners.size();
   const std::string arc = " A" + number(radius) + " " + number(radius) + " 0 0 0 ";
@@ -119,7 +119,7 @@ void SvgDraw::segment(Vec2d start, Vec2d end, DrawRole role) {
   body_ += open("path", role) + "d=\"M" + pair(start) + " L" + pair(end) + "\"/>\n";
 }
 
-// A line without length: its round ends make a dot of the stroke's width.
+// Draws a line of length 0: its round ends make a dot of the stroke's width.
 void SvgDraw::point(Vec2d point, DrawRole role) {
   reach(point, 0);
   body_ += open("path", role) + "style=\"stroke-width:5\" d=\"M" + pair(point) + " l0 0\"/>\n";

@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-/// Draws into an SVG picture, whose classes are the roles: a style sheet may colour them otherwise. What is
-/// drawn first lies below.
+/// Draws an SVG picture with roles as CSS classes, so that a style sheet may change their colours. Later
+/// elements cover earlier ones.
 class SvgDraw : public DebugDraw {
  public:
   void polygon(std::span<const Vec2d> corners, double radius, DrawRole role) override;
@@ -18,7 +18,7 @@ class SvgDraw : public DebugDraw {
   void point(Vec2d point, DrawRole role) override;
   void text(Vec2d point, std::string_view text, DrawRole role) override;
 
-  /// The picture of all that was drawn so far, `width` pixels wide: of `view`, m, or of everything.
+  /// Returns the picture of all elements so far, `width` pixels wide: of `view`, m, or of everything.
   std::string picture(int width = 800) const;
   std::string picture(const Aabb<double>& view, int width) const;
 
@@ -30,7 +30,7 @@ class SvgDraw : public DebugDraw {
   bool empty_ = true;
 };
 
-/// The role's class in pictures: "static", "kinematic", ...
+/// Returns the role's CSS class: "static", "kinematic", ...
 std::string_view name_of(DrawRole role);
 
 }  // namespace plumb

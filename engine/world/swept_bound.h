@@ -8,23 +8,23 @@
 
 namespace plumb {
 
-/// A bound from below on how far apart two shapes stay throughout the step, m, along one direction after the
-/// other; negative: how deep they get at most. Quick and in Real: most pairs are done with by it.
+/// Lower bound on the separation of two shapes throughout the step, m, tested along one direction after the
+/// other; negative: largest penetration. Fast and in Real; it decides most pairs.
 template <class Real>
 class SweptBound {
  public:
-  /// On the ways that the solver found for both. `enough`: what is looked for, m.
+  /// For the motions found by the solver. `enough`: the bound to reach, m.
   SweptBound(const WorldData<Real>& w, int shape, int other, Real enough)
       : a_(w, shape), b_(w, other), enough_(enough) {
     between_ = (w.position[a_.body] - w.position[b_.body]).template as<Real>();
     way_ = w.motion[a_.body].moved - w.motion[b_.body].moved;
     line_ = between_ + a_.rotation * middle(a_) - b_.rotation * middle(b_);
-    // Turning is taken to first order.
+    // Rotation to first order.
     const auto bend = [](const Side& side) { return Real(0.5) * side.turned * side.turned * side.reach; };
     rest_ = a_.convex.radius + b_.convex.radius + bend(a_) + bend(b_);
   }
 
-  /// Along a unit vector from `other` to `shape`. Returns whether it is enough.
+  /// Tests a unit vector from `other` to `shape`. Returns true if the bound is reached.
   bool try_along(Vec2<Real> normal) {
     const Real here = dot(normal, between_), before = here - dot(normal, way_);
     const Span of_a = span(a_, -normal), of_b = span(b_, normal);
@@ -32,7 +32,7 @@ class SweptBound {
     if (least > least_) least_ = least;
     return least_ >= enough_;
   }
-  /// Along the normals of the edges, and the line between the middles.
+  /// Tests the normals of the edges, and the line between the centres.
   bool try_edges() {
     if (try_edges_of(a_, -Real(1)) || try_edges_of(b_, Real(1))) return true;
     const Real length = std::sqrt(length_squared(line_));
@@ -50,11 +50,11 @@ class SweptBound {
           reach(w.extents[body]) {}
     int body;
     Convex<Real> convex;
-    Rotation<Real> rotation;  // at the step's end
+    Rotation<Real> rotation;  // at the end of the step
     Real turned, reach;
   };
   struct Span {
-    Real here, before;  // m, how far a shape reaches along a direction at the step's end and start
+    Real here, before;  // m, support of a shape along a direction at the end and at the start of the step
   };
 
   static Span span(const Side& side, Vec2<Real> direction) {
@@ -74,7 +74,7 @@ class SweptBound {
     if (side.convex.count < 2) return false;
     for (int i = 0; i < side.convex.count; ++i) {
       const Vec2<Real> normal = sign * (side.rotation * side.convex.corners[i].normal);
-      // Others face away.
+      // Other edges face away.
       if (dot(normal, line_) < 0 && dot(normal, line_ - way_) < 0) continue;
       if (try_along(normal)) return true;
     }
@@ -83,8 +83,8 @@ class SweptBound {
 
   Side a_, b_;
   Real enough_, least_ = -std::numeric_limits<Real>::max();
-  Vec2<Real> between_{}, way_{};  // m, from b's centre of mass to a's at the step's end, and how that moved
-  Vec2<Real> line_{};             // m, the same between the middles of the shapes
+  Vec2<Real> between_{}, way_{};  // m, from b's centre of mass to a's at the end of the step, and its change
+  Vec2<Real> line_{};             // m, the same between the centres of the shapes
   Real rest_ = 0;
 };
 

@@ -34,7 +34,7 @@ Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, 
   return {flight_of(w, body, dt).sweep(from, origin)};
 }
 
-// A shape as seen from the point of its body whose way is straight.
+// A shape relative to the point of its body that moves straight.
 template <class Real>
 class Seen {
  public:
@@ -53,13 +53,13 @@ class Seen {
   Convex<Real> convex_;
 };
 
-// Half the width of a shape's body, in which its cores are measured.
+// Returns half the width of a shape's body, the unit of core depths.
 template <class Real>
 Real half_width_of(const WorldData<Real>& w, int shape) {
   return w.bodies[w.shapes[shape].body].half_width;
 }
 
-// One pair of shapes on their ways.
+// A pair of shapes and their remaining motions.
 template <class Real>
 class Encountering {
  public:
@@ -82,7 +82,7 @@ class Encountering {
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
     return meet(moving, standing, tolerance_, tolerance_);
   }
-  // As near as roundings can tell: at what throws a body back.
+  // Finds the impact with the smallest tolerance above rounding, for bounces.
   Result meet_closely() const {
     const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
     const double bodies =
@@ -93,9 +93,9 @@ class Encountering {
     const Real near = static_cast<Real>(tuning::kReboundTolerance * (bodies + ways));
     return meet(whole(), obstacle(), near, near);
   }
-  // What starts nearer than it would be stopped does not get any nearer.
+  // Finds the impact of shapes that may start closer than the stopping distance: these must not come closer.
   Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    // Without a contact they are apart, and cores farther.
+    // Without a contact they are apart, and their cores farther.
     if (pair_.contact == nullptr && !way_.flight.changed && !pair_.stands) return meet(moving, standing);
     const double apart = distance(moving, standing);
     if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
@@ -104,7 +104,7 @@ class Encountering {
     return meet(moving, standing, Real(kHeld) * start, Real((1 - kHeld) / 2) * start);
   }
   double fraction(const Result& result) const { return way_.from + result.exact_fraction * (1 - way_.from); }
-  // What a chain's segment meets from behind it lets through.
+  // Returns true for an impact on the back of a chain's segment, which lets it pass.
   bool passes_behind(const Result& at) const {
     const bool moves = w_.forms[pair_.shape].chain;
     if (!moves && !w_.forms[pair_.other].chain) return false;
@@ -140,27 +140,27 @@ class Encountering {
   Real tolerance_;
 };
 
-// Whether both give way, and have a contact or are about to: they part again as long as what is left of them
-// deep inside has not passed. In a crowd that is struck, who is stopped earlier is run over.
+// Returns true if both bodies are dynamic and have, or will have, a contact, which separates them unless
+// their inner cores pass. In a pile that is hit, bodies stopped earlier would be overrun.
 template <class Real>
 bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
   return (pair.contact != nullptr || pair.stands) && w.gives_way(w.shapes[pair.shape].body) &&
          w.gives_way(w.shapes[pair.other].body);
 }
 
-// The first time at which a core gets to the other shape. Of what is that deep in it already, where it would
-// get deeper still: first the cores of both, then what is left of them deeper inside.
+// Returns the time of impact of a core with the other shape. If it starts deeper and would penetrate further,
+// tests first the cores of both, then smaller inner cores.
 template <class Real>
 ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real>& at,
                                const SweptPair<Real>& pair) {
   using State = typename ImpactResult<Real>::State;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
   const Real own = half_width_of(w, pair.shape), others = half_width_of(w, pair.other);
-  // Two discs may not even graze each other unseen.
+  // Two discs may not graze each other unnoticed.
   const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
   const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
                            : Real(tuning::kCoreDepth) * own;
-  // After an impact in flight nothing bears it: before what was stopped it waits where it touches.
+  // After an impact in flight no contact supports it: in front of a stopped body it stops at the surface.
   const Flight* met = flight_in(w, w.shapes[pair.other].body);
   if (at.flies_on() && met != nullptr && met->stands) {
     const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
@@ -192,11 +192,11 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   return {};
 }
 
-// Whether a quick look shows that a pair passes nothing on the ways that the solver found for both.
+// Returns true if a quick bound shows that a pair of shapes does not collide on the solver's motions.
 template <class Real>
 bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   const auto is_straight = [](const Flight& flight) { return !flight.changed && flight.arm == Vec2d{}; };
-  // A parabola leaves its chord by a quarter of its curve at most.
+  // A parabola deviates from its chord by at most a quarter of its curve.
   const auto bend = [&](int body) {
     const BodyMotion<Real>& motion = w.motion[body];
     const Vec2<Real> curve = static_cast<Real>(way.search.dt) * motion.velocity - motion.moved;
@@ -235,7 +235,7 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const Encountering<Real> at(w, way, pair);
   const bool flies_on = way.flight.impacts > 0;
   if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
-    if (w.forms[pair.shape].chain && !pair.stands) return 1;  // what it meets is thrown back by it
+    if (w.forms[pair.shape].chain && !pair.stands) return 1;  // found by the other shape's search
     const Result first = at.meet_closely();
     if (first.state == Result::State::Separated) return 1;
     if (first.state != Result::State::Overlapped) return at.passes_behind(first) ? 1 : at.fraction(first);
@@ -243,7 +243,7 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const Result through = core_impact(w, at, pair);
   if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
   const Result first = at.meet(at.whole(), at.obstacle());
-  // Shapes that touched at the start are held by their contact until the core comes too near.
+  // Shapes that touch at the start are held by their contact until the core comes too near.
   return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? at.fraction(through)
                                                                                : at.fraction(first);
 }

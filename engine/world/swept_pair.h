@@ -4,13 +4,13 @@
 
 namespace plumb {
 
-/// What all searches for impacts in a step share.
+/// Data shared by all time-of-impact searches of a step.
 struct ImpactSearch {
-  double dt = 0;          ///< s, the step
+  double dt = 0;          ///< s, length of the step
   int long_searches = 0;  ///< iterations left, see kLongSearches
 };
 
-/// The rest of a body's way in this step, from a fraction of it on, seen from where it starts.
+/// The remaining motion of a body in this step, from a fraction of it on, relative to its start.
 struct Way {
   Way(const Flight& flight_, double from_, ImpactSearch& search_)
       : flight(flight_),
@@ -25,17 +25,18 @@ struct Way {
   ImpactSearch& search;
 };
 
-/// Of a pair of shapes, what is known beforehand.
+/// Input of a search for one pair of shapes.
 template <class Real>
 struct SweptPair {
-  int shape = 0, other = 0;                          ///< `shape` is that of the body on its way
-  const ContactConstraint<Real>* contact = nullptr;  ///< what the solver had between the two; null: nothing
-  bool stands = false;  ///< the other one was stopped before it: it may get into that by what either bears
+  int shape = 0, other = 0;                          ///< `shape` belongs to the moving body
+  const ContactConstraint<Real>* contact = nullptr;  ///< the solver's constraint between the two; null: none
+  bool stands = false;  ///< the other one was stopped in front of it; it may penetrate that as far as
+                        ///< either's core permits
 };
 
-/// The fraction of the step at which a body on its way has to be stopped, or thrown back, before another
-/// shape; 1 when it passes nothing. Not a touch decides, but the core (convex_core.h): as long as nothing
-/// gets to that, contacts push shapes apart again on the sides that they came from.
+/// Returns the fraction of the step at which a moving body must be stopped, or bounces, in front of another
+/// shape; 1 if it passes nothing. The core (convex_core.h) decides, not the surface: while nothing reaches
+/// it, contacts push shapes apart on their original sides.
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);
 

@@ -5,10 +5,10 @@
 
 namespace plumb {
 
-/// Sets of small integers, joined pair by pair; the smallest member stands for its set.
+/// Disjoint sets of small integers; the smallest member represents its set.
 class UnionFind {
  public:
-  /// Each of 0 .. size - 1 alone, in the caller's memory.
+  /// Creates a set for each of 0 .. size - 1, in the caller's memory.
   UnionFind(std::vector<int>& parents, int size) : parents_(parents) {
     parents_.resize(static_cast<std::size_t>(size));
     for (int i = 0; i < size; ++i) parents_[i] = i;

@@ -41,7 +41,7 @@ void check(const std::string& subject, const Material& material) {
 
 std::string point_field(std::size_t index) { return "points[" + std::to_string(index) + "]"; }
 
-// The field's name is made where it is needed: chains have 100,000 points.
+// Builds the field's name only for errors, because chains may have 100,000 points.
 void require_point(const std::string& subject, std::size_t index, Vec2d point) {
   if (!(std::abs(point.x) <= kLargestNumber && std::abs(point.y) <= kLargestNumber))
     require_finite(subject, point_field(index), point);
@@ -62,7 +62,7 @@ struct CheckGeometry {
   void operator()(const Polygon& polygon) const {
     require_not_negative(subject, "radius", polygon.radius);
     for (std::size_t i = 0; i < polygon.points.size(); ++i) require_point(subject, i, polygon.points[i]);
-    convex_hull(polygon.points);  // refuses what has no area
+    convex_hull(polygon.points);  // rejects polygons without area
   }
   void operator()(const Segment& segment) const {
     require_finite(subject, "start", segment.start);
@@ -184,7 +184,7 @@ void require_weight(const ShapeDefinition& definition) {
   require_weight(definition.density, part);
 }
 
-// The inertia about any point of the body bounds that about the centre of mass from above.
+// The inertia about any point of the body is an upper bound of that about the centre of mass.
 void require_weight(double density, const ConvexMass& part) {
   if (part.mass == 0) return;
   const double whole = part.inertia + part.mass * length_squared(part.centroid);

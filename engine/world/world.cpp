@@ -37,8 +37,7 @@ BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(std::mak
   validate(definition);
   data_->settings = definition;
 }
-// Who destroys a world from one of its callbacks leaves what it consists of to the call that is at work on
-// it.
+// A world destroyed in one of its callbacks leaves its data to the running call, which deletes them.
 template <class Real>
 BasicWorld<Real>::~BasicWorld() {
   if (data_ == nullptr || (!data_->stepping && data_->callers == 0)) return;
@@ -193,7 +192,7 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
     data_->pre_solve = nullptr;
     return;
   }
-  // The data outlives the hook, and stays where it is when the world is moved.
+  // The data outlive the hook, and stay in place when the world is moved.
   WorldData<Real>* w = data_.get();
   data_->pre_solve = [w, hook = std::move(hook)](int contact, ContactConstraint<Real>& constraint) {
     return hook(reading_of(*w, w->contacts[contact], constraint));
@@ -252,7 +251,7 @@ void BasicWorld<Real>::wake_all() {
   data_->bodies.for_each([&](int body, BodyRecord<Real>&) { wake_body(*data_, body); });
 }
 
-// What sleeps with a contact that the hook is asked about.
+// Wakes sleeping bodies with a contact that has a pre-solve hook.
 template <class Real>
 void BasicWorld<Real>::wake_asked() {
   data_->contacts.for_each([&](int, const ContactRecord& contact) {

@@ -17,16 +17,16 @@ namespace plumb {
 template <class Real>
 struct WorldData;
 
-/// A joint as one reads it.
+/// Measurements of a joint.
 struct JointReading {
   double force = 0, torque = 0;                ///< N, N m: reaction over the last substep
-  double linear_error = 0, angular_error = 0;  ///< m, rad: how far the rigid rows are from what they hold
-  double angle = 0;                            ///< rad, of b relative to a less the reference angle
+  double linear_error = 0, angular_error = 0;  ///< m, rad: position error of the rigid rows
+  double angle = 0;                            ///< rad, of b relative to a minus the reference angle
   double translation = 0;                      ///< m, along the axis (prismatic, wheel)
   double length = 0;                           ///< m (distance, pulley)
 };
 
-/// Two shapes that touch, as the pre-solve hook and `contacts_of` see them.
+/// Two touching shapes, for the pre-solve hook and `contacts_of`.
 struct ContactReading {
   ShapeId shape_a{}, shape_b{};
   Vec2d normal{};  ///< from a to b
@@ -34,23 +34,23 @@ struct ContactReading {
   Vec2d points[2] = {};        ///< m
   double separations[2] = {};  ///< m, negative: overlap
   double impulses[2] = {};     ///< N s, along the normal, of the last substep
-  double approach = 0;         ///< m/s, along the normal at the step's start, negative: closing
+  double approach = 0;         ///< m/s, along the normal at the start of the step, negative: closing
 };
 
 struct WorldCounts {
   int bodies = 0, awake = 0, shapes = 0, contacts = 0, touching = 0, joints = 0;
 };
 
-/// A game's world: bodies, shapes and joints that are added, changed and removed while it runs in steps of
-/// fixed length. Positions are kept in double, everything else in `Real`; the interface speaks double. SI
-/// units, y up, angles in rad, counter-clockwise. Functions that take a handle throw Error (Name) when what
-/// it names is gone, and Error (Value) for numbers out of their range; nothing has changed then. Movable, not
-/// copyable: a world that was moved away throws Error (Name) at each call.
+/// A game's world: bodies, shapes and joints that are added, changed and removed while it advances in steps.
+/// Positions are stored in double, everything else in `Real`; the interface uses double. SI units, y up,
+/// angles in rad, counter-clockwise. Functions throw Error (Name) for handles of destroyed objects and Error
+/// (Value) for numbers out of range, and then change nothing. Movable, not copyable: a moved-from world
+/// throws Error (Name) at each call.
 ///
-/// Whatever a call could change is awake afterwards. Code of the user's that the world calls (hooks, rules,
-/// force laws, visitors of queries) may read it; calls that change it throw Error (Unsupported) from there.
-/// What such code throws ends the call; the world goes on. So it does where memory is out: what creates has
-/// then changed nothing, another call may be done by half.
+/// Calls wake all bodies that they could affect. User code that the world calls (hooks, rules, force laws,
+/// visitors of queries) may read it; calls that change it throw Error (Unsupported). An exception of such
+/// code ends the call; the world remains usable. The same holds if memory runs out: calls that create change
+/// nothing, others may be incomplete.
 template <class Real>
 class BasicWorld {
  public:
@@ -59,50 +59,49 @@ class BasicWorld {
   BasicWorld(BasicWorld&&) noexcept;
   BasicWorld& operator=(BasicWorld&&);
 
-  /// Advances by `dt` s in `substeps` substeps: more of them hold stacks and joints better. A body whose
-  /// state would not be finite afterwards, or beyond 1e12, is quarantined.
+  /// Advances by `dt` s in `substeps` substeps; more substeps hold stacks and joints better. Quarantines
+  /// bodies whose state would become non-finite or exceed 1e12.
   void step(double dt = 1.0 / 60, int substeps = 4);
   double time() const;  ///< s
   std::int64_t step_count() const;
   const Events& events() const;  ///< of the last step
 
-  /// The user's own rules for contacts that begin from now on; null: the one of the definition. They are
-  /// code, and no part of snapshots: set them again in the world that one is restored into. Recorded worlds
-  /// cannot have them.
+  /// Sets the user's own combine rules for contacts that begin from now on; null: those of the definition.
+  /// They are code and not part of snapshots: set them again in a restored world. Recorded worlds cannot have
+  /// them.
   void combine_with(CombineFunction friction, CombineFunction restitution);
 
   void set_gravity(Vec2d gravity);
   Vec2d gravity() const;
   void set_sleeping(bool on);
   void set_continuous(bool on);
-  /// From the next step on; what the solver before knew of impulses is taken over.
+  /// Takes effect in the next step; keeps accumulated impulses.
   void set_solver(Solver solver);
   Solver solver() const;
-  void set_iterations(int iterations);  ///< sweeps a substep: SequentialImpulses and Jakobsen
+  void set_iterations(int iterations);  ///< per substep: SequentialImpulses and Jakobsen
   int iterations() const;
-  void set_direct_islands(bool on);  ///< whether SoftSteps solves small islands directly
-  /// Whether bodies that go bad are quarantined; otherwise Error (Run, or Value for what a force law
-  /// returned) ends the call, and a step that it ends is done by half.
+  void set_direct_islands(bool on);  ///< SoftSteps solves small islands directly
+  /// Sets the quarantine of bodies with a non-finite state. Without it, Error (Run, or Value for a force law)
+  /// ends the call; the step is then incomplete.
   void set_quarantine(bool on);
   WorldCounts counts() const;
 
-  /// Bodies that went bad and what was wrong with them, the first one first. They are where they were before
-  /// that step and stay there; nothing touches or finds them, and their joints let go. They can be changed
-  /// like any other body.
+  /// Returns the quarantined bodies and their faults, oldest first. They stay at their previous pose, without
+  /// contacts and active joints, and queries skip them. They can be changed like any other body.
   std::vector<QuarantineEvent> quarantined() const;
   bool quarantined(BodyId body) const;
-  /// Goes on with the state from before it went bad, or the one that was set since, and forgets about it.
+  /// Releases a body from quarantine, with its previous state or the one that was set since.
   void release(BodyId body);
 
   // Bodies.
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
   BodyId create_body(const BodyDefinition& definition, const ShapeDefinition& shape);
-  /// Likewise; `made` becomes the list of the shapes' handles, in the order of their definitions.
+  /// Does the same; `made` receives the handles of the shapes, in the order of their definitions.
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes,
                      std::vector<ShapeId>& made);
   void destroy(BodyId body);  ///< with its shapes, contacts and joints
   bool valid(BodyId body) const;
-  std::vector<BodyId> bodies() const;  ///< all, in the order of their places
+  std::vector<BodyId> bodies() const;  ///< all, by index
 
   Vec2d position(BodyId body) const;  ///< m, of the body's origin
   Vec2d centre(BodyId body) const;    ///< m, of the centre of mass; of a kinematic body, of its origin
@@ -117,10 +116,11 @@ class BasicWorld {
   void set_position(BodyId body, Vec2d position, double angle);
   void set_velocity(BodyId body, Vec2d velocity);
   void set_angular_velocity(BodyId body, double angular_velocity);
-  /// A kinematic or dynamic body arrives at the pose after `dt`, if nothing stops it: sets its velocities.
+  /// Sets the velocities of a kinematic or dynamic body such that it reaches the pose after `dt`, if nothing
+  /// stops it.
   void move_towards(BodyId body, Vec2d position, double angle, double dt);
 
-  void apply_force(BodyId body, Vec2d force);  ///< N, at the centre of mass, through the next step
+  void apply_force(BodyId body, Vec2d force);  ///< N, at the centre of mass, during the next step
   void apply_force(BodyId body, Vec2d force, Vec2d point);
   void apply_torque(BodyId body, double torque);
   void apply_impulse(BodyId body, Vec2d impulse);  ///< N s, at once
@@ -132,7 +132,7 @@ class BasicWorld {
   double mass(BodyId body) const;     ///< kg, 0 unless dynamic
   double inertia(BodyId body) const;  ///< kg m^2 about the centre of mass
   void set_mass(BodyId body, const MassProperties& mass);
-  void use_densities(BodyId body);  ///< mass follows from the shapes again
+  void use_densities(BodyId body);  ///< computes mass from the shapes again
   void set_gravity_scale(BodyId body, double scale);
   void set_damping(BodyId body, double linear, double angular);
   void set_locks(BodyId body, bool x, bool y, bool rotation);
@@ -146,9 +146,9 @@ class BasicWorld {
   BodyLocks locks(BodyId body) const;
   std::uint64_t user_data(BodyId body) const;
   const std::string& name(BodyId body) const;
-  std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order in which they were made
-  std::vector<JointId> joints(BodyId body) const;           ///< likewise
-  std::vector<ContactReading> contacts(BodyId body) const;  ///< that have points
+  std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order of creation
+  std::vector<JointId> joints(BodyId body) const;           ///< in the order of creation
+  std::vector<ContactReading> contacts(BodyId body) const;  ///< contacts with points
 
   // Shapes.
   ShapeId create_shape(BodyId body, const ShapeDefinition& definition);
@@ -159,22 +159,22 @@ class BasicWorld {
   Material material(ShapeId shape) const;
   void set_material(ShapeId shape, const Material& material);
   Filter filter(ShapeId shape) const;
-  /// As it is now, in the body's frame and rounded to `Real`; it could be added again. Boxes are polygons; a
-  /// segment of a chain is a segment.
+  /// Returns the present definition, in the body's frame and rounded to `Real`; it could be added again.
+  /// Boxes become polygons; a segment of a chain becomes a segment.
   ShapeDefinition definition(ShapeId shape) const;
   double density(ShapeId shape) const;   ///< kg/m^2
-  bool sensor(ShapeId shape) const;      ///< whether it is one
-  bool hit_events(ShapeId shape) const;  ///< whether hard impacts on it are reported
-  bool pre_solve(ShapeId shape) const;   ///< whether its contacts are asked about
+  bool sensor(ShapeId shape) const;      ///< true for a sensor
+  bool hit_events(ShapeId shape) const;  ///< hard impacts on it are reported
+  bool pre_solve(ShapeId shape) const;   ///< its contacts call the pre-solve hook
   void set_filter(ShapeId shape, const Filter& filter);
-  std::vector<ShapeId> overlapping(ShapeId sensor) const;  ///< what a sensor saw in the last step
+  std::vector<ShapeId> overlapping(ShapeId sensor) const;  ///< shapes in a sensor in the last step
 
   ChainId create_chain(BodyId body, const ChainDefinition& definition);
   void destroy(ChainId chain);
   bool valid(ChainId chain) const;
   std::vector<ShapeId> segments(ChainId chain) const;
   BodyId body(ChainId chain) const;
-  ChainDefinition definition(ChainId chain) const;  ///< as it is now, likewise
+  ChainDefinition definition(ChainId chain) const;  ///< as at present; could be added again
 
   // Joints.
   JointId create_joint(BodyId a, BodyId b, const JointDefinition& definition);
@@ -183,18 +183,18 @@ class BasicWorld {
   const JointKind& kind(JointId joint) const;
   void change(JointId joint, const JointKind& kind);  ///< new speeds, limits, targets; wakes the bodies
   JointReading read(JointId joint) const;
-  JointDefinition definition(JointId joint) const;  ///< as it is now
+  JointDefinition definition(JointId joint) const;  ///< the present one
   std::uint64_t user_data(JointId joint) const;
   std::pair<BodyId, BodyId> bodies(JointId joint) const;
 
-  /// Called for contacts of shapes that ask for it, before they are solved; false: not in this step. What it
-  /// throws ends the step, before anything has moved.
+  /// Sets the hook that is called for contacts of shapes with `pre_solve`, before they are solved; false
+  /// disables one in this step. An exception ends the step before anything has moved.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
-  /// 64-bit FNV-1a over the bits of every body's state: equal on every platform for the same calls.
+  /// Returns the 64-bit FNV-1a hash of every body's state: equal on every platform for the same calls.
   std::uint64_t hash() const;
 
-  /// What the world consists of, for the engine's own extensions (queries, snapshots, force laws):
+  /// Returns the world's data, for the engine's own extensions (queries, snapshots, force laws):
   /// world_data.h.
   WorldData<Real>& data();
   const WorldData<Real>& data() const;

@@ -307,7 +307,8 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   const bool turns = dynamic && !rotation && record.inertia > 0;
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
-  data_->remainders.renew(index, data_->bodies.size());  // what is locked does not move even by that
+  data_->remainders.renew(index,
+                          data_->bodies.size());  // locked axes do not move by rounding residues either
   data_->ties_changed = true;
   forget_manifolds(*data_, index);
   wake(index);
@@ -369,7 +370,7 @@ std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
        shape = data_->shapes[shape].next) {
     all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   }
-  std::reverse(all.begin(), all.end());  // the newest comes first in the list
+  std::reverse(all.begin(), all.end());  // the list starts with the newest
   return all;
 }
 template <class Real>
@@ -392,13 +393,14 @@ std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
   return all;
 }
 
-// Whoever touches a body from outside does not want it to sleep on at once.
+// Wakes a body and resets its sleep timer, because a change from outside must not be followed by sleep at
+// once.
 template <class Real>
 void BasicWorld<Real>::wake(int body) {
   wake_body(*data_, body);
   data_->bodies[body].still_for = 0;
 }
-// A kinematic body that moves takes along what lies on it.
+// Wakes a moved body, and the bodies that lie on it if it is kinematic.
 template <class Real>
 void BasicWorld<Real>::wake_moved(int body) {
   if (!data_->gives_way(body)) wake_neighbours(*data_, body);

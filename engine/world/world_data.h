@@ -24,14 +24,14 @@
 #include "engine/world/slots.h"
 #include "engine/world/used_list.h"
 
-/// What a world consists of. Bodies, shapes, contacts and joints live in slots that never move; what the
-/// solver works on lies in arrays of its own. Lists that run through the slots (a body's shapes, contacts,
-/// joints) are links of indices, -1 at their ends.
+/// The data of a world. Bodies, shapes, contacts and joints are in slots with stable indices; solver data are
+/// in separate arrays. Lists through the slots (a body's shapes, contacts, joints) are linked by index, -1 at
+/// the ends.
 namespace plumb {
 
 inline constexpr int kNone = -1;
 
-/// What solvers do not need of a body: read once a step at most. A cache line in float.
+/// Body data that solvers do not need: read at most once per step. A cache line in float.
 template <class Real>
 struct BodyRecord {
   BodyType type = BodyType::Dynamic;
@@ -39,38 +39,38 @@ struct BodyRecord {
   bool may_sleep = true;
   bool lock_x = false, lock_y = false, lock_rotation = false;
   bool mass_given = false;
-  bool quarantined = false;  ///< out of the motion; its type is Static meanwhile
+  bool quarantined = false;  ///< its type is Static meanwhile
   int awake_index = kNone;
   int first_shape = kNone, first_contact = kNone,
       first_joint = kNone;     ///< contact and joint: edge = 2 index + side
-  int constraints = 0;         ///< contacts with points, and joints: 0 is free flight
-  int uncommon = kNone;        ///< its UncommonBody
-  Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: not known of a static body
-  Vec2<Real> centre{};         ///< m, of what it turns about, in the body's frame: mass.h
+  int constraints = 0;         ///< contacts with points, and joints; 0: free flight
+  int uncommon = kNone;        ///< index of its UncommonBody
+  Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: unknown, for a static body
+  Vec2<Real> centre{};         ///< m, centre of rotation in the body's frame: mass.h
   Real half_width = 0;         ///< m, smallest half width of its shapes; negative: in `unsettled`
-  Real still_for = 0;          ///< s
+  Real still_for = 0;          ///< s, sleep timer
   double angle = 0;            ///< rad, whole turns counted
 
   BodyLocks locks() const { return {lock_x, lock_y, lock_rotation}; }
 };
 static_assert(sizeof(BodyRecord<float>) == 64);
 
-/// What few bodies have: a name, damping, a gravity of their own.
+/// Optional data of a body: name, damping, gravity scale.
 template <class Real>
 struct UncommonBody {
   std::string name{};
   Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
-  Vec2<Real> mass_centre{};  ///< m, in the body's frame, when its mass was given
+  Vec2<Real> mass_centre{};  ///< m, in the body's frame, if its mass was given
 };
 
-/// What the user applies to a body until the end of the next step.
+/// Force and torque that the user applies to a body until the end of the next step.
 template <class Real>
 struct Load {
   Vec2<Real> force{};  ///< N
   Real torque = 0;     ///< N m
 };
 
-/// What collision reads of a shape, in the frame of its body's centre of mass.
+/// Collision data of a shape, in the frame of its body's centre of mass.
 template <class Real>
 struct ShapeForm {
   int corner = 0;  ///< first in the pool; a chain's segment has its neighbours before and after
@@ -78,7 +78,7 @@ struct ShapeForm {
   bool chain = false, sensor = false;
   Real radius = 0;  ///< m, of rounding
   Real extent = 0;  ///< m, half the size of the shape
-  /// Corners in the pool.
+  /// Returns the number of its corners in the pool.
   int stored() const { return count + (chain ? 2 : 0); }
 };
 
@@ -87,8 +87,8 @@ struct ShapeRecord {
   int body = 0;
   int next = kNone, previous = kNone;  ///< of the same body
   int proxy = kNone;
-  int chain = kNone;   ///< that it is a segment of
-  bool moved = false;  ///< in the list of boxes to search pairs for
+  int chain = kNone;   ///< index of its chain
+  bool moved = false;  ///< in the move buffer
   bool hit_events = false, pre_solve = false;
   Filter filter{};
   float friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
@@ -96,7 +96,7 @@ struct ShapeRecord {
 };
 
 enum class ContactHome : std::uint8_t {
-  Near,    ///< awake, boxes overlap, no points
+  Near,    ///< awake, fat AABBs overlap, no points
   Graph,   ///< awake, with points: in the constraint graph
   Parked,  ///< with points, all its bodies asleep
   Idle,    ///< without points, all its bodies asleep
@@ -108,9 +108,9 @@ struct ContactRecord {
   int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};  ///< edges in the two bodies' lists
   ContactHome home = ContactHome::Near;
   std::int8_t colour = 0;
-  bool touching = false;  ///< as events tell it
+  bool touching = false;  ///< as reported by events
   bool pre_solve = false, hit_events = false;
-  int index = 0;  ///< in its home
+  int index = 0;  ///< index in its home
 };
 
 struct JointRecord {
@@ -118,13 +118,13 @@ struct JointRecord {
   int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};
   int slot = 0;  ///< in the joint set
   bool collide = false, active = false;
-  double break_force = 0, break_torque = 0;  ///< N, N m; 0: never
+  double break_force = 0, break_torque = 0;  ///< N, N m; 0: unbreakable
   std::uint64_t user_data = 0;
 };
 
 struct SensorRecord {
   int shape = 0;
-  std::vector<ShapeId> visitors{};  ///< that overlapped it after the last step, by index
+  std::vector<ShapeId> visitors{};  ///< shapes that overlapped it after the last step, by index
 };
 
 struct ChainRecord {
@@ -132,80 +132,79 @@ struct ChainRecord {
   std::vector<int> shapes{};
 };
 
-/// A body that went bad, and what it was.
+/// A body in quarantine, and its previous type.
 struct QuarantinedBody {
   int body = 0;
-  BodyType type = BodyType::Dynamic;  ///< that it has when it is released
+  BodyType type = BodyType::Dynamic;  ///< restored at release
   QuarantineEvent why{};
 };
 
-/// A velocity.
+/// Linear and angular velocity of a body.
 template <class Real>
 struct BodyVelocity {
   Vec2<Real> velocity{};      ///< m/s
   Real angular_velocity = 0;  ///< rad/s
 };
 
-/// How a body's velocity changes in a substep of its own accord.
+/// External velocity change of a body in a substep: forces and damping.
 template <class Real>
 struct Kick {
   int body = 0;
   Vec2<Real> velocity{};         ///< m/s
   Real spin = 0;                 ///< rad/s
-  Real keep = 1, keep_spin = 1;  ///< what damping leaves
+  Real keep = 1, keep_spin = 1;  ///< factors by damping
   bool locked_x = false, locked_y = false;
-  bool in_tree = false;          ///< moved with its mechanism
-  Vec2<Real> velocity_before{};  ///< m/s, after the kick, before contacts press in this substep
+  bool in_tree = false;          ///< moved with its articulated body
+  Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep
   Real spin_before = 0;          ///< rad/s
 };
 
-/// A body whose way in a step is searched for impacts: it moved far for its size, or an impact that bounces
-/// is `expected`. `covered`: its stored boxes held it all the way, so that it can only have met what it has a
-/// contact with.
+/// A body whose motion in a step is tested for impacts: it moved far for its size, or a bounce is `expected`.
+/// `covered`: its fat AABBs contained the whole motion, so only its contacts need testing.
 struct FastBody {
   int body = 0;
   bool covered = false;
   bool expected = false;
 };
 
-/// A contact whose shapes are going to meet in this step, in free flight, and bounce.
+/// A contact with a predicted impact in free flight in this step, with restitution.
 template <class Real>
 struct ExpectedImpact {
   ContactConstraint<Real> constraint;
-  bool in_graph = false;  ///< the contact had points before; else it gets them when the solver takes it
-  bool left = false;      ///< to the solver
+  bool in_graph = false;  ///< it had points before; else it gets them if the solver takes it
+  bool left = false;      ///< left to the solver
 };
 
-/// A small island of contacts, solved all at once.
+/// A small island of contacts, solved directly.
 template <class Real>
 struct DirectIsland {
   explicit DirectIsland(std::pmr::memory_resource* room) : contacts(room), system(room) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
   DirectRows<Real> system;
-  int root = kNone;  ///< the body that stands for it
+  int root = kNone;  ///< body that represents it
 };
 
-/// A body of a jointed island: what it has on its way through a substep, in double.
+/// A body of an island with joints: its motion through a substep, in double.
 struct JointedLink {
   int body = kNone;
   Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without impulses, then with; the mean
-  double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, likewise
-  Vec2d moved{};                               ///< m, since the step's start
-  double turned = 0, rotation_c = 1, rotation_s = 0;  ///< likewise
+  double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, the same
+  Vec2d moved{};                               ///< m, since the start of the step
+  double turned = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
 };
 
-/// What a row of a jointed island belongs to.
+/// The source of a row of an island with joints.
 template <class Real>
 struct RowTie {
   Real* impulse = nullptr;  ///< N s, in the joint or contact
   Real most = 0;            ///< N s, of a pair of rows
   bool pair = false;
   int first = -1, count = 0;  ///< rows whose impulses bound this one
-  double friction = 0;        ///< times their sum; m for torques
+  double friction = 0;        ///< factor on their sum; m for torques
 };
 
-/// An island with joints, solved all at once.
+/// An island with joints, solved directly.
 template <class Real>
 struct JointedIsland {
   explicit JointedIsland(std::pmr::memory_resource* room)
@@ -226,62 +225,62 @@ struct JointedIsland {
   std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
   std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
   BoundedRows system;
-  int root = kNone;     ///< the body that stands for it
-  int contact_row = 0;  ///< the first row of a contact
-  bool solved = false;  ///< false: left to the sweeps
+  int root = kNone;     ///< body that represents it
+  int contact_row = 0;  ///< first row of a contact
+  bool solved = false;  ///< false: left to iteration
 };
 
-/// Mechanisms that are moved as such: kept while no tie changes.
+/// Articulated bodies that are moved as such; kept until contacts or joints change.
 template <class Real>
 struct HingeTrees {
-  std::vector<TreeLink> links;        ///< of one tree after another, parents first
+  std::vector<TreeLink> links;        ///< tree by tree, parents first
   std::vector<Vec2<Real>*> impulses;  ///< of the links' hinges, in the joint set; the roots have none
-  std::vector<int> firsts;            ///< the trees' roots, and the end
-  std::vector<char> holds;            ///< by body: a link
+  std::vector<int> firsts;            ///< roots of the trees, and the end
+  std::vector<char> holds;            ///< by body: it is a link
   int hinges = 0;
 
   bool empty() const { return hinges == 0; }
 };
 
-/// What a step makes anew: kept between steps for its room alone, and the islands while no tie changes.
+/// Scratch data of a step. Memory is kept between steps, islands only while no contact or joint changes.
 template <class Real>
 struct Scratch {
   std::vector<int> queue;
   std::vector<std::pair<int, int>> found_pairs;
-  std::vector<char> meets;  ///< by proxy of the moving tree
+  std::vector<char> meets;  ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   BurstList<ContactConstraint<Real>> begun_contacts;
   std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps
-  std::vector<BodyVelocity<Real>> starts;  ///< theirs at the step's start
-  std::vector<int> bad_bodies;             ///< whose motion in the step is not to be used
+  std::vector<BodyVelocity<Real>> starts;  ///< their velocities at the start of the step
+  std::vector<int> bad_bodies;             ///< bodies with an invalid motion in this step
   std::vector<int> island_of, island_size, island_place, island_room;
-  std::vector<int> link_of;  ///< by body: its place among the links of its island
+  std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
   std::vector<int> island_joints;
   std::vector<JointSolverRow<Real>> joint_rows;
-  /// What small islands are made of: what one of them gives up when it grows, another one takes.
+  /// Memory pool of small islands: islands that grow reuse the memory that others release.
   std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
   std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
   int jointed_count = 0;
-  bool islands_known = false;  ///< `island_of` and `island_size` are those of the ties as they are
+  bool islands_known = false;  ///< `island_of` and `island_size` are up to date
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
-  std::vector<char> not_a_tree, tree_grounded;  ///< by the body that stands for a set, likewise
-  std::vector<int> bouncing;  ///< contacts that have restitution, or may be of discs that approach fast
+  std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
+  std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<Bounce<Real>> bounces;
   std::vector<ExpectedImpact<Real>> expected_impacts;
-  std::vector<int> pressed_bodies;  ///< that something is going to hold in this step
+  std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step
   std::vector<int> expecting_bodies;
-  std::vector<char> pressed, expecting;  ///< by body, what the lists hold; all 0 when these are empty
+  std::vector<char> pressed, expecting;  ///< by body: it is in the list; all 0 if the list is empty
   CrowdRoom<Real> crowds;
   std::vector<char> restless;
   std::vector<FastBody> fast_bodies;
-  std::vector<int> deep_contacts;  ///< that have given way until a core is near
+  std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores
   std::vector<Flight> flights;
-  std::vector<Meeting> meetings;   ///< a heap, the first on top
-  std::vector<int> flight_places;  ///< by body: its flight, while they are followed
+  std::vector<Meeting> meetings;   ///< a heap, earliest on top
+  std::vector<int> flight_places;  ///< by body: index of its flight, during continuous collision
   std::vector<ShapeId> visitors;
 };
 
@@ -296,25 +295,25 @@ struct WorldData {
   Slots<BodyRecord<Real>> bodies;
   Slots<UncommonBody<Real>> uncommon;
   UsedList<Load<Real>> loads;
-  UsedList<std::uint64_t> body_data;  ///< the user's
+  UsedList<std::uint64_t> body_data;  ///< user data
   std::vector<BodyMotion<Real>> motion;
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;  ///< m, of the centres of mass
-  UsedList<Vec2d> remainders;   ///< m, what rounding left out of the positions; in double alone
+  UsedList<Vec2d> remainders;   ///< m, Kahan compensation of the positions; in double only
   std::vector<Real> extents;    ///< m, from the centre of mass to the farthest point
-  std::vector<char> enlarged;   ///< a shape of it left its stored box in the last step
+  std::vector<char> enlarged;   ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;
-  std::vector<int> unsettled;  ///< bodies whose shapes have changed: mass.h
+  std::vector<int> unsettled;  ///< bodies with changed shapes: mass.h
 
   // Shapes, by index.
   Slots<ShapeRecord<Real>> shapes;
   std::vector<ShapeForm<Real>> forms;
-  std::vector<Aabb<Real>> boxes;  ///< tight
+  std::vector<Aabb<Real>> boxes;  ///< tight AABBs
   CornerPool<Real> corners;
-  UsedList<std::uint64_t> shape_data;  ///< the user's
+  UsedList<std::uint64_t> shape_data;  ///< user data
   Slots<ChainRecord> chains;
   std::vector<int> moved_shapes;
-  DynamicTree<Real> still_tree, moving_tree;  ///< static; kinematic and dynamic
+  DynamicTree<Real> still_tree, moving_tree;  ///< of static bodies; of kinematic and dynamic ones
 
   // Contacts.
   Slots<ContactRecord> contacts;
@@ -330,23 +329,23 @@ struct WorldData {
   std::vector<int> breakable;  ///< joints
   std::vector<QuarantinedBody> quarantine;
   Events events;   ///< of the last step
-  Events pending;  ///< since then: the next step's
+  Events pending;  ///< since then; reported with the next step
   bool stepping = false;
-  mutable std::atomic<int> callers{0};  ///< callbacks of the user's that look at the world now: lock.h
-  bool abandoned = false;               ///< whoever had it is gone; the last of these deletes it
-  bool reports_hits = false;            ///< some shape wants it
-  bool ties_changed =
-      true;  ///< since the islands were found: a contact or joint came or went, a body woke or slept
+  mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
+  bool abandoned = false;               ///< its owner is gone; the last of these deletes it
+  bool reports_hits = false;            ///< a shape has hit events
+  bool ties_changed = true;  ///< since islands were found: a contact or joint was added or removed, a body
+                             ///< woke or fell asleep
   Scratch<Real> scratch;
 
-  /// Asked about contacts with the shapes that want it, after their manifold was made; false: not in this
-  /// step.
+  /// Called for contacts of shapes with `pre_solve` after their manifold was computed; false disables one in
+  /// this step.
   std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
 
-  /// The user's own rules, in place of those of the settings.
+  /// The user's own combine rules, instead of those of the settings.
   CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
 
-  /// Where what happens now is told.
+  /// Returns the buffer for events that happen now.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
   bool gives_way(int body) const { return bodies[body].type == BodyType::Dynamic; }

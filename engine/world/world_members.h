@@ -3,7 +3,7 @@
 #include "engine/world/members.h"
 #include "engine/world/world_data.h"
 
-/// The members of what a world stores.
+/// Member lists of a world's data types.
 namespace plumb {
 
 template <>
@@ -56,9 +56,9 @@ PLUMB_MEMBERS(QuarantineEvent, body, name, field, value, step)
 PLUMB_MEMBERS(QuarantinedBody, body, type, why)
 PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
 
-/// All of a world that its future depends on, and the events of its last step, as a tuple of references. Left
-/// out are the pre-solve hook and the user's combine rules, which are code, and what every step makes anew. A
-/// member that is new in WorldData has to be named here, and to be returned unless it is one of those.
+/// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
+/// references. It excludes the pre-solve hook and the user's combine rules, which are code, and scratch data.
+/// A new member of WorldData must be named here, and returned unless it is one of those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,

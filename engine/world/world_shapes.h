@@ -165,7 +165,7 @@ JointReading BasicWorld<Real>::read(JointId joint) const {
   WorldData<Real>& w = *data_;
   const int slot = w.joints[place(joint)].slot;
   const Real rate = w.last_h > 0 ? static_cast<Real>(1 / w.last_h) : Real(0);
-  // What moved in the last step is part of the positions already.
+  // The positions already include the motion of the last step.
   SolverBodies<Real> bodies = w.solver_bodies();
   const auto [a, b] = w.joint_set.bodies(slot);
   const BodyMotion<Real> motion_a = w.motion[a], motion_b = w.motion[b];

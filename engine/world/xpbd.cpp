@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-// One projection a substep, with the compliance of what is soft; more substeps in place of more sweeps. Then
-// velocities: restitution and the friction of what slides.
+// One projection per substep, with compliance of soft constraints; more substeps replace iterations. Then
+// velocities: restitution and dynamic friction.
 template <class Real>
 void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
   const Real step = static_cast<Real>(h), inverse_h = static_cast<Real>(1 / h);
