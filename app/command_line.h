@@ -5,8 +5,8 @@
 
 namespace plumb::app {
 
-/// A program and its arguments, parted at spaces; quotes, single or double, hold spaces together. Throws
-/// `UsageError` for one that does not end.
+/// Splits a command into a program and its arguments at spaces; single or double quotes protect spaces.
+/// Throws `UsageError` for an unterminated quote.
 std::vector<std::string> split_command(const std::string& text);
 
 }  // namespace plumb::app

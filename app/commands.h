@@ -6,10 +6,10 @@
 
 namespace plumb::app {
 
-/// What a subcommand does once its options are parsed; returns the exit code.
+/// Runs a subcommand once its options are parsed; returns the exit code.
 using Action = std::function<int()>;
 
-// Each adds its subcommand to `app` and puts its action into `chosen` when it is the one that is given.
+// Each adds its subcommand to `app` and sets `chosen` to its action when the subcommand is given.
 void add_list(CLI::App& app, Action& chosen);
 void add_engines(CLI::App& app, Action& chosen);
 void add_explain(CLI::App& app, Action& chosen);
@@ -28,11 +28,11 @@ void add_report(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view
 
-/// Replaces this program by the benchmarks beside it. Returns only when that fails: throws `Error` (Io).
+/// Replaces this program by the benchmarks beside it. Returns only on failure: throws `Error` (Io).
 int run_bench(int argc, char** argv);
 
-/// Replaces this program by the one beside it that has the window. Returns only when that fails: throws
-/// `Error` (Io) that says what to install.
+/// Replaces this program by the windowed one beside it. Returns only on failure: throws `Error` (Io) that
+/// names the package to install.
 int run_window(int argc, char** argv);
 
 }  // namespace plumb::app

@@ -44,8 +44,8 @@ std::string as_text(std::span<const Result> results, const std::string& format, 
   return text;
 }
 
-// Writes a report of all that the folder holds, not of this run alone. False when it could not be written:
-// what was measured is safe by then.
+// Writes a report of everything in the folder, not of this run alone. Returns false if it could not be
+// written; the results are saved by then.
 bool report(const Options& options, std::span<const reference::Backend* const> engines) {
   const std::string path = harness::report::default_report_path(options.out);
   try {
@@ -73,7 +73,7 @@ int start(const Options& options) {
   if (!options.timeout.empty()) what.seconds_a_run = parse_positive("--timeout", options.timeout);
   what.measure_cost = !options.no_cost;
   for (const reference::Backend* backend : what.engines)
-    if (backend->identity().available) backend->method(what.settings);  // throws for what it cannot take
+    if (backend->identity().available) backend->method(what.settings);  // throws if it rejects them
 
   ResultLog log(options.out);
   const Style style = Style::of_file(STDOUT_FILENO);

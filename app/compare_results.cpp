@@ -25,7 +25,7 @@ bool is_scenario(const std::string& name) {
   }
 }
 
-// What can be nothing but a path.
+// Returns true if `name` can only be a path.
 bool looks_like_a_path(const std::string& name) {
   return name.starts_with("/") || name.starts_with("./") || name.starts_with("../") || name.ends_with("/") ||
          name.ends_with(".jsonl");

@@ -5,12 +5,12 @@
 
 namespace plumb::app {
 
-/// Whether the names given to `compare` mean two sets of results: each is a folder that holds a
-/// results.jsonl, or a file that ends in ".jsonl". Throws `UsageError` where that is not clear: only one of
-/// them is, or a folder bears a scenario's name.
+/// Returns true if the names given to `compare` are two sets of results: folders with a results.jsonl, or
+/// files that end in ".jsonl". Throws `UsageError` if it is ambiguous: only one of them is, or a folder has a
+/// scenario's name.
 bool mean_results(const std::vector<std::string>& names);
 
-/// `compare OLD NEW`: prints what is better, worse or cannot be told from noise.
+/// Runs `compare OLD NEW`: prints the differences that are better, worse or hidden by noise.
 int compare_results(const std::string& before, const std::string& after, const std::string& format);
 
 }  // namespace plumb::app

@@ -6,10 +6,10 @@
 
 namespace plumb::app {
 
-/// Prints the forces of joints and contacts of a run's samples: what acts on body b, at a point in the
+/// Prints the forces of joints and contacts at a run's samples: the force on body b, at a point in the
 /// world's frame; a joint's torque is about that point.
-/// - Csv: t,kind,joint,body_a,body_b,x,y,fx,fy,torque: a line a joint and a line a point of contact;
-/// - Json: a line a sample: {"t":..,"joints":[{"name","x","y","fx","fy","torque"}],
+/// - Csv: t,kind,joint,body_a,body_b,x,y,fx,fy,torque: one line per joint and one per contact point;
+/// - Json: one line per sample: {"t":..,"joints":[{"name","x","y","fx","fy","torque"}],
 ///   "contacts":[{"body_a","body_b","x","y","fx","fy"}]}.
 class ForceWriter {
  public:

@@ -1,4 +1,4 @@
-// The command line `plumb`.
+// Command line of `plumb`.
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -25,7 +25,7 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
-// The first option that `app`, or its subcommand in use, does not know, with the nearest that it knows.
+// Describes the first option that `app`, or its active subcommand, does not know, with the nearest known one.
 std::string unknown_option(const CLI::App& app) {
   const CLI::App* used = &app;
   for (const CLI::App* command : app.get_subcommands()) used = command;
@@ -70,7 +70,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   keep_standard_files();
-  // Writing then fails with an error, which is reported, and does not end the program.
+  // Make such writes fail with an error, which is reported, instead of ending the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("plumb, a 2D rigid-body engine and the harness that proves it", "plumb");

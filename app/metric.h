@@ -13,7 +13,7 @@ namespace plumb::app {
 /// Adds --metric, which takes the names of `harness::kMetricFields`.
 void add_metric(CLI::App& command, std::string& metric, const std::string& help);
 
-/// `name` is one of them.
+/// Returns the metric called `name`.
 const harness::MetricField& metric_by_name(const std::string& name);
 
 }  // namespace plumb::app

@@ -27,7 +27,7 @@ void keep_standard_files() {
       close(file);
       return;
     }
-    // The other way around, so that who writes or reads there is told.
+    // Open for the opposite direction, so that any read or write there fails with an error.
     const int wrong = open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     dup2(wrong, file);
     close(wrong);

@@ -26,7 +26,7 @@ void ProgressLine::show(const harness::Progress& progress) {
 
 void ProgressLine::say(const std::string& text) {
   if (!on_) return;
-  // Less than a line, with the three dots that may follow what is cut off.
+  // Shorter than a line, with room for the three dots that mark a truncated text.
   const auto width = static_cast<std::size_t>(std::max(harness::Style::of_file(STDERR_FILENO).width - 4, 1));
   write_error("\r\x1b[K" + printable(text, width));
   shown_ = true;

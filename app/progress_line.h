@@ -7,8 +7,8 @@
 
 namespace plumb::app {
 
-/// One line on stderr that says how far a comparison is and how long it may still take; nothing where stderr
-/// is not a terminal.
+/// One line on stderr with the progress of a comparison and its estimated remaining time. Prints nothing if
+/// stderr is not a terminal.
 class ProgressLine {
  public:
   ProgressLine();

@@ -14,14 +14,14 @@
 namespace plumb::app {
 namespace {
 
-// Of a writer that was stopped within a line, or of a disk that was full, half a record is left, which goes.
-// A whole one, or somebody's own text, lacks no more than the line's end.
+// Repairs the last line. Half a record, left by a writer that was stopped or by a full disk, is removed.
+// Anything else only lacks its line end, which is added.
 void end_last_line(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) return;
   std::ifstream file(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  const std::size_t begin = text.rfind('\n') + 1;  // 0 where there is none
+  const std::size_t begin = text.rfind('\n') + 1;  // 0 if there is none
   const std::string last = text.substr(begin);
   if (last.empty()) return;
   if (last.front() == '{' && !nlohmann::json::accept(last)) {

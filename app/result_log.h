@@ -9,11 +9,10 @@
 
 namespace plumb::app {
 
-/// DIR/results.jsonl: results are appended as they come, each handed over at once, so that an interrupt loses
-/// none.
+/// DIR/results.jsonl: appends and flushes each result as it comes, so that an interrupt loses none.
 class ResultLog {
  public:
-  /// Makes the folder where there is none. Throws `Error` (Io).
+  /// Creates the folder if there is none. Throws `Error` (Io).
   explicit ResultLog(const std::string& folder);
   void append(std::span<const harness::Result> results);
   const std::string& path() const { return path_; }

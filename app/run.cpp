@@ -34,14 +34,14 @@ struct Options {
   SettingsOptions settings;
 };
 
-/// Joints that start off by more than this, m or rad and per second, are named: it is no rounding, of numbers
-/// with six digits neither.
+/// Joints with larger initial errors, m or rad and per second, are reported. Rounding errors are smaller,
+/// even those of numbers with six digits.
 constexpr double kOpenJoint = 1e-5;
 
-/// Thrown out of a run that the user has stopped.
+/// Thrown if the user has stopped the run.
 struct Interrupted {};
 
-// Steps from one sample to the next.
+// Returns the steps of dt from one sample to the next.
 int steps_a_sample(const std::string& rate, double dt) {
   if (rate.empty()) return 1;
   const double wanted = parse_positive("--rate", rate), steps = 1 / (wanted * dt), whole = std::round(steps);
@@ -59,7 +59,7 @@ int sample_count(double duration, double dt, int every) {
   return harness::step_count(duration, dt) / every;
 }
 
-// A number that is none is not data: the run ends before it is written.
+// Ends the run before a non-finite state is written.
 void require_finite(const Options& options, const Scene& scene, double time,
                     std::span<const BodyState> states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -83,7 +83,7 @@ int run(const Options& options, const reference::Backend& backend, const referen
       options.format == "json" ? TrajectoryWriter::Format::Json : TrajectoryWriter::Format::Csv;
   std::function<void(double, std::span<const BodyState>)> write;
   if (options.forces) {
-    (void)simulator->forces();  // an engine that has none says so before anything is printed
+    (void)simulator->forces();  // throws before anything is printed if the engine reports no forces
     write = [&simulator, writer = ForceWriter(source.scene, format)](
                 double time, std::span<const BodyState>) { writer.write(time, simulator->forces()); };
   } else {

@@ -28,7 +28,7 @@ void EngineOptions::add_to(CLI::App& command) {
 
 namespace {
 
-/// Whether a command says what engine that is.
+/// Returns true if --engine-command defines the engine.
 bool is_given(const std::vector<std::string>& commands, const std::string& name) {
   return std::any_of(commands.begin(), commands.end(),
                      [&](const std::string& text) { return text.starts_with(name + '='); });
@@ -53,7 +53,7 @@ std::vector<const reference::Backend*> chosen_engines(
     const EngineOptions& options, std::vector<std::unique_ptr<reference::Backend>>& programs) {
   std::vector<const reference::Backend*> out;
   for (const std::string& name : options.names) {
-    if (is_given(options.commands, name)) continue;  // it comes below
+    if (is_given(options.commands, name)) continue;  // added below
     const reference::Backend* backend = &reference::find_backend(name);
     if (std::find(out.begin(), out.end(), backend) == out.end()) out.push_back(backend);
   }

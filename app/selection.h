@@ -13,7 +13,7 @@ class App;
 
 namespace plumb::app {
 
-/// The options that say which engines take part, as they were given.
+/// Options that select engines, as given.
 struct EngineOptions {
   std::vector<std::string> names;     ///< --engine; none: all
   std::vector<std::string> commands;  ///< --engine-command, "NAME=COMMAND"
@@ -21,11 +21,12 @@ struct EngineOptions {
   void add_to(CLI::App& command);
 };
 
-/// The instances that `wanted` names, or all; `size` > 0 overrides their sizes. Throws `UsageError`, `Error`.
+/// Returns the instances that `wanted` names, or all; `size` > 0 overrides their sizes. Throws `UsageError`,
+/// `Error`.
 std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size);
 
-/// The engines that were asked for, or all of them; programs given with --engine-command come last and are
-/// kept in `programs`. Throws `UsageError`, `Error`.
+/// Returns the selected engines, or all; programs given with --engine-command come last and are kept in
+/// `programs`. Throws `UsageError`, `Error`.
 std::vector<const reference::Backend*> chosen_engines(
     const EngineOptions& options, std::vector<std::unique_ptr<reference::Backend>>& programs);
 

@@ -32,7 +32,7 @@ reference::StepSettings SettingsOptions::settings(const reference::Backend& back
           fmt::format("--set is '{}': give OPTION=VALUE, see `plumb engines` for the options", text));
     settings.options[text.substr(0, equals)] = text.substr(equals + 1);
   }
-  backend.method(settings);  // throws for what the engine cannot take
+  backend.method(settings);  // throws for settings that the engine rejects
   return settings;
 }
 

@@ -10,7 +10,7 @@
 
 namespace plumb::app {
 
-/// The options that say how an engine is to step, as they were given.
+/// Options for an engine's step settings, as given.
 struct SettingsOptions {
   std::string dt, tolerance;
   std::optional<int> substeps;
@@ -18,7 +18,7 @@ struct SettingsOptions {
 
   void add_to(CLI::App& command);
 
-  /// Throws `UsageError` or `Error` for what `backend` cannot take.
+  /// Throws `UsageError` or `Error` for settings that `backend` rejects.
   reference::StepSettings settings(const reference::Backend& backend) const;
 };
 

@@ -23,7 +23,7 @@ std::string read_file(const std::string& path) {
   return harness::read_text(path, "give a scene as JSON, like `plumb scene NAME` prints");
 }
 
-// How long a scene from a file runs: as long as the scenario whose name it bears.
+// Returns the duration of a scene from a file: that of the scenario with the same name, if there is one.
 double duration_of(const Scene& scene, double otherwise) {
   try {
     return scenarios::select(scene.name).front().build().duration;
@@ -89,7 +89,8 @@ scenarios::Instance file_instance(const std::string& path, const std::string& du
 
 namespace {
 
-/// The scene of a file, whose name errors of its text have in front: there may be several.
+/// Reads the scene of a file. Errors in its text are prefixed by the file's name, as there may be several
+/// files.
 Scene scene_in(const std::string& path) {
   const std::string text = read_file(path);
   try {

@@ -14,35 +14,34 @@ class App;
 
 namespace plumb::app {
 
-/// A scene to run, and for how long if nothing else is said.
+/// A scene to run, with its default duration.
 struct Source {
   Scene scene;
   double duration = 10;                           ///< s
-  std::optional<scenarios::Instance> instance{};  ///< of a scenario, that the scene is
+  std::optional<scenarios::Instance> instance{};  ///< of the scenario that the scene belongs to
 };
 
-/// Adds --size: how large a scenario that scales is.
+/// Adds --size, the size of a scenario that scales.
 void add_size(CLI::App& command, int& size);
 
-/// The one instance that `name` means. Where it means several, the first, with a word about the others on
+/// Returns the instance that `name` selects. If it selects several, returns the first and names the others on
 /// stderr.
 scenarios::Instance one_instance(const std::string& name, int size);
 
-/// Adds --duration, which only scenes from files take.
+/// Adds --duration, which applies only to scenes from files.
 void add_file_duration(CLI::App& command, std::string& duration);
 
-/// Whether `text` means a file and no scenario: what exists as a file, ends in ".json", starts with "/", "./"
-/// or "../", or is "-".
+/// Returns true if `text` means a file instead of a scenario: it is an existing file or "-", ends in ".json",
+/// or starts with "/", "./" or "../".
 bool is_file(const std::string& text);
 
-/// The scene of a file as an instance without a known answer, kept in `kept`. `duration` is the option's
-/// text; empty: as long as the scenario whose name it bears, else 10 s. Throws `Error`, `UsageError`.
+/// Returns the scene of a file as an instance without a known answer, kept in `kept`. `duration` is the
+/// option's text; if empty, that of the scenario with the same name, else 10 s. Throws `Error`, `UsageError`.
 scenarios::Instance file_instance(const std::string& path, const std::string& duration,
                                   std::vector<std::unique_ptr<scenarios::Scenario>>& kept);
 
-/// A scenario by name, or a scene from a file ("-": stdin). A file is what exists as one, has a '/' before a
-/// name that is no scenario's, or ends in ".json". A scene that bears a scenario's name runs as long as that
-/// does. Throws `Error`.
+/// Loads a scenario by name, or a scene from a file, as `is_file` decides ("-": stdin). A file's scene with a
+/// scenario's name takes that scenario's duration. Throws `Error`.
 Source load(const std::string& name_or_file, int size);
 
 }  // namespace plumb::app

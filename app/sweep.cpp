@@ -32,7 +32,7 @@ struct Options {
   int jobs = 0;
 };
 
-// A sweep's folder knows scenes by their labels.
+// Throws if two scenes have the same label, because a sweep's folder identifies them by it.
 void require_different(const std::vector<scenarios::Instance>& instances) {
   std::set<std::string> labels;
   for (const scenarios::Instance& instance : instances)

@@ -10,7 +10,7 @@
 namespace plumb::app {
 namespace {
 
-// JSON has no word for what is not finite.
+// Returns null for a non-finite value, which JSON cannot hold.
 std::string json_number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
 
 }  // namespace

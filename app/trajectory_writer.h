@@ -7,18 +7,18 @@
 
 namespace plumb::app {
 
-/// A field of CSV, quoted where it has to be.
+/// Returns a field of CSV, quoted if necessary.
 std::string csv_text(const std::string& text);
 
 /// Prints a run's samples. Numbers are the shortest that read back to the same bits.
 class TrajectoryWriter {
  public:
   enum class Format {
-    Csv,   ///< t,body,x,y,angle,vx,vy,w: a line a body and sample
-    Json,  ///< a line a sample: {"t":..,"bodies":[{"name","x","y","angle","vx","vy","w"}]}
+    Csv,   ///< t,body,x,y,angle,vx,vy,w: one line per body and sample
+    Json,  ///< one line per sample: {"t":..,"bodies":[{"name","x","y","angle","vx","vy","w"}]}
   };
 
-  /// Prints the column names where the format has them.
+  /// Prints the column names if the format has them.
   TrajectoryWriter(const Scene& scene, Format format);
   void write(double time, std::span<const BodyState> states) const;
 

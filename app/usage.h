@@ -5,19 +5,19 @@
 
 namespace plumb::app {
 
-/// The command line asks for something that there is not. `what()` is one line, with what to do about it.
+/// Thrown for an invalid command line. `what()` is one line, with advice.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A number as people give it: "0.01", "1e-3" or "1/240". Throws `UsageError` that names `option`.
+/// Parses a number as people write it: "0.01", "1e-3" or "1/240". Throws `UsageError` that names `option`.
 double parse_number(const std::string& option, const std::string& text);
 
-/// Likewise, and more than zero.
+/// Parses a number that must be greater than zero, in the same way.
 double parse_positive(const std::string& option, const std::string& text);
 
-/// What is wrong with the name of a file or folder; empty when nothing is. For options' checks.
+/// Returns the error in the name of a file or folder; empty if there is none. For checks of options.
 std::string problem_with_path(const std::string& text);
 
 }  // namespace plumb::app

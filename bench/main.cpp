@@ -18,7 +18,7 @@ using reference::Backend;
 using scenarios::Instance;
 
 /// Steps from the start of the run to its end, then again from the start. The time is the engine's own
-/// account, so that set-up and, for an engine that runs as a program, transport stay out.
+/// figure, without set-up and, for an engine that runs as a program, without transport.
 void step(benchmark::State& state, const Instance& instance, const Backend& backend) {
   try {
     const reference::Identity identity = backend.identity();

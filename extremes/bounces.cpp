@@ -5,9 +5,9 @@
 namespace plumb::extremes {
 namespace {
 
-constexpr double kCrossing = 10.3;  // steps from wall to wall: impacts come at all places of a step
+constexpr double kCrossing = 10.3;  // steps from wall to wall: impacts fall on all fractions of a step
 constexpr double kRadius = 0.1, kSpeed = 1 / (kCrossing * kDt);
-constexpr int kWindow = 1000;  // steps that are looked at one by one, at the start and at the end
+constexpr int kWindow = 1000;  // steps sampled one by one, at the start and at the end
 
 Body wall(std::string name, double side) {
   return {.name = std::move(name),
@@ -16,7 +16,8 @@ Body wall(std::string name, double side) {
           .shapes = {{.geometry = Box{1, 10}, .friction = 0, .restitution = 1}}};
 }
 
-// Counted where samples are a step apart; one more or less is a matter of where the count starts.
+// Counts bounces where samples are one step apart. Tolerates a difference of one, as the count starts between
+// impacts.
 Rule count_is_off() {
   struct Count {
     double before = kSpeed, last = 0;

@@ -10,7 +10,7 @@ namespace {
 using scenarios::truth::RodChain;
 using scenarios::truth::Trajectory;
 
-// Lagrange's equations in absolute angles; solved when it is asked for.
+// Solves Lagrange's equations in absolute angles, on first use.
 Motion lagrange(int links) {
   struct Solution {
     RodChain chain;

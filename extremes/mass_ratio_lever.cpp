@@ -19,7 +19,8 @@ Trial build(double ratio) {
                         {.name = "light", .position = {1, 0}, .mass = 1, .shapes = {disc}}};
   trial.scene.joints = {hinge("fulcrum", kWorld, "beam", {}), hinge("left", "beam", "heavy", {-1, 0}),
                         hinge("right", "beam", "light", {1, 0})};
-  // The discs hang freely, so that they are points to the beam: I a'' = (M - m) g cos(a), a from level.
+  // The discs are hinged at their centres, so they act on the beam as point masses: I a'' = (M - m) g cos(a),
+  // a from level.
   const double k = (ratio - 1) * kGravity / (kBeam + ratio + 1);
   if (ratio == 1) trial.exact = at_rest(trial.scene);
   if (ratio > 1)

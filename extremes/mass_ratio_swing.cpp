@@ -7,7 +7,7 @@ constexpr int kLinks = 10;
 
 Trial build(double ratio) {
   Trial trial{.scene = rod_chain("mass_ratio_swing", kLinks, {1, 0}, ratio), .stretches = evenly(180, 180)};
-  // From level to straight down the links' centres fall by 1/2, 3/2, ... m and the tip by all ten.
+  // From level to straight down the links' centres fall by 1/2, 3/2, ... m, and the tip by 10 m.
   const double energy = kGravity * (kLinks * kLinks / 2.0 + kLinks * ratio);
   trial.judge = [energy](const Scene& scene) { return closed_and_lossless(scene, kLinks, energy); };
   return trial;

@@ -5,7 +5,7 @@
 namespace plumb::extremes {
 namespace {
 
-// Slides iff tan(slope) > mu, then with g (sin - mu cos) (Coulomb).
+// Slides iff tan(slope) > mu, with acceleration g (sin - mu cos) (Coulomb).
 Trial build(double friction) {
   const double slide = kGravity * (std::sin(kSlope) - friction * std::cos(kSlope));
   return on_a_slope("ramp_box", Box{1, 0.5}, 0.25, friction, std::max(0.0, slide));

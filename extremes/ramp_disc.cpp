@@ -5,7 +5,7 @@
 namespace plumb::extremes {
 namespace {
 
-// Rolls with (2/3) g sin where mu >= tan/3, else slips with g (sin - mu cos) (Coulomb).
+// Rolls with acceleration (2/3) g sin if mu >= tan/3, else slips with g (sin - mu cos) (Coulomb).
 Trial build(double friction) {
   const double roll = kGravity * std::sin(kSlope) * 2 / 3;
   const double slip = kGravity * (std::sin(kSlope) - friction * std::cos(kSlope));

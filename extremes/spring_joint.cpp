@@ -3,7 +3,7 @@
 namespace plumb::extremes {
 namespace {
 
-// Of critical damping, let go at the spring's own length: sags by g/w^2 (1 - (1 + w t) e^(-w t)).
+// With critical damping, released at the rest length, the load sags by g/w^2 (1 - (1 + w t) e^(-w t)).
 Trial build(double turn) {
   const double w = turn / kDt, settled = 20 / w;
   Trial trial{.scene = {.name = "spring_joint"}};

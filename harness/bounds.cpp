@@ -10,7 +10,7 @@ namespace {
 
 using scenarios::Bounds;
 
-constexpr double kPromisedTolerance = 1e-9;  // at which `Problem::precise` holds
+constexpr double kPromisedTolerance = 1e-9;  // relative tolerance of `Problem::precise`
 
 double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
 
@@ -85,8 +85,8 @@ Tolerances::Bound Tolerances::energy(int sample) const {
         body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
         body.mass * std::abs(body.gravity_scale) * magnitude(problem_.scene.gravity) * *position(sample, i);
   }
-  // A potential is off by its force times the way, and half its stiffness times the way's square: by the two
-  // ends' ways together, (a + b)^2/2 <= a^2 + b^2.
+  // The error of a potential is its force times the displacement error, plus half its stiffness times the
+  // square. For the errors of both ends together, (a + b)^2/2 <= a^2 + b^2.
   for (const Pull& pull : pulls_in(problem_.scene, truth_.at(sample))) {
     const double off = *position(sample, pull.body) + pull.arm * *angle(sample, pull.body);
     sum += pull.force * off + pull.stiffness * off * off;

@@ -12,13 +12,12 @@
 
 namespace plumb::harness {
 
-/// The tolerance of every check of one run, none of them fitted to an engine. Where they come from, in order:
+/// Tolerances of every check of one run, none of them fitted to an engine. Their sources, in order:
 ///
-/// 1. What the scenario promises: `Problem::precise` for a method with a tolerance (times tolerance/1e-9
-/// where a looser
-///    one was asked for), `Problem::second_order` for one of second order: C h^2 + rounding.
+/// 1. The scenario's promise: `Problem::precise` for a method with a tolerance (times tolerance/1e-9 if a
+///    looser one was asked for), `Problem::second_order` for one of second order: C h^2 + rounding.
 /// 2. Else the truth's own motion and the method's order: `Envelope` + rounding.
-/// 3. What must hold besides follows from how far the bodies may be from the truth, P, V (and angles, A, W):
+/// 3. All other bounds follow from those on position and velocity errors, P, V (and on angles, A, W):
 ///    energy       sum m |v| V + m V^2/2 + I |w| W + I W^2/2 + m |s g| P (s: the body's gravity scale), over
 ///                 the energy scale
 ///    momentum     rounding alone: every exchange of momentum is equal and opposite
@@ -31,7 +30,7 @@ class Tolerances {
   Tolerances(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
              const reference::StepSettings& settings, const ConservationScale& scale);
 
-  /// A tolerance, or nothing where none can be derived (no truth, nothing promised).
+  /// A tolerance, or nothing if none can be derived (no truth, nothing promised).
   using Bound = std::optional<double>;
 
   Bound position(int sample, std::size_t body) const;
@@ -44,7 +43,7 @@ class Tolerances {
   Bound joint_gap(int sample, const JointGaps& joints, std::size_t joint) const;
   Bound penetration(int sample) const;
 
-  /// What rounding alone may do by `sample`: the tolerance of the discrete oracle.
+  /// Returns the rounding error possible up to `sample`: the tolerance of the discrete oracle.
   StateBound rounding(int sample) const;
 
  private:

@@ -8,7 +8,7 @@ namespace plumb::harness {
 void WorstRatio::add(double value, double tolerance) {
   const bool pass = value <= tolerance;  // false for NaN as well
   double ratio = value > 0 ? value / tolerance : 0;
-  if (!pass && !(ratio > 1)) ratio = std::numeric_limits<double>::infinity();  // NaN, or nothing is allowed
+  if (!pass && !(ratio > 1)) ratio = std::numeric_limits<double>::infinity();  // NaN, or a tolerance of zero
   if (!any_ || ratio > ratio_) {
     ratio_ = ratio;
     value_ = value;

@@ -5,13 +5,13 @@
 
 namespace plumb::harness {
 
-/// What a check holds a run against. The kinds are never mixed.
+/// Reference that a check compares a run with. The kinds are never mixed.
 enum class Oracle {
-  Exact,      ///< the motion that no engine computed
-  Discrete,   ///< what the scheme must give at this step, to rounding
-  Invariant,  ///< a law of physics: conservation, joints that hold, bodies that do not overlap
+  Exact,      ///< exact motion, which no engine computed
+  Discrete,   ///< the scheme's own result at this step, to rounding
+  Invariant,  ///< a law of physics: conservation, closed joints, no penetration
   Consensus,  ///< the other engines
-  Self,       ///< the same engine at other steps
+  Self,       ///< the same engine with other steps
 };
 
 constexpr std::string_view name_of(Oracle oracle) {
@@ -19,18 +19,18 @@ constexpr std::string_view name_of(Oracle oracle) {
   return kNames[static_cast<int>(oracle)];
 }
 
-/// One statement about a run that can be wrong.
+/// One statement about a run that its figures can refute.
 struct Check {
   std::string name;  ///< "position_error"; those of the discrete oracle start with "discrete_"
   Oracle oracle = Oracle::Exact;
-  double value = 0;      ///< measured, where it comes nearest to its tolerance (or exceeds it by most)
+  double value = 0;      ///< measured, at the sample with the largest ratio to its tolerance
   double tolerance = 0;  ///< the bound there, derived: see bounds.h
   bool pass = false;
-  std::string known_limit{};  ///< why a miss is expected; empty where none is declared
+  std::string known_limit{};  ///< the reason for an expected miss; empty if none is declared
 };
 
-/// Follows value and tolerance through a run and keeps the sample with the largest ratio. A value or a
-/// tolerance that is NaN does not pass, and has the largest.
+/// Follows value and tolerance through a run and keeps the sample with their largest ratio. NaN in either
+/// counts as the largest ratio and fails.
 class WorstRatio {
  public:
   void add(double value, double tolerance);

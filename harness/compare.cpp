@@ -36,8 +36,8 @@ void measure_costs(const Case& scene_case, const CompareOptions& options, std::v
   }
 }
 
-// Each engine against each other: they agree where they are nowhere further apart than both may be from the
-// truth.
+// Compares each engine with each other: they agree if their distance never exceeds the sum of both bounds on
+// the distance from the truth.
 void find_agreement(std::vector<Entrant>& entrants) {
   for (Entrant& a : entrants) {
     for (const Entrant& b : entrants) {

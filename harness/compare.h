@@ -16,12 +16,12 @@ struct CompareOptions {
   std::vector<scenarios::Instance> instances;
   std::vector<const reference::Backend*> engines;
   reference::StepSettings settings{};
-  double seconds_a_run = 300;  ///< then a run is stopped
+  double seconds_a_run = 300;  ///< wall time after which a run is stopped
   bool measure_cost = true;
   CostBudget cost{};
 };
 
-/// Where a comparison is.
+/// Progress of a comparison.
 struct Progress {
   std::size_t done = 0, total = 0;  ///< runs
   std::string what;                 ///< "pendulum_chain[20] on box2d"
@@ -39,16 +39,16 @@ struct Comparison {
   bool as_expected() const;
 };
 
-/// Runs every engine on every instance, each run in a process of its own; measures what a step costs with the
-/// engines taking turns; holds the engines against each other; judges. An interrupt ends it early; what is
-/// finished is in the results.
+/// Runs every engine on every instance, each run in a process of its own. Measures the cost of a step with
+/// the engines taking turns, compares the engines with each other, and judges. An interrupt ends it early;
+/// the results then contain all finished instances.
 Comparison compare(const CompareOptions& options, const CompareEvents& events = {});
 
-/// All engines' runs of one instance: the part of `compare` that shares one truth.
+/// Runs all engines on one instance: the part of `compare` that shares one truth.
 std::vector<Result> compare_on(const scenarios::Instance& instance, const CompareOptions& options,
                                const std::function<void(const reference::Backend&)>& starting = {});
 
-/// Whether the settings are those that known limits are declared for.
+/// Returns true if known limits are declared for these settings.
 bool is_default(const reference::StepSettings& settings);
 
 }  // namespace plumb::harness

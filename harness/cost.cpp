@@ -13,7 +13,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
 }
 
-// Linear between the neighbours; `sorted` is not empty.
+// Interpolates linearly between the neighbours; `sorted` is not empty.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(place);
@@ -47,7 +47,7 @@ CostSample measure_cost(const Case& scene_case, const reference::Backend& backen
     const double setup_ns = since(setup);
     if (!warm || setup_ns < sample.setup_ns) sample.setup_ns = setup_ns;
     const double run = simulator->advance(sample.steps);
-    // The first short run pays for cold caches and fresh pages.
+    // Leave out the first short run, which includes cold caches and page faults.
     const bool counts = warm || run >= budget.at_least_ns;
     spent += counts ? run : 0;
     steps += counts ? sample.steps : 0;

@@ -7,10 +7,10 @@
 
 namespace plumb::harness {
 
-/// How long a cost may be measured for.
+/// Limits on the time spent on measuring a cost.
 struct CostBudget {
   int repetitions = 5;       ///< taking turns with the other engines
-  double at_most_ns = 50e6;  ///< of stepping, a repetition; longer runs are measured over their first part
+  double at_most_ns = 50e6;  ///< of stepping, per repetition; longer runs are measured over their first part
   double at_least_ns = 5e6;  ///< shorter runs are repeated from the start
 };
 
@@ -18,22 +18,22 @@ struct CostBudget {
 struct CostSample {
   double ns_per_step = 0;
   double setup_ns = 0;  ///< the shortest of the set-ups in this repetition
-  int steps = 0;        ///< how far into the run it went
+  int steps = 0;        ///< steps of the run that were made
 };
 
-/// Steps `backend` without looking at its states. `expected_ns_per_step` says how far it gets in the time
-/// allowed.
+/// Steps `backend` without reading its states. `expected_ns_per_step` determines how many steps fit into the
+/// budget.
 CostSample measure_cost(const Case& scene_case, const reference::Backend& backend,
                         const reference::StepSettings& settings, double expected_ns_per_step,
                         const CostBudget& budget);
 
-/// The median of the samples, with the quartiles.
+/// Returns the median of the samples, with the quartiles.
 Cost summarise(const std::vector<CostSample>& samples, double dt);
 
-/// Whether two costs' middle halves lie apart, so that one is really the smaller.
+/// Returns true if the interquartile ranges of the two costs do not overlap.
 bool clearly_differ(const Cost& a, const Cost& b);
 
-/// Whether the middle half of the repetitions spreads by more than a quarter of the median.
+/// Returns true if the interquartile range of the repetitions exceeds a quarter of the median.
 bool is_noisy(const Cost& cost);
 
 }  // namespace plumb::harness

@@ -10,7 +10,7 @@
 
 namespace plumb::harness {
 
-/// What a system of bodies has at one time, in the quantities that physics may keep.
+/// Energy, momentum and angular momentum of a system of bodies at one time.
 struct Mechanics {
   double kinetic = 0;                 ///< J
   double potential = 0;               ///< J, in gravity, springs and attractions, from where each body starts
@@ -20,21 +20,21 @@ struct Mechanics {
   double sum_of_angular_momenta = 0;  ///< kg m^2/s, sum of |m x * v| + |I w|
 };
 
-/// Adds up the dynamic bodies of `scene`.
+/// Sums over the dynamic bodies of `scene`.
 Mechanics mechanics(const Scene& scene, std::span<const BodyState> states);
 
-/// What the drifts are relative to. Taken from the truth where there is one, so that a run that goes wild
-/// does not enlarge its own measure.
+/// Scales that drifts are relative to. Taken from the truth if there is one, so that a diverging run does not
+/// enlarge its own scale.
 struct ConservationScale {
   double energy = 0;    ///< J, largest kinetic + potential energy, the potential from its lowest value
   double momentum = 0;  ///< kg m/s, largest sum of |m v|; total mass * extent / duration if that is 0
-  double angular_momentum = 0;  ///< kg m^2/s, likewise
+  double angular_momentum = 0;  ///< kg m^2/s; defined as momentum's
 };
 
 ConservationScale conservation_scale(const Scene& scene, const TruthTable& truth);
 
-/// How far energy, momentum and angular momentum have gone from where they started, relative to the scale;
-/// only what the scene's physics conserves.
+/// Drift of energy, momentum and angular momentum from their initial values, relative to the scale. Absent
+/// for quantities that the scene's physics does not conserve.
 struct Drift {
   std::optional<double> energy, momentum, angular_momentum;
 };

@@ -12,13 +12,13 @@ namespace {
 
 double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
 
-// The share of the bounds that grows with the motion, from differences of the truth's velocities.
+// Finite differences of the truth's velocities, from which the bounds' growth with the motion is computed.
 struct Differences {
   std::optional<Vec2d> acceleration, jerk;
   std::optional<double> angular_acceleration, angular_jerk;
 };
 
-// How errors of the angle feed back through the forces that act at a time.
+// Feedback of angle errors through the forces that act at a time.
 struct Feedback {
   double acceleration_per_rad = 0, angular_acceleration_per_rad = 0;
 };
@@ -48,7 +48,7 @@ struct Window {
   double angular_velocity;
 };
 
-// The bounds by component.
+// Bounds by component.
 struct Parts {
   Vec2d position{}, velocity{};
   double angle = 0, angular_velocity = 0;
@@ -56,14 +56,14 @@ struct Parts {
 
 Vec2d absolute(Vec2d v) { return {std::abs(v.x), std::abs(v.y)}; }
 
-// The largest component along the unit vector `n` of a vector within `bound`.
+// Returns the largest component along the unit vector `n` of a vector within `bound`.
 double along(Vec2d bound, Vec2d n) { return dot(bound, absolute(n)); }
 
 StateBound total(const Parts& parts) {
   return {magnitude(parts.position), parts.angle, magnitude(parts.velocity), parts.angular_velocity};
 }
 
-// The moving bodies that joints connect, directly or through each other: every group of more than one.
+// Groups the dynamic bodies that joints connect, directly or through each other; groups of one are left out.
 std::vector<std::vector<std::size_t>> jointed_groups(const Scene& scene) {
   std::vector<std::size_t> parent(scene.bodies.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -123,7 +123,7 @@ class Growth {
   }
 
  private:
-  // The joints' forces begin at the start: their first value is a change as well, from free fall.
+  // Joint forces begin at the start: their first value is a change too, from free fall.
   void start_joints() {
     for (const Joint& joint : problem_.scene.joints) {
       std::visit(
@@ -159,7 +159,7 @@ class Growth {
       collide(impacts_[next_impact_++]);
   }
 
-  // Jointed bodies: each may be off by as much as the worst of them.
+  // Applies the worst bounds of a group of jointed bodies to each of them.
   void share(const std::vector<std::size_t>& group) {
     Parts worst;
     for (const std::size_t body : group) {
@@ -175,7 +175,7 @@ class Growth {
   }
 
   bool jumps_within(std::size_t body, double from, double to) const {
-    // Impacts at a sample's very time spoil the differences on both of its sides.
+    // Impacts at the very time of a sample corrupt the differences on both of its sides.
     for (std::size_t k = next_impact_ == 0 ? 0 : next_impact_ - 1; k < impacts_.size(); ++k) {
       if (impacts_[k].time > to + kImpactMargin) break;
       if (impacts_[k].time < from - kImpactMargin) continue;
@@ -185,7 +185,7 @@ class Growth {
     return false;
   }
 
-  // What the method adds to the bounds from one sample of the truth to the next, without what it had before.
+  // Returns the growth of the bounds due to the method, from one sample of the truth to the next.
   Parts growth_of(std::size_t body, const BodyState& before, const BodyState& after, double from, double to) {
     const double span = to - from, h = substep();
     Differences& last = differences_[body];
@@ -223,7 +223,7 @@ class Growth {
     return growth;
   }
 
-  // What a law makes of the errors that there are: their share of its force, on velocity and spin.
+  // Adds the change of a law's force due to the existing errors, on velocity and spin.
   void feed_back(const Pull& pull, double span) {
     const Body& body = problem_.scene.bodies[pull.body];
     if (body.type != BodyType::Dynamic) return;
@@ -283,8 +283,8 @@ class Growth {
     }
   }
 
-  // Angular velocity a unit of jump: the arm of the impulse is off by what the contact's place is off. A
-  // disc's arm lies along the normal wherever it is hit.
+  // Returns angular velocity per unit of jump: the impulse's lever arm is off by the error of the contact
+  // point. A disc's arm lies along the normal for any contact point.
   double spin_of_arm(const Jump& jump, double delay, Vec2d position) const {
     const Body& body = problem_.scene.bodies[jump.body];
     if (body.fixed_rotation || body.type != BodyType::Dynamic) return 0;

@@ -5,10 +5,10 @@
 
 namespace plumb::harness {
 
-/// Where a figure was measured.
+/// Build and machine that a figure was measured with.
 struct Environment {
   std::string plumb_version;
-  std::string commit;    ///< "unknown" outside a git checkout; "+" is appended where files were changed
+  std::string commit;    ///< "unknown" outside a git checkout; "+" is appended if files were changed
   std::string compiler;  ///< "GNU 12.2.0"
   std::string flags;
   std::string build_type;  ///< "Release"
@@ -17,7 +17,7 @@ struct Environment {
   std::string date;  ///< UTC, ISO 8601
 };
 
-/// That of this program on this machine now.
+/// Returns the environment of this program on this machine, with the present time.
 Environment environment();
 
 std::string_view version();  ///< of plumb

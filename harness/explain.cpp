@@ -17,11 +17,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSeconds = 0.5;  // of wall time a measurement
+constexpr double kSeconds = 0.5;  // of wall time per measurement
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Steps the world at most `steps` times, within the time allowed; returns how many and how long.
+// Steps the world at most `steps` times within the time limit; returns the number of steps and the time.
 std::pair<int, double> advance(Simulation& world, int steps) {
   const Clock::time_point start = Clock::now();
   int done = 0;

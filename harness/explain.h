@@ -10,23 +10,23 @@
 
 namespace plumb::harness {
 
-/// What plumb does for a scene, why, and what share of a step each stage takes.
+/// Plan of plumb for a scene, its reasons, and the fraction of a step that each stage takes.
 struct Explanation {
   std::string scene;
   std::string engine;
   reference::Settings settings;
   Plan plan;               ///< with the time spent in each stage
-  int steps = 0;           ///< that were run to measure
+  int steps = 0;           ///< steps that were run to measure
   double nanoseconds = 0;  ///< all stages together
-  double ns_per_step = 0;  ///< wall time without the stages' clocks
+  double ns_per_step = 0;  ///< wall time measured with the stages' clocks off
 };
 
-/// The accuracy that `backend`, one of plumb's own, stands for. Throws `Error` (Unsupported) for another
-/// engine: plans exist only here.
+/// Returns the accuracy that `backend`, one of plumb's own, stands for. Throws `Error` (Unsupported) for
+/// another engine, because only plumb has plans.
 Accuracy accuracy_of(const reference::Backend& backend, const reference::StepSettings& settings);
 
-/// Compiles `scene` and runs it for `duration` s, but for no more than about a second of wall time, with the
-/// stages' clocks on. Throws `Error`.
+/// Compiles `scene` and runs it with the stages' clocks on, for `duration` s or about a second of wall time,
+/// whichever ends first. Throws `Error`.
 Explanation explain(const Scene& scene, const reference::Backend& backend,
                     const reference::StepSettings& settings, double duration);
 

@@ -61,7 +61,7 @@ void write_all(int file, const std::string& text) {
   }
 }
 
-// Address sanitizers reserve more than there is: under them memory is not limited.
+// Memory is not limited under address sanitizers, which reserve more than there is.
 void limit_memory(std::size_t bytes) {
 #if !defined(__SANITIZE_ADDRESS__)
   if (bytes == 0) return;
@@ -84,7 +84,7 @@ void limit_memory(std::size_t bytes) {
   if (nothing >= 0) dup2(nothing, STDIN_FILENO);
   dup2(output.write, STDOUT_FILENO);
   dup2(output.write, STDERR_FILENO);
-  // The first character says how it ended.
+  // The first character is the outcome: + for a result, - for an error.
   try {
     write_all(answer.write, "+" + work());
   } catch (const std::exception& error) {
@@ -95,7 +95,7 @@ void limit_memory(std::size_t bytes) {
   _exit(0);
 }
 
-// Reads what is there; false at the end of the file.
+// Reads the available bytes; false at the end of the file.
 bool drain(int file, std::string& text) {
   char buffer[65536];
   const ssize_t count = read(file, buffer, sizeof buffer);
@@ -140,7 +140,7 @@ struct Child {
   std::string text, printed;
   ChildLimits limits{0};
   Clock::time_point began, deadline;
-  std::size_t memory = 0;  // bytes, once it has been waited for
+  std::size_t memory = 0;  // bytes, known once it has been waited for
   bool open = true;
 
   Child() = default;
@@ -150,7 +150,7 @@ struct Child {
     if (process > 0) wait();
   }
 
-  // Kills it with what it has started; returns how it ended.
+  // Kills the process and all that it has started; returns its status.
   int wait() {
     if (open) kill(-process, SIGKILL);
     int status = 0;
@@ -181,12 +181,12 @@ std::unique_ptr<Child> start(std::size_t index, const std::function<std::string(
   return child;
 }
 
-// Waits for any of the children to say something and takes it down.
+// Waits for output of any of the children and stores it.
 void listen(const std::vector<std::unique_ptr<Child>>& children) {
   std::vector<pollfd> files;
   for (const auto& child : children) {
     files.push_back({child->answer.read, POLLIN, 0});
-    files.push_back({child->output.read, POLLIN, 0});  // one that is closed is -1, which poll passes over
+    files.push_back({child->output.read, POLLIN, 0});  // a closed one is -1, which poll skips
   }
   poll(files.data(), files.size(), 100);
   for (std::size_t i = 0; i < children.size(); ++i) {

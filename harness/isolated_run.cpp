@@ -59,7 +59,7 @@ Result failed(const Case& scene_case, const reference::Backend& backend,
   return result;
 }
 
-// A run that diverged by its engine's own account, marked like one that the harness caught.
+// Marks a run that its engine reported as diverged like one that the harness detected.
 void mark_diverged(Result& result) {
   if (result.status == Status::Diverged)
     result.checks.push_back({"finite", Oracle::Invariant, INFINITY, 1, false, {}});
@@ -78,7 +78,7 @@ CostSample sample_from(const std::string& text) {
   return sample;
 }
 
-// A line for the nanoseconds, one for the rough cost, and one for the result.
+// Returns a line for the nanoseconds, one for the rough cost, and one for the result.
 std::string work(const RunRequest& request) {
   double nanoseconds = 0;
   Result result;
@@ -101,7 +101,7 @@ std::string work(const RunRequest& request) {
 
 IsolatedRun described(const RunRequest& request) {
   IsolatedRun out;
-  // Asked here, so that what an engine's program says about itself is asked once and not by every child.
+  // Described here, so that an engine's program is queried once and not by every child.
   try {
     out.result = describe(*request.scene_case, *request.backend, request.settings);
   } catch (const std::exception& error) {

@@ -10,15 +10,15 @@
 
 namespace plumb::harness {
 
-/// A run, and what it takes to go on with it.
+/// Result of a run, and the figures needed to go on from it.
 struct IsolatedRun {
   Result result;
-  double nanoseconds = 0;  ///< that the engine spent on the whole run
+  double nanoseconds = 0;  ///< wall time that the engine took for the whole run
   bool interrupted = false;
-  std::optional<CostSample> rough;  ///< where it was asked for and the run is ok
+  std::optional<CostSample> rough;  ///< set if requested and the run is ok
 };
 
-/// A run that is to be made.
+/// Description of a run to be made.
 struct RunRequest {
   const Case* scene_case = nullptr;
   const reference::Backend* backend = nullptr;
@@ -27,18 +27,18 @@ struct RunRequest {
   std::optional<CostBudget> rough{};  ///< measures the cost once, in the same process
 };
 
-/// `run`, each in a process of its own and at most `jobs` at a time: an error, a crash or a hang becomes the
-/// result's status. `done` is called as they end.
+/// Calls `run` for each request in a process of its own, at most `jobs` at a time. An error, a crash or a
+/// hang becomes the result's status. `done` is called as they end.
 void run_isolated_all(std::span<const RunRequest> requests, int jobs, double seconds,
                       const std::function<void(std::size_t, IsolatedRun)>& done);
 
-/// One of them.
+/// Makes one such run.
 IsolatedRun run_isolated(const Case& scene_case, const reference::Backend& backend,
                          const reference::StepSettings& settings, Track* track, double seconds);
 
-/// `measure_cost` in a process of its own.
+/// Result of `measure_cost` in a process of its own.
 struct IsolatedCost {
-  std::optional<CostSample> sample;  ///< none where the process did not end well
+  std::optional<CostSample> sample;  ///< none if the process failed
   bool interrupted = false;
 };
 IsolatedCost measure_cost_isolated(const Case& scene_case, const reference::Backend& backend,

@@ -16,7 +16,7 @@ Vec2d anchor_of(const JointGaps::End& end, std::span<const BodyState> states) {
   return state.position + rotation_of(state.angle) * end.anchor;
 }
 
-/// The anchors of a joint where they are now, and body a's angle.
+/// Current anchors of a joint, and body a's angle.
 struct Placed {
   Vec2d a, b;
   double angle_a;
@@ -30,7 +30,7 @@ double outside(const std::optional<Range>& range, double value) {
   return range ? std::max({range->lower - value, value - range->upper, 0.0}) : 0;
 }
 
-// How far b's anchor is from the stretch of a's axis that it may be on.
+// Returns the distance of b's anchor from the allowed part of a's axis.
 double off_axis(const auto& joint, const Placed& at) {
   const Vec2d axis = (1 / magnitude(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
   return std::hypot(cross(axis, way), outside(joint.limits, dot(axis, way)));

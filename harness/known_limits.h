@@ -7,9 +7,8 @@
 namespace plumb::harness {
 
 /// Bounds that an engine is known to miss, and why. Declared for the default settings at dt = 1/60. In each
-/// pattern
-/// '*' stands for anything and '|' parts alternatives; every check that the patterns cover has to miss its
-/// bound.
+/// pattern '*' stands for anything and '|' separates alternatives. Every check that the patterns cover has to
+/// miss its bound.
 struct KnownLimit {
   std::string_view engine;    ///< "box2d", "bullet*"
   std::string_view instance;  ///< labels: "pendulum_chain[20]|pendulum_chain[100]"
@@ -18,14 +17,15 @@ struct KnownLimit {
   bool elsewhere_only = false;  ///< not at the default settings
 };
 
-/// All of them: the one place.
+/// Returns all known limits; they are declared nowhere else.
 std::span<const KnownLimit> known_limits();
 
-/// The first that speaks of this check at the default settings (`defaults`) or at others; null if none does.
+/// Returns the first that covers this check at the default settings (`defaults`) or at others; null if none
+/// does.
 const KnownLimit* find_known_limit(std::span<const KnownLimit> limits, std::string_view engine,
                                    std::string_view instance, std::string_view check, bool defaults);
 
-/// Whether `text` is what one of the alternatives in `pattern` says.
+/// Returns true if `text` matches one of the alternatives in `pattern`.
 bool matches(std::string_view pattern, std::string_view text);
 
 }  // namespace plumb::harness

@@ -9,7 +9,7 @@
 namespace plumb::harness {
 namespace {
 
-// "a|b" as "`a`, `b`".
+// Formats "a|b" as "`a`, `b`".
 std::string code_list(std::string_view pattern) {
   std::string out;
   while (true) {

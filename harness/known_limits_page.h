@@ -4,7 +4,7 @@
 
 namespace plumb::harness {
 
-/// docs/known-limits.md: every declared limit, in Markdown.
+/// Returns docs/known-limits.md: every declared limit, in Markdown.
 std::string known_limits_page();
 
 }  // namespace plumb::harness

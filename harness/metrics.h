@@ -6,8 +6,8 @@
 
 namespace plumb::harness {
 
-/// How far a run is from the truth and from the laws of physics: the largest figures over all bodies and
-/// every step's sample. Absent where the figure has no meaning for the scene.
+/// Distance of a run from the truth and from the laws of physics: the largest figures over all bodies and
+/// every step's sample. Absent if the figure has no meaning for the scene.
 struct Metrics {
   std::optional<double> position_error;  ///< m
   std::optional<double> angle_error;     ///< rad
@@ -16,8 +16,8 @@ struct Metrics {
   std::optional<double> energy_drift;            ///< relative to the energy scale; see `EnergyMeter`
   std::optional<double> momentum_drift;          ///< relative to the largest sum of the bodies' |m v|
   std::optional<double> angular_momentum_drift;  ///< relative to the largest sum of the bodies' |L|
-  std::optional<double> joint_gap;               ///< m, how far a joint's anchors are from where they belong
-  std::optional<double> penetration;             ///< m, depth of the deepest overlap of two shapes
+  std::optional<double> joint_gap;               ///< m, largest violation of a joint's rigid constraints
+  std::optional<double> penetration;             ///< m, deepest penetration of two shapes
 };
 
 /// A metric by name, for tables and files.

@@ -15,7 +15,7 @@ bool finite(const BodyState& s) {
          std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
 }
 
-// NaN is larger than all, and stays.
+// Raises `largest` to `value`. NaN counts as larger than all, and stays.
 void raise(std::optional<double>& largest, double value) {
   if (!largest || std::isnan(value) || value > *largest) largest = value;
 }
@@ -155,7 +155,7 @@ void Observer::finish(Result& result) const {
     if (worst.any()) result.checks.push_back(worst.check(name, oracle));
   };
   put("finite", Oracle::Invariant, finite_);
-  if (diverged()) return;  // the rest stands for a part of the run only
+  if (diverged()) return;  // figures of a partial run would mislead
   put("position_error", Oracle::Exact, position_);
   put("angle_error", Oracle::Exact, angle_);
   put("velocity_error", Oracle::Exact, velocity_);

@@ -14,8 +14,8 @@
 
 namespace plumb::harness {
 
-/// Watches a run sample by sample and measures it: metrics, checks, and the track for comparing engines.
-/// Keeps no trajectory, so its memory does not grow with the run.
+/// Measures a run sample by sample: metrics, checks, and the track for comparing engines. Keeps no
+/// trajectory, so its memory does not grow with the run.
 class Observer {
  public:
   Observer(const Case& scene_case, const reference::Method& method, const reference::StepSettings& settings,
@@ -24,7 +24,7 @@ class Observer {
   void add(int sample, std::span<const BodyState> states);
 
   bool diverged() const { return !why_diverged_.empty(); }
-  /// Writes metrics, checks and, where it diverged, status and reason.
+  /// Writes metrics and checks and, if the run diverged, status and reason.
   void finish(Result& result) const;
 
  private:

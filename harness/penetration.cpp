@@ -54,7 +54,7 @@ PenetrationMeter::PenetrationMeter(const Scene& scene) {
         joint);
   }
   possible_ = moves && entries_.size() > 1 && any_pair_passes(filters);
-  if (possible_ && entries_.size() <= 64) {  // small enough to ask every pair
+  if (possible_ && entries_.size() <= 64) {  // small enough to test every pair
     possible_ = false;
     for (std::size_t i = 0; i < entries_.size(); ++i)
       for (std::size_t j = i + 1; j < entries_.size(); ++j)
@@ -83,7 +83,7 @@ double PenetrationMeter::deepest(std::span<const BodyState> states) {
   if (!possible_) return 0;
   place(states);
   double deepest = 0;
-  std::vector<const Entry*> open;  // shapes whose interval along x is not over yet
+  std::vector<const Entry*> open;  // shapes whose interval along x still extends
   for (const Entry& entry : entries_) {
     std::erase_if(open, [&](const Entry* other) { return other->high < entry.low; });
     for (const Entry* other : open) {

@@ -11,17 +11,16 @@
 
 namespace plumb::harness {
 
-/// Finds the deepest overlap among the shapes that may touch, by sort and sweep along x (Baraff 1992): the
-/// order is kept from one sample to the next, so that a sample costs little more than one pass over the
-/// shapes.
+/// Finds the deepest penetration among the shapes that may touch, by sort and sweep along x (Baraff 1992).
+/// The order is kept from sample to sample, so that a sample costs little more than one pass over the shapes.
 class PenetrationMeter {
  public:
   explicit PenetrationMeter(const Scene& scene);
 
-  /// Whether any two shapes may touch at all.
+  /// Returns true if any two shapes may touch at all.
   bool possible() const { return possible_; }
 
-  /// Depth of the deepest overlap, m, >= 0.
+  /// Returns the depth of the deepest penetration, m, >= 0.
   double deepest(std::span<const BodyState> states);
 
  private:

@@ -99,7 +99,7 @@ Json result_json(const Result& result) {
           {"unexpected", result.unexpected}};
 }
 
-// Engines' messages may hold anything; JSON holds only UTF-8.
+// Replaces invalid bytes: engines' messages may hold anything, JSON holds only UTF-8.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Cost cost_from(const Json& json) {

@@ -18,21 +18,21 @@ enum class Status {
   Skipped,   ///< the engine cannot run this scene, or is not installed
   Failed,    ///< the engine reported an error
   Crashed,   ///< the engine's process died
-  Timeout,   ///< the run took longer than it may
-  Diverged,  ///< a state that is not finite, or a thousand times the scene's extent away from the truth
+  Timeout,   ///< the run exceeded its time limit
+  Diverged,  ///< a state that is non-finite, or a thousand times the scene's extent away from the truth
 };
 
 std::string_view name_of(Status status);
 
-/// Wall time, median of repetitions that took turns with the other engines' on the same scene.
+/// Wall time, as the median of repetitions that took turns with the other engines' on the same scene.
 struct Cost {
   double ns_per_step = 0;  ///< a step is one dt, with all its substeps; no sampling, no transport
   double ns_per_step_low = 0,
-         ns_per_step_high = 0;  ///< the middle half of the repetitions lies between these
+         ns_per_step_high = 0;  ///< the interquartile range of the repetitions
   double ns_per_simulated_second = 0;
   double setup_ns = 0;  ///< from the scene to the first step
   int repetitions = 0;
-  int steps = 0;                           ///< steps a repetition, from the start of the run
+  int steps = 0;                           ///< steps per repetition, from the start of the run
   std::vector<double> each_ns_per_step{};  ///< of every repetition, in the order in which they were measured
 };
 
@@ -44,8 +44,8 @@ struct Result {
   std::string engine, engine_version, precision;
   double dt = 0;                    ///< s
   double duration = 0;              ///< s
-  std::string truth;                ///< where the exact answer comes from
-  reference::StepSettings asked{};  ///< what the run was asked for: the same again gives the same run
+  std::string truth;                ///< source of the exact answer
+  reference::StepSettings asked{};  ///< requested settings: the same again gives the same run
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok
@@ -53,18 +53,18 @@ struct Result {
   std::optional<Cost> cost;
   std::vector<Check> checks;
   std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
-  std::vector<std::string> unexpected;                   ///< what makes the run fail, as sentences
+  std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;
 };
 
-/// What is wrong with `result` beyond what is declared: checks missed without a declared limit and statuses
-/// that are neither ok nor skipped. Also marks missed checks that are declared, and, where `defaults` says
-/// that the run used the settings that limits are declared for, declared limits that have gone.
+/// Lists the deviations of `result` from the declarations: checks missed without a declared limit, and a run
+/// that failed, crashed or timed out. Also marks missed checks that are declared. If `defaults` says that the
+/// run used the settings of the declarations, it also lists declared limits that are no longer missed.
 void judge(Result& result, bool defaults, std::span<const KnownLimit> limits = known_limits());
 
-/// As one line of JSON, without and with the environment. `result_from_json` reads either.
+/// Converts to one line of JSON, without and with the environment. `result_from_json` reads either.
 std::string to_json(const Result& result);
 std::string to_json_with_environment(const Result& result);
 Result result_from_json(std::string_view text);

@@ -4,8 +4,8 @@
 
 namespace plumb::harness {
 
-/// A circle or a box where it is now. Written for measuring, apart from the engine's own geometry, so that
-/// one does not hide the other's mistakes.
+/// A circle or a box at its present pose. Written for measuring only: sharing the engine's geometry would
+/// hide its mistakes.
 struct PlacedShape {
   bool is_circle = true;
   Vec2d centre{};          ///< m
@@ -14,11 +14,11 @@ struct PlacedShape {
   double half_height = 0;  ///< m; of a circle its radius
 };
 
-/// Half the extent of `shape` along the unit vector `direction`, m.
+/// Returns half the extent of `shape` along the unit vector `direction`, m.
 double half_extent(const PlacedShape& shape, Vec2d direction);
 
-/// How deep two shapes overlap, m: the shortest way that parts them; negative or zero when they do not touch.
-/// Box against box by separating axes (Gottschalk, Lin, Manocha 1996).
+/// Returns the depth of penetration of two shapes, m: the shortest displacement that separates them; negative
+/// or zero if they do not touch. Box against box by separating axes (Gottschalk, Lin, Manocha 1996).
 double overlap(const PlacedShape& a, const PlacedShape& b);
 
 }  // namespace plumb::harness

@@ -22,7 +22,7 @@ struct Pair {
   const Result* theirs;
 };
 
-/// Theirs over ours, over all instances: above 1 plumb is better.
+/// Ratios of theirs to ours, over all instances: above 1 plumb is better.
 struct Ratios {
   std::vector<double> values;
   int better = 0, equal = 0, worse = 0;
@@ -36,7 +36,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : std::sqrt(values[middle - 1] * values[middle]);
 }
 
-// "12 x", "1.1e3 x"
+// Formats a ratio: "12 x", "1.1e3 x".
 std::string times(double ratio) {
   if (ratio < 1000) return fmt::format("{:.3g} x", ratio);
   const double power = std::floor(std::log10(ratio));
@@ -98,7 +98,7 @@ std::string costs(const std::vector<Pair>& pairs) {
   return text + "\n";
 }
 
-// Where one of the two has no figures.
+// Lists the scenes without results of the rival.
 std::string not_compared(std::span<const Result> results, const std::string& rival) {
   std::string text;
   for (const Result& result : results) {

@@ -8,12 +8,12 @@
 
 namespace plumb::harness {
 
-/// How plumb (Realtime, double) stands to each rival over all results at the same dt: first where it is
-/// worse, then by how much it is better. Then how many runs were as expected. Figures below `kRoundingFloor`
-/// count as equal.
+/// Compares plumb (Realtime, double) with each rival over all results at the same dt: first where it is
+/// worse, then by how much it is better. Ends with the number of runs that were as expected. Figures below
+/// `kRoundingFloor` count as equal.
 std::string summary(std::span<const Result> results, const Style& style);
 
-/// In SI units: what double rounding leaves of a scene of some metres and seconds.
+/// Error floor in SI units: rounding errors in double for a scene of some metres and seconds.
 inline constexpr double kRoundingFloor = 1e-12;
 
 }  // namespace plumb::harness

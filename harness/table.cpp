@@ -45,7 +45,7 @@ std::vector<Column> all_columns() {
            duration_text, 0, true}};
 }
 
-// Columns that have something to say, as many as fit.
+// Returns the columns with any figures, as many as fit.
 std::vector<Column> columns_for(std::span<const Result> results, int width) {
   std::vector<Column> columns;
   for (Column& column : all_columns()) {
@@ -76,14 +76,15 @@ struct Note {
   std::string engines, text, key;
 };
 
-/// What a row says about agreement, and the footnote that explains it.
+/// Summary of a row's checks, with the footnote that explains it.
 struct Verdict {
   std::string text;
   Ink ink = Ink::Plain;
   std::string note{};
 };
 
-// Every known limit of a result with the checks that it covers: equal for results that may share a footnote.
+// Returns every known limit of a result with the checks that it covers: equal for results that may share a
+// footnote.
 std::string key_of(const Result& result) {
   if (!result.unexpected.empty() || result.status != Status::Ok) return "only " + result.engine;
   std::string key;
@@ -92,7 +93,7 @@ std::string key_of(const Result& result) {
   return key;
 }
 
-// The letter of the note, which is made where there is none like it.
+// Returns the letter of the note, adding it if there is none like it.
 char refer_to(std::vector<Note>& notes, const Result& result, const std::string& text) {
   const std::string key = key_of(result);
   const auto same =
@@ -121,7 +122,7 @@ std::string kind_name(Oracle oracle) {
   return std::string(name_of(oracle));
 }
 
-// The kinds of checks of a result that all passed, or that some missed.
+// Lists the kinds of checks that all passed, or of which some failed.
 std::string kinds(const Result& result, bool passed) {
   std::string text;
   for (const Oracle oracle : {Oracle::Exact, Oracle::Discrete, Oracle::Invariant, Oracle::Self}) {

@@ -23,7 +23,7 @@ constexpr std::size_t kLargest = std::size_t{1} << 30;  // bytes
 
 std::string named(const std::string& path) { return fmt::format("file '{}'", path); }
 
-/// Empty when all was written, or what went wrong.
+/// Returns an empty string if all was written, or else the error.
 std::string write_to(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   if (file) file << text;
@@ -50,7 +50,7 @@ std::string read_text(std::istream& in, const std::string& subject) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
     if (text.size() > kLargest) fail(subject, "has more than 1 GiB, and is not read any further");
   }
-  // Standard input is read through stdio, which keeps the error to itself.
+  // Standard input is read through stdio, whose errors the stream does not show.
   if (in.bad() || (&in == &std::cin && std::ferror(stdin) != 0))
     fail(subject, fmt::format("cannot be read to its end: {}", std::strerror(errno)));
   return text;
@@ -60,7 +60,7 @@ void write_whole(const std::string& path, const std::string& text) {
   std::error_code code;
   const std::filesystem::file_status there = std::filesystem::status(path, code);
   const bool replaced = !std::filesystem::exists(there) || std::filesystem::is_regular_file(there);
-  // Where a link leads, so that it stays one.
+  // Write to a link's target, so that the link is kept.
   std::filesystem::path place = path;
   if (replaced) place = std::filesystem::weakly_canonical(path, code);
   const std::string target = code ? path : place.string();

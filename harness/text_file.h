@@ -5,14 +5,14 @@
 
 namespace plumb::harness {
 
-/// All of a file. Throws `Error` (Io) for one that is not there, is a folder or does not end (more than
-/// 1 GiB); `advice` follows what is said of the first two.
+/// Reads a whole file. Throws `Error` (Io) if it does not exist, is a folder or has more than 1 GiB; `advice`
+/// is appended to the message for the first two.
 std::string read_text(const std::string& path, const std::string& advice = "");
-/// Likewise of what is open already; `subject` is what errors name.
+/// Reads an open stream in the same way; errors name `subject`.
 std::string read_text(std::istream& in, const std::string& subject);
 
-/// Writes a file so that it is there whole or not at all; what is no file, like a pipe or a device, is
-/// written to. Throws `Error` (Io).
+/// Writes a file whole or not at all; writes directly to anything else, like a pipe or a device. Throws
+/// `Error` (Io).
 void write_whole(const std::string& path, const std::string& text);
 
 }  // namespace plumb::harness

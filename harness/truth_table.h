@@ -10,26 +10,26 @@
 
 namespace plumb::harness {
 
-/// How many samples of dt lie in a run: t = 0, dt, 2 dt, ... up to the duration.
+/// Returns the number of steps of dt in a run: samples lie at t = 0, dt, 2 dt, ... up to the duration.
 int step_count(double duration, double dt);
 
-/// Length, speed and time that the truth reaches: what rounding and divergence are measured in.
+/// Largest length, speed and time of the truth: the units of rounding and divergence.
 struct Scale {
   double length = 0;         ///< m, largest |coordinate| of a body's centre
-  double extent = 0;         ///< m, of the scene: spread of the bodies with their shapes, and the way they go
+  double extent = 0;         ///< m, of the scene: extent of all positions of the bodies with their shapes
   double speed = 0;          ///< m/s
   double angle = 0;          ///< rad, largest |angle|, at least pi
   double angular_speed = 0;  ///< rad/s
   double impact_spin =
-      0;  ///< rad/s, what the impacts would add to a spin were their arms off by length + extent
+      0;  ///< rad/s, spin that the impacts would add if their arms were off by length + extent
   double joint_length =
-      0;                 ///< m, length + extent where there are joints: their gaps are differences of these
+      0;  ///< m, length + extent if there are joints: their gaps are differences of such coordinates
   double joint_arm = 1;  ///< m, from a body's centre to the nearest of its joints
   double duration = 0;   ///< s
 };
 
-/// The exact states of all bodies, evaluated once and then shared by every engine's run: on each step's
-/// sample and on a finer grid between them, from which the truth's accelerations are taken.
+/// Exact states of all bodies, evaluated once and shared by every engine's run. They lie on each step's
+/// sample and on a finer grid between, from which the truth's accelerations are computed.
 class TruthTable {
  public:
   /// Throws `Error` (Run) when interrupted.
@@ -43,9 +43,9 @@ class TruthTable {
   const Scale& scale() const { return scale_; }
   const std::vector<Impact>& impacts() const { return impacts_; }
 
-  /// At t = sample * dt.
+  /// Returns the states at t = sample * dt.
   std::span<const BodyState> at(int sample) const { return fine(static_cast<long>(sample) * refinement_); }
-  /// At t = index * dt / refinement.
+  /// Returns the states at t = index * dt / refinement.
   std::span<const BodyState> fine(long index) const;
   double fine_time(long index) const;
 

@@ -13,7 +13,7 @@
 
 namespace plumb::reference {
 
-/// What a run asks of an engine; what is absent is the engine's own default.
+/// Step settings of a run. The engine uses its own default for each one that is absent.
 struct StepSettings {
   double dt = 1.0 / 60;                          ///< s, > 0; also the sampling grid of an adaptive engine
   std::optional<int> substeps{};                 ///< equal parts of dt, >= 1
@@ -45,8 +45,9 @@ struct Identity {
   std::string reason{};  ///< why it is not available and what to install
 };
 
-/// How an engine's time stepping works: what error bounds are derived from. `SoftStep`: semi-implicit Euler
-/// with constraints as damped springs, in which bodies that nothing holds move by the midpoint method.
+/// An engine's time stepping method, from which error bounds are derived. `SoftStep`: semi-implicit Euler
+/// with constraints as damped springs, in which bodies without active constraints move by the midpoint
+/// method.
 enum class Scheme { ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4, SoftStep, Adaptive };
 
 struct Method {
@@ -54,7 +55,7 @@ struct Method {
   int order = 1;                  ///< of the global error in the substep; 0: adaptive, meets a tolerance
   double substep = 1.0 / 60;      ///< s
   double epsilon = 1.1920929e-7;  ///< unit roundoff of its state
-  bool follows_springs = false;   ///< takes shorter substeps where force laws are stiff: none is lost
+  bool follows_springs = false;   ///< shortens substeps for stiff force laws, so that none is lost
 };
 
 /// An adapter: translates a Scene to one engine. Adapters hold no state of their own.
@@ -67,16 +68,17 @@ class Backend {
   virtual Identity identity() const = 0;
   virtual std::vector<Option> options() const { return {}; }
 
-  /// What a sweep turns besides dt. The first run is always with the engine's defaults.
+  /// Returns the settings that a sweep varies besides dt. Its first run always uses the engine's defaults.
   virtual std::vector<Knob> knobs() const { return {}; }
 
   /// Throws `Error` for settings that this engine cannot take.
   virtual Method method(const StepSettings& settings) const = 0;
 
-  /// Empty, or why this engine cannot run `scene`: "skipped: reason", never other physics.
+  /// Returns the reason why this engine cannot run `scene`, or empty. Such scenes are skipped, never
+  /// approximated.
   virtual std::string unsupported(const Scene& scene, const StepSettings& settings) const = 0;
 
-  /// What the adapter chose, defaults included: equalised rules, thresholds, iterations.
+  /// Returns the settings in effect, defaults included: equalised rules, thresholds, iterations.
   virtual Settings effective_settings(const Scene& scene, const StepSettings& settings) const = 0;
 
   /// Sets the engine up with a valid and supported `scene`. Throws `Error`.

@@ -3,8 +3,8 @@
 //! link: box2d::box2d
 //! missing: Box2D 2.4 was not found; install libbox2d-dev and build again
 
-// Box2D 2.4 in float. Its own rules for contacts are replaced by the scene's; what is compiled in (slop,
-// skin, clamps) is printed among the effective settings.
+// Box2D 2.4 in float. The scene's contact rules replace its own. Compiled-in constants (slop, skin, clamps)
+// are printed among the effective settings.
 #include <box2d/box2d.h>
 
 #include <chrono>
@@ -50,7 +50,7 @@ class ContactRulesOfScene final : public b2ContactFilter, public b2ContactListen
     return may_touch(shape_of(a).filter, shape_of(b).filter);
   }
 
-  // What is set when two shapes begin to touch holds until they part.
+  // Sets the scene's friction and restitution; Box2D keeps them until the shapes separate.
   void BeginContact(b2Contact* contact) override {
     const Shape& a = shape_of(contact->GetFixtureA());
     const Shape& b = shape_of(contact->GetFixtureB());
@@ -181,7 +181,7 @@ class Box2dSimulator final : public Simulator {
     b2ChainShape out;
     if (chain.closed) {
       out.CreateLoop(points.data(), count);
-    } else {  // straight on at the ends
+    } else {  // continues straight at both ends
       const b2Vec2 before = 2 * points[0] - points[1], after = 2 * points[count - 1] - points[count - 2];
       out.CreateChain(points.data(), count, before, after);
     }
@@ -206,7 +206,7 @@ class Box2dSimulator final : public Simulator {
     return fixed_frame_;
   }
 
-  // As a user of Box2D does it: forces of the state at the step's start, held for the step.
+  // Evaluates forces at the step's start and holds them for the step, as users of Box2D do.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.exact_substep;
     forces_.apply(

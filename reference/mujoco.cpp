@@ -38,8 +38,8 @@ struct MujocoSettings {
   Stepper stepper = Stepper::RungeKutta4;
 };
 
-/// The mechanism as MuJoCo's own XML, with all bodies at angle 0: its coordinates are then the scene's. The
-/// reader of XML nests a hundred elements in a file, so that long chains are continued in further ones.
+/// Writes the mechanism as MJCF with all bodies at angle 0, so that its coordinates equal the scene's. The
+/// XML reader nests at most a hundred elements per file, so long chains continue in included files.
 class Writer {
  public:
   Writer(const Scene& scene, const std::vector<Link>& links, const MujocoSettings& settings)
@@ -71,7 +71,7 @@ class Writer {
     const Link& link = links_[i];
     const Body& body = scene_.bodies[link.body];
     const Vec2d at = link.hinged ? link.parent_anchor - link.anchor : Vec2d{};
-    // Only the moment about z matters; a body that cannot turn gets any.
+    // Only the inertia about z matters; for a body with fixed rotation any value does.
     const double inertia = body.fixed_rotation ? body.mass : inertia_of(body);
     files_[file] += fmt::format(
         "<body name='{0}' pos='{1} {2} 0'><inertial pos='0 0 0' mass='{3}' diaginertia='{4} {4} {4}'/>", i,
@@ -140,7 +140,7 @@ class MujocoSimulator final : public Simulator {
       mujoco_body_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, std::to_string(i).c_str()));
       set_start(links_[i], mujoco_body_.back());
     }
-    // Warnings would go to a file; what they say is looked up in `data_`. Errors would end the program.
+    // By default warnings go to a file and errors end the program. Warnings are read from `data_` instead.
     mju_user_warning = [](const char*) {};
     mju_user_error = [](const char* problem) {
       throw Error(Error::Kind::Run, "engine 'mujoco'", "", "", problem);
@@ -148,7 +148,7 @@ class MujocoSimulator final : public Simulator {
   }
 
   double advance(int steps) override {
-    // MuJoCo asks for forces by a global function.
+    // MuJoCo evaluates forces through a global callback.
     acting_ = forces_.empty() ? nullptr : this;
     mjcb_passive = forces_.empty() ? nullptr : add_forces;
     const auto start = std::chrono::steady_clock::now();
@@ -168,7 +168,7 @@ class MujocoSimulator final : public Simulator {
   double time() const override { return static_cast<double>(substeps_done_) * settings_.substep; }
 
   void read(std::span<BodyState> out) const override {
-    // What lies in `data_` besides coordinates is of the last evaluation.
+    // Recomputes poses and velocities: a step updates only the coordinates in `data_`.
     mj_fwdPosition(model_.get(), data_.get());
     mj_fwdVelocity(model_.get(), data_.get());
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) out[i] = state_of_body(i, time());
@@ -225,7 +225,7 @@ class MujocoSimulator final : public Simulator {
     return sum;
   }
 
-  /// At every stage of a step, so that laws which depend on the motion keep the method's order.
+  /// Adds forces at every stage of a step, so that laws which depend on the motion keep the method's order.
   static void add_forces(const mjModel* model, mjData* data) {
     MujocoSimulator& self = *acting_;
     const double start = self.step_start_, end = start + self.settings_.substep;

@@ -63,7 +63,7 @@ class PlumbSimulator final : public Simulator {
   Simulation world_;
 };
 
-/// What the three backends have in common: settings become an Accuracy, and the Simulation does the rest.
+/// Base of the three backends: converts settings to an Accuracy, with which a Simulation runs the scene.
 class PlumbBackend : public Backend {
  public:
   PlumbBackend(std::string_view name, std::string_view summary, Precision precision)
@@ -147,7 +147,7 @@ class RealtimeBackend final : public PlumbBackend {
 
   Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
     const Realtime chosen = realtime(settings);
-    // Towers may have more, which shows when they are seen.
+    // The run may raise this for towers, which it detects later.
     Settings out{{"dt", shortest(chosen.dt)},
                  {"substeps", std::to_string(plan_realtime(scene, chosen, false).substeps)},
                  {"integrator", std::string(name_of(chosen.integrator))},

@@ -55,7 +55,7 @@ class WorldSimulator final : public Simulator {
     WorldDefinition definition = world_definition(scene);
     definition.sleeping = settings.sleeping;
     definition.continuous = settings.continuous;
-    definition.quarantine = false;  // an answer without one of the bodies is none
+    definition.quarantine = false;  // all bodies must take part in the answer
     definition.solver = settings.solver;
     return definition;
   }
@@ -119,7 +119,7 @@ class WorldBackend final : public Backend {
   }
 
  private:
-  // A World refuses numbers beyond these.
+  // A World rejects numbers outside these limits.
   static constexpr Range kWorldRange{
       .smallest = 1e-12, .largest = 1e12, .smallest_inertia = 1e-30, .largest_inertia = 1e30};
 

@@ -11,24 +11,24 @@
 /// Engines that run as programs of their own, in any language: docs/protocol.md.
 namespace plumb::reference {
 
-/// What is let an engine's program.
+/// Limits on an engine's program.
 struct ProcessLimits {
   double seconds = 30;                 ///< for each line of an answer, and for the program to take a request
   std::size_t line_bytes = 64u << 20;  ///< longest line of a run, where states grow with the bodies
-  /// Longest line of any other answer: greetings and settings take a few thousand, and what is read of them
-  /// is printed.
+  /// Longest line of any other answer. Hello and settings take a few thousand bytes, and their content is
+  /// printed.
   std::size_t answer_bytes = 1u << 20;
 };
 
-/// A program that did not keep to the protocol. `what()` names the engine, what it was asked, what it did
-/// instead and the last lines of its stderr.
+/// A program's violation of the protocol. `what()` names the engine, the request, the problem and the last
+/// lines of its stderr.
 class ProcessError : public Error {
  public:
   enum class Fault {
     Start,     ///< it cannot be started (kind Io)
     Timeout,   ///< it did not answer in time
-    Crash,     ///< it ended, by a signal or an exit, where an answer was due
-    Protocol,  ///< it answered, but not with what docs/protocol.md asks for
+    Crash,     ///< it ended by a signal or an exit while an answer was expected
+    Protocol,  ///< its answer violates docs/protocol.md
     Diverged,  ///< a state that is not finite
   };
 

@@ -26,11 +26,12 @@ class Simulator {
   /// The state of every body, in the scene's order; `out` has one element a body.
   virtual void read(std::span<BodyState> out) const = 0;
 
-  /// What the engine says that it did so far, as name/value pairs: steps, events, its own estimate of its
-  /// error. Empty where it says nothing.
+  /// Returns the engine's own statistics so far, as name/value pairs: steps, events, estimated error.
+  /// Empty if it has none.
   virtual std::vector<std::pair<std::string, std::string>> report() const { return {}; }
 
-  /// Advances by `samples` times `every` steps and hands over the states after each. Returns ns as `advance`.
+  /// Advances `samples` times by `every` steps and passes each resulting state to `sink`. Returns ns as
+  /// `advance`.
   virtual double record(int samples, int every, std::size_t bodies, const Sink& sink);
 
   /// The forces of joints and contacts now. Throws `Error` (Unsupported) where the engine has none to show.

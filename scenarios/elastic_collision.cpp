@@ -5,8 +5,8 @@
 #include "scenarios/scenario.h"
 #include "scenarios/truth/billiard.h"
 
-// Discs that collide in free space: what is left after an impact depends on masses, restitution and the
-// normal at the moment of contact, and on nothing else. No contact falls on a step of 1/60 or 1/240 s.
+// Discs that collide in free space. The velocities after an impact depend only on masses, restitution and the
+// normal at the moment of contact. No contact falls on a step of 1/60 or 1/240 s.
 namespace plumb::scenarios {
 namespace {
 
@@ -28,8 +28,8 @@ Scene balls(std::string_view variant, double restitution, const std::vector<Ball
   return scene;
 }
 
-/// A light disc hits a heavy one, and a heavy one hits a light one: v1' = (m1 - m2)/(m1 + m2) v and
-/// v2' = 2 m1/(m1 + m2) v. The two pairs never meet.
+/// A light disc hits a heavy one, and a heavy one hits a light one: v1' = (m1 - m2)/(m1 + m2) v and v2' = 2
+/// m1/(m1 + m2) v. The two pairs do not interact.
 Scene head_on(std::string_view variant, double ratio) {
   return balls(variant, 1,
                {{"light", 1, 0.5, {-2.53, 3}, {2.25, 0}},
@@ -87,8 +87,8 @@ Problem build(std::string_view variant, int) {
   problem.conserved = {
       .energy = restitution == 1, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
 
-  // Head-on, the normal never changes and only rounding is left; off-centre it depends on where the discs
-  // meet.
+  // Head-on the normal is constant, so only rounding errors remain; off-centre it depends on the time of
+  // contact.
   double fastest = 0;
   for (const Body& body : problem.scene.bodies)
     fastest = std::max(fastest, std::sqrt(length_squared(body.velocity)));
@@ -102,7 +102,8 @@ Problem build(std::string_view variant, int) {
                      .momentum = digits,
                      .angular_momentum = 1e-12,
                      .penetration = 1e-10};
-  // Flights are straight, and an impact that is placed inside its substep leaves no error of the step.
+  // Paths between impacts are straight, so a method that places impacts within the substep has no error of
+  // the step.
   problem.second_order = {.position = 0,
                           .angle = 0,
                           .velocity = 0,

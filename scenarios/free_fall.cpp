@@ -5,9 +5,8 @@
 #include "scenarios/truth/motion.h"
 #include "scenarios/truth/stepping.h"
 
-// Free fall and throws, in a vacuum and through air: the first thing that an engine does, and the first that
-// the step size spoils. Source of the closed forms: any mechanics text, e.g. Taylor, Classical Mechanics,
-// ch. 2.
+// Free fall and throws, in a vacuum and through air: the basic task of an engine, and the first affected by
+// the step size. Source of the closed forms: any mechanics text, e.g. Taylor, Classical Mechanics, ch. 2.
 namespace plumb::scenarios {
 namespace {
 
@@ -25,7 +24,7 @@ Body body(std::string name, double mass, Vec2d position, Vec2d velocity, double 
           .shapes = {untouchable(geometry)}};
 }
 
-/// Galileo: every mass falls alike, whether it is thrown or spins. Conserved: energy and horizontal momentum.
+/// Galileo: every mass falls alike, even if thrown or spinning. Conserved: energy and horizontal momentum.
 Problem vacuum() {
   Problem problem{.scene = {.name = "free_fall/vacuum"}, .duration = kDuration};
   Scene& scene = problem.scene;
@@ -46,7 +45,7 @@ Problem vacuum() {
                    .discrete = discrete_constant(start, std::vector(start.size(), fall))};
   problem.conserved = {.energy = true, .momentum_x = true};
 
-  // Relative 1e-13 of the fall g T^2/2, of the speed g T and of the turns made.
+  // Relative 1e-13 of the fall g T^2/2, of the speed g T and of the rotation.
   const double speed = 9.81 * kDuration;
   problem.precise = {.position = 1e-13 * speed * kDuration / 2,
                      .angle = 1e-13 * 7 * kDuration,
@@ -101,7 +100,7 @@ Problem drag() {
       out[i] = rounded(through_linear_drag(start[i], mass[i], linear[i], gravity, time));
     out[2] = rounded(through_quadratic_drag(start[2], mass[2], quadratic, -gravity.y, time));
   };
-  // v' = v + h (g + F(v)/m): the force is that of the velocity at the start of the step.
+  // v' = v + h (g + F(v)/m): the force uses the velocity at the start of the step.
   const auto law = [=](std::size_t i, double, const Motion& m) -> Acceleration {
     const Real rate = i < 2 ? linear[i] : quadratic * std::sqrt(length_squared(m.velocity));
     return {.linear = gravity - rate / mass[i] * m.velocity};
@@ -110,8 +109,8 @@ Problem drag() {
                    .exact = exact,
                    .discrete = discrete_euler(start, law)};
 
-  // Relative 1e-13 of the longest fall and of the largest speed here: at steps of 1/60 s a method of order 8
-  // leaves only rounding of motion as smooth as this.
+  // Relative 1e-13 of the longest fall and of the largest speed here. At steps of 1/60 s a method of order 8
+  // has only rounding errors for such smooth motion.
   problem.precise = {
       .position = 1e-13 * 250, .angle = 1e-12, .velocity = 1e-13 * 36, .angular_velocity = 1e-12};
   return problem;

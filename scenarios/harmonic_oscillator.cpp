@@ -3,8 +3,8 @@
 #include "scenarios/scenario.h"
 #include "scenarios/truth/stepping.h"
 
-// A mass on a spring: x = x0 cos(w t), w^2 = k/m. Semi-implicit Euler swings at w' with sin(w' h/2) = w h/2,
-// and explicit Euler multiplies the energy by 1 + w^2 h^2 a step: the recurrence gives both.
+// A mass on a spring: x = x0 cos(w t), w^2 = k/m. Semi-implicit Euler oscillates at w' with sin(w' h/2) = w
+// h/2, and explicit Euler multiplies the energy by 1 + w^2 h^2 a step: the recurrence gives both.
 namespace plumb::scenarios {
 namespace {
 

@@ -4,8 +4,8 @@
 #include "scenarios/scenario.h"
 #include "scenarios/truth/motion.h"
 
-// An ellipse of eccentricity e = 0.6 about a fixed centre, from its pericentre once round: semi-major axis 1,
-// mu = 1, period 2 pi. Kepler's equation M = E - e sin E by Newton's method.
+// One orbit on an ellipse of eccentricity e = 0.6 about a fixed centre, from its pericentre: semi-major axis
+// 1, mu = 1, period 2 pi. Kepler's equation M = E - e sin E by Newton's method.
 namespace plumb::scenarios {
 namespace {
 

@@ -9,15 +9,15 @@
 #include "scenarios/truth/stepping.h"
 #include "scenarios/truth/trajectory.h"
 
-// Forces beside the centre of mass push and turn; a spin that nothing brakes goes on. In free space, and
-// nothing touches: what counts is r x F, the inertia, and where in the step the angle is taken.
+// Forces beside the centre of mass accelerate and turn a body; without torque its spin is constant. In free
+// space without contacts, so only r x F, the inertia, and the angle used within a step matter.
 namespace plumb::scenarios {
 namespace {
 
 using namespace truth;
 
-constexpr double kPush = 1;    // s, how long the world-fixed force acts
-constexpr double kWatch = 3;   // s, push and free flight, and the thruster
+constexpr double kPush = 1;    // s, duration of the world-fixed force
+constexpr double kWatch = 3;   // s, duration of push and free flight, and of the thruster
 constexpr double kSpins = 10;  // s
 
 Body box(std::string name, double mass, double width, double height, Vec2d position, double spin = 0,
@@ -35,8 +35,8 @@ Scene empty(std::string_view variant) {
   return {.name = "off_centre_torque/" + std::string(variant), .gravity = {0, 0}};
 }
 
-/// A force of a direction fixed in the world at the point p of the body, for kPush: I angle'' = R(angle) p x
-/// F, the equation of a pendulum; then the body coasts. The centre falls along F: x'' = F/m.
+/// A force of fixed direction in the world at the point p of the body, for kPush: I angle'' = R(angle) p x F,
+/// the equation of a pendulum; then the body coasts. The centre accelerates along F: x'' = F/m.
 class Pushed {
  public:
   Pushed(const Body& body, const PointForce& push)
@@ -70,7 +70,7 @@ class Pushed {
   Trajectory turning_;
 };
 
-/// Bodies pushed for kPush, one force each, in the bodies' order.
+/// Builds a problem of bodies pushed for kPush, one force each, in the bodies' order.
 Problem pushed(Scene scene) {
   std::vector<std::shared_ptr<const Pushed>> bodies;
   double strongest = 0;  // F/m
@@ -83,7 +83,7 @@ Problem pushed(Scene scene) {
   const auto law = [bodies](std::size_t i, double time, const Motion& motion) {
     return time < kPush * (1 - 1e-9) ? bodies[i]->acceleration(motion) : Acceleration{};
   };
-  // Where the push ends inside a step, it is the engine's own choice how much of it counts.
+  // If the push ends inside a step, the part of it that counts is the engine's own choice.
   const auto ends_on_a_step = [](double substep) {
     const double steps = kPush / substep;
     return std::fabs(steps - std::round(steps)) < 1e-9 * steps;
@@ -96,9 +96,9 @@ Problem pushed(Scene scene) {
                        },
                    .discrete = discrete_euler(motions_of(problem.scene), law, ends_on_a_step)};
   problem.precise = {.position = 1e-9, .angle = 1e-9, .velocity = 1e-9, .angular_velocity = 1e-9};
-  // The centre accelerates evenly, which velocity Verlet has exactly, but for the substep in which the push
-  // ends: with its mean force F s (0 < s < 1) the speed is right and the way wrong by (F/m) h^2 s (1 - s)/2
-  // <= F/m h^2/8.
+  // The centre has a constant acceleration, which velocity Verlet integrates exactly, except in the substep
+  // in which the push ends. With its mean force F s (0 < s < 1) the velocity is right, and the displacement
+  // is off by (F/m) h^2 s (1 - s)/2 <= F/m h^2/8.
   problem.second_order = {.position = strongest / 8, .velocity = 0};
   return problem;
 }
@@ -110,8 +110,8 @@ Problem corner_force() {
   return pushed(std::move(scene));
 }
 
-/// The same mass, the same push at the middle of the right edge: the centres move alike, the thin box turns
-/// faster.
+/// Two boxes of the same mass with the same push at the middle of the right edge: their centres move alike,
+/// and the thin box turns faster.
 Problem thin_and_square() {
   Scene scene = empty("thin_and_square");
   scene.bodies = {box("thin", 2, 1, 0.05, {0, 4}), box("square", 2, 1, 1, {0, -4})};
@@ -141,10 +141,10 @@ Problem thruster() {
                    std::span<BodyState> out) { out[0] = rounded(truth::thruster(linear, alpha, time)); },
       .discrete = discrete_euler(motions_of(problem.scene), law)};
   problem.precise = {.position = 1e-9, .angle = 1e-9, .velocity = 1e-9, .angular_velocity = 1e-9};
-  // The torque is constant, so the angle is exact. Velocity Verlet makes x(t + h) - 2 x(t) + x(t - h) = h^2
-  // a(t), where the motion has h^4 a''/12 more: summed twice, and with a'(0) = 0, h^2 (a(t) - a(0))/12 <= h^2
-  // |a|/6. The trapezoidal velocity is off by h^2 (a'(t) - a'(0))/12 = h^2 alpha t |a|/12. Higher terms add
-  // less than a tenth while the body turns less than a radian a substep.
+  // The torque is constant, so the angle is exact. Velocity Verlet gives x(t + h) - 2 x(t) + x(t - h) = h^2
+  // a(t), and the motion has h^4 a''/12 more. Summed twice, and with a'(0) = 0, that is h^2 (a(t) - a(0))/12
+  // <= h^2 |a|/6. The trapezoidal velocity is off by h^2 (a'(t) - a'(0))/12 = h^2 alpha t |a|/12. Higher
+  // terms add less than a tenth while the body turns less than a radian a substep.
   const double a = static_cast<double>(linear.x);
   problem.second_order = {.position = 1.1 * a / 6,
                           .angle = 0,
@@ -153,7 +153,7 @@ Problem thruster() {
   return problem;
 }
 
-/// Pure spin, at rest and on the way. Everything is conserved.
+/// Pure spin, of a body at rest and of a moving one. Everything is conserved.
 Problem spin(std::string_view variant, double rate) {
   Problem problem{.scene = empty(variant), .duration = kSpins};
   problem.scene.bodies = {box("still", 1, 1, 0.25, {0, 0}, rate),
@@ -167,7 +167,7 @@ Problem spin(std::string_view variant, double rate) {
                        },
                    .discrete = discrete_constant(start, std::vector<Acceleration>(start.size()))};
   problem.conserved = {.energy = true, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
-  // Relative 1e-12 of the turns and of the ten metres around.
+  // Relative 1e-12 of the rotation and of the extent of about ten metres.
   problem.precise = {.position = 1e-12 * 10,
                      .angle = 1e-12 * rate * kSpins,
                      .velocity = 1e-12,

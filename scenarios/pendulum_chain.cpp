@@ -7,8 +7,8 @@
 #include "scenarios/scenario.h"
 #include "scenarios/truth/rod_chain.h"
 
-// N uniform rods of 1 m and 1 kg, hinged end to end, laid along +x from a fixed pivot and released: the
-// joints pull hard, the motion is soon a whip, and every engine that iterates its joints shows it.
+// N uniform rods of 1 m and 1 kg, hinged end to end, laid along +x from a fixed pivot and released. Joint
+// forces are large and the motion is soon like a whip, which shows the errors of iterative joint solvers.
 namespace plumb::scenarios {
 namespace {
 
@@ -16,8 +16,8 @@ using namespace truth;
 
 constexpr double kLength = 1, kMass = 1, kGravity = 9.81;
 
-/// An independent formulation (minimal coordinates, Lagrange), solved in extended precision; kept for as long
-/// as the program runs, because all engines are held against it.
+/// Solves an independent formulation (minimal coordinates, Lagrange) in extended precision. The solution is
+/// kept while the program runs, because all engines are compared with it.
 class ChainTruth {
  public:
   explicit ChainTruth(int count)
@@ -45,8 +45,8 @@ class ChainTruth {
   Trajectory path_;
 };
 
-/// The digits promised at t = 1 s with the tolerance 1e-9: 1e-9 for one rod, 1e-8 for 2 to 5, 1e-6 for 20 and
-/// 1e-5 for 100, in between (and beyond) along the straight line through these in log-log.
+/// Returns the digits promised at t = 1 s with the tolerance 1e-9: 1e-9 for one rod, 1e-8 for 2 to 5, 1e-6
+/// for 20 and 1e-5 for 100. In between (and beyond) it follows the straight line through these in log-log.
 double promised(int count) {
   if (count == 1) return 1e-9;
   if (count <= 5) return 1e-8;
@@ -77,8 +77,8 @@ Problem build(std::string_view, int count) {
                    }};
   problem.conserved = {.energy = true};
 
-  // A mode of frequency w turns an error of position into w times that of velocity. The fastest mode of a
-  // hanging chain has w^2 < 4 N g/L (the largest zero of a Laguerre polynomial).
+  // A mode of frequency w multiplies a position error by w in the velocity. The fastest mode of a hanging
+  // chain has w^2 < 4 N g/L (the largest zero of a Laguerre polynomial).
   const double digits = promised(count), fastest = std::sqrt(4 * count * kGravity / kLength);
   problem.precise = {.position = digits,
                      .angle = 2 / kLength * digits,

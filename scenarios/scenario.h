@@ -13,7 +13,7 @@
 
 namespace plumb::scenarios {
 
-/// An upper bound for each metric of a run, in SI units; NaN where none is stated.
+/// Upper bounds for each metric of a run, in SI units; NaN if none is stated.
 struct Bounds {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double position = kNone;          ///< m, largest over bodies and time
@@ -27,24 +27,23 @@ struct Bounds {
   double penetration = kNone;       ///< m
 };
 
-/// The motion that no engine computed.
+/// Exact motion, computed by no engine.
 struct Truth {
-  /// Where it comes from: the formula's name and its source.
+  /// Source: the formula's name and its origin.
   std::string source;
 
-  /// The exact state of every body at `time`.
+  /// Computes the exact state of every body at `time`.
   std::function<void(double time, std::span<BodyState> out)> exact{};
 
-  /// What `scheme` must give after `steps` steps of `substep`, exactly; returns false where that is not
-  /// known.
+  /// Computes the exact result of `scheme` after `steps` steps of `substep`; returns false if it is unknown.
   std::function<bool(reference::Scheme scheme, double substep, long steps, std::span<BodyState> out)>
       discrete{};
 
-  /// When the exact velocities jump, s.
+  /// Times at which the exact velocities jump, s.
   std::vector<double> impacts{};
 };
 
-/// Which quantities the scene's physics keeps.
+/// Quantities that the scene's physics conserves.
 struct Conserved {
   bool energy = false;
   bool momentum_x = false;
@@ -52,27 +51,27 @@ struct Conserved {
   bool angular_momentum = false;  ///< about the origin
 };
 
-/// One scene with its answer and what to expect of whom.
+/// One scene with its answer and the bounds expected of engines.
 struct Problem {
   Scene scene;
   double duration = 1;  ///< s
   Truth truth{};
   Conserved conserved{};
 
-  /// For engines with a tolerance (at 1e-9): the digits promised.
+  /// Error bounds promised for engines with a tolerance, at 1e-9.
   Bounds precise{};
 
   /// For second-order engines: C in error <= C h^2 + rounding, h the substep. 0: exact up to rounding.
-  /// What is not stated is derived from the truth's own motion, as it is for first-order engines.
+  /// Unstated bounds are derived from the truth's own motion, as for first-order engines.
   Bounds second_order{};
 };
 
-/// A family of problems: one file, no registration elsewhere.
+/// A family of problems: one file, registered nowhere else.
 struct Scenario {
   std::string name;
   std::string summary;
-  std::vector<std::string> variants{""};  ///< named cases; one empty name where there is only one
-  std::vector<int> sizes{1};              ///< run by default; any size >= 1 may be asked for where `scales`
+  std::vector<std::string> variants{""};  ///< named cases; one empty name if there is only one
+  std::vector<int> sizes{1};              ///< run by default; any size >= 1 is allowed if `scales`
   bool scales = false;
   std::function<Problem(std::string_view variant, int size)> build;
 };
@@ -87,11 +86,12 @@ struct Instance {
   Problem build() const { return scenario->build(variant, size); }
 };
 
-/// Every scenario, by name.
+/// Returns every scenario, sorted by name.
 const std::vector<Scenario>& all();
 
-/// The members that `name` means: a scenario's variants and sizes, or one of them ("name/variant",
-/// "name[size]"); `size` > 0 overrides the sizes. Throws `Error` (Name, Value) that suggests the nearest.
+/// Returns the members that `name` selects: a scenario's variants and sizes, or one of them ("name/variant",
+/// "name[size]"). `size` > 0 overrides the sizes. Throws `Error` (Name, Value) that suggests the nearest
+/// name.
 std::vector<Instance> select(std::string_view name, int size = 0);
 
 /// Adds a scenario: `static const Register r{{.name = ..., .build = ...}};`

@@ -1,4 +1,4 @@
-// `plumb demo` and `plumb view`: the program that has the window. `plumb` starts it.
+// `plumb demo` and `plumb view`: the program with the window, started by `plumb`.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -26,7 +26,7 @@ namespace {
 using window::Item;
 using window::Player;
 
-// What both subcommands take, as it is given.
+// Options of both subcommands, as given.
 struct Given {
   std::string name, script, screenshot, seconds, dt, theme = "dark";
   std::vector<std::string> settings, drawings, ghosts;
@@ -85,7 +85,7 @@ int play(Player& player, const Given& given) {
   for (const std::string& drawing : given.drawings) window::show(player.options, drawing);
   if (!given.dt.empty()) player.demo().set("dt", parse_positive("--dt", given.dt));
   for (const std::string& setting : given.settings) window::assign(player.demo(), setting);
-  // What was set shapes the start, too.
+  // Restart, because settings affect the start too.
   if (!given.dt.empty() || !given.settings.empty()) player.restart();
   if (given.headless) {
     window::run_headless(player, options);
@@ -112,7 +112,7 @@ int run_demo(const Given& given) {
   }
   std::size_t first = 0;
   if (!given.name.empty()) {
-    demos::make(given.name);  // throws for what there is not
+    demos::make(given.name);  // throws if there is no such demo
     while (items[first].name != given.name) ++first;
   }
   Player player(items, first);
@@ -131,7 +131,7 @@ void show_ghosts(Player& player, const std::vector<std::string>& names) {
   }
 }
 
-// The whole catalogue, opened at what is asked for; a scene from a file stands alone.
+// Shows the whole catalogue, opened at the given scenario; a scene from a file is shown alone.
 int run_view(const Given& given) {
   std::vector<Item> items;
   std::size_t first = 0;

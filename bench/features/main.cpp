@@ -1,9 +1,9 @@
 // Steps a scene that uses a feature, one that does not, or both side by side, for a counter of instructions:
 //
-//     plumb_features                              the engines and the features, a line each
+//     plumb_features                              the engines and the features, one per line
 //     plumb_features ENGINE PART [FEATURE] STEPS  PART: empty, rest, declared, feature or both
 //
-// What is to be counted happens inside the function `plumb_measured_steps`.
+// The instructions to count are those of the function `plumb_measured_steps`.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -22,7 +22,7 @@ extern "C" __attribute__((noinline)) void plumb_measured_steps(plumb::reference:
 namespace plumb::bench {
 namespace {
 
-constexpr int kWarm = 8;  // steps before counting: the first ones find pairs and allocate
+constexpr int kWarm = 8;  // steps before counting: the first ones find pairs and allocate memory
 
 void list() {
   for (const char* engine : {"plumb", "plumb-float", "plumb-world", "plumb-world-double"})

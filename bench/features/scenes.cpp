@@ -7,9 +7,9 @@ namespace plumb::bench {
 namespace {
 
 constexpr int kRest = 64;
-constexpr double kFar = 1000;  // m, between those that use a feature and the rest
+constexpr double kFar = 1000;  // m, between the bodies that use a feature and the others
 
-// A shape that meets none; what a feature's bodies have unless the feature is contacts.
+// Returns a shape that collides with nothing, for the bodies of all features but contacts.
 Shape ghost() {
   Shape shape{.geometry = Box{1, 0.5}};
   shape.filter.mask = 0;
@@ -55,7 +55,7 @@ void add_joint(Scene& scene) {
       .name = "hinge", .body_a = "a", .body_b = "b", .anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}});
 }
 
-// A disc above a floor that nothing else can reach.
+// Adds a disc above a floor that no other body can reach.
 void add_disc(Scene& scene, double height, Vec2d velocity, double restitution, double friction) {
   Shape disc{.geometry = Circle{0.5}, .friction = friction, .restitution = restitution};
   Body ball = body("a", {0, 0.5 + height}, disc);

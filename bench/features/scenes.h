@@ -5,21 +5,22 @@
 
 #include "engine/scene/scene.h"
 
-/// Scenes in which a feature is used by a few bodies beside many that have no use for it.
+/// Scenes in which a few bodies use a feature beside many that do not.
 namespace plumb::bench {
 
-/// Something that a scene may use: a name, and the two bodies or so that do.
+/// A feature that a scene may use: a name, and a function that adds the few bodies that use it.
 struct Feature {
   std::string_view name;
   std::string_view what;
   void (*add)(Scene& scene);
-  /// Gives a body what the feature goes by where it can have no effect, if there is such a thing.
+  /// Gives a body the properties of the feature in a way that has no effect; null if that is impossible.
   void (*declare)(Body& body) = nullptr;
 };
 
 const std::vector<Feature>& features();
 
-/// Bodies without shapes that fall freely: they use no feature. `declared` (may be null) is declared on each.
+/// Adds bodies without shapes that fall freely and use no feature. `declared` (may be null) is declared on
+/// each.
 void add_rest(Scene& scene, const Feature* declared);
 
 }  // namespace plumb::bench

@@ -1,4 +1,5 @@
-// Box2D 2.4, float. Masses are the scene's. What it has not is made of what it has, and the settings say so.
+// Box2D 2.4, float. Masses are the scene's. Missing features are built from existing ones, as the settings
+// say.
 #include <box2d/box2d.h>
 
 #include <cmath>
@@ -21,7 +22,7 @@ b2BodyType type_of(BodyType type) {
   return type == BodyType::Kinematic ? b2_kinematicBody : b2_dynamicBody;
 }
 
-/// The corners of `polygon` with every edge moved outwards by its radius: sharp where the scene's is round.
+/// Returns the corners of `polygon` with every edge moved outwards by its radius: sharp, unlike the scene's.
 std::vector<Vec2d> grown(const Polygon& polygon) {
   if (polygon.radius == 0) return polygon.points;
   std::vector<Vec2d> out;
@@ -31,7 +32,7 @@ std::vector<Vec2d> grown(const Polygon& polygon) {
     const Vec2d on = polygon.points[(i + 1) % n] - polygon.points[i];
     const Vec2d n0 = (-1 / std::sqrt(length_squared(in))) * perpendicular(in);
     const Vec2d n1 = (-1 / std::sqrt(length_squared(on))) * perpendicular(on);
-    // The point at which both moved edges meet lies along n0 + n1.
+    // Both moved edges meet along n0 + n1.
     out.push_back(polygon.points[i] + (polygon.radius / (1 + dot(n0, n1))) * (n0 + n1));
   }
   return out;
@@ -65,7 +66,7 @@ class Box2dWorld final : public FieldWorld {
       data.center = narrow(mass.centre);
       data.I = narrow(mass.inertia + mass.mass * length_squared(mass.centre));  // about the origin
       out->SetMassData(&data);
-      out->SetLinearVelocity(narrow(body.velocity));  // that of the centre, which has just moved
+      out->SetLinearVelocity(narrow(body.velocity));  // of the centre, which has just moved
     }
     return {reinterpret_cast<std::uint64_t>(out)};
   }
@@ -176,7 +177,7 @@ class Box2dWorld final : public FieldWorld {
   static void attach(b2Body& body, const ShapeDefinition& shape, const b2Shape& geometry) {
     b2FixtureDef def;
     def.shape = &geometry;
-    def.density = 0;  // the mass is stated
+    def.density = 0;  // the mass is given
     def.friction = narrow(shape.friction);
     def.restitution = narrow(shape.restitution);
     def.filter.groupIndex = static_cast<int16>(-shape.group);

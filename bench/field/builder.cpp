@@ -5,7 +5,7 @@
 namespace plumb::field {
 namespace {
 
-/// Adds what happens during its life to a cost.
+/// Adds the time and allocations of its lifetime to a cost.
 class Meter {
  public:
   Meter(Cost& cost, clockid_t clock)

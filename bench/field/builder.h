@@ -23,7 +23,7 @@ struct JointRecord {
   bool alive = true;
 };
 
-/// What stands in the world, as it was asked for: what the ruler measures by.
+/// Bodies and joints of the world as requested, independent of the engine, for measuring quality.
 struct Inventory {
   std::vector<BodyRecord> bodies;
   std::vector<JointRecord> joints;
@@ -31,17 +31,17 @@ struct Inventory {
   Counts counts() const;  ///< `touching` stays 0
 };
 
-/// Seconds of `clock`, since whenever.
+/// Returns the seconds of `clock` since an arbitrary start.
 double seconds_of(clockid_t clock);
 
-/// What an engine used so far.
+/// Time and memory that an engine has used so far.
 struct Cost {
   double seconds = 0;
   std::int64_t allocations = 0;
-  std::int64_t bytes = 0;  ///< that it holds on to
+  std::int64_t bytes = 0;  ///< allocated and not yet released
 };
 
-/// Builds a scene in a world, and keeps the books: what was built, and what the engine's own calls cost.
+/// Builds a scene in a world, and records the bodies and joints built and the cost of the engine's own calls.
 /// Nothing else enters the cost.
 class Builder {
  public:
@@ -56,7 +56,7 @@ class Builder {
   void set_velocity(int body, Vec2d velocity, double spin);
   void step(int count = 1);
 
-  /// Of every body that was ever made; those that are gone keep zeros.
+  /// Returns the states of every body ever created; destroyed ones have zeros.
   std::vector<BodyState> states() const;
   const Inventory& inventory() const { return inventory_; }
   const Cost& cost() const { return cost_; }

@@ -13,19 +13,19 @@
 namespace plumb::field {
 namespace {
 
-/// Chipmunk's own 0.1 is meant for pixels; this is Box2D's, in metres.
+/// Chipmunk's own default of 0.1 is meant for pixels; this is Box2D's, in metres.
 constexpr double kSlop = 0.005;
 
 cpVect to_chipmunk(Vec2d v) { return {v.x, v.y}; }
 Vec2d from_chipmunk(cpVect v) { return {v.x, v.y}; }
 cpBody* body_of(BodyHandle handle) { return reinterpret_cast<cpBody*>(handle.bits); }
 
-/// What one body has of its own.
+/// Motion parameters of one body.
 struct OwnMotion {
   double linear_damping = 0, angular_damping = 0, gravity_scale = 1;
 };
 
-/// Damping as Box2D has it: v / (1 + c dt).
+/// Applies damping as Box2D does: v / (1 + c dt).
 void update_velocity(cpBody* body, cpVect gravity, cpFloat damping, cpFloat dt) {
   const auto& own = *static_cast<const OwnMotion*>(cpBodyGetUserData(body));
   cpBodyUpdateVelocity(body, cpvmult(gravity, own.gravity_scale), damping, dt);
@@ -83,14 +83,14 @@ class ChipmunkWorld final : public FieldWorld {
 
   void create_revolute(BodyHandle first, BodyHandle second, const RevoluteDefinition& joint) override {
     cpBody *a = body_of(first), *b = body_of(second);
-    // Chipmunk aborts on a joint that has nothing to move.
+    // Chipmunk aborts on a joint between two bodies that are not dynamic.
     if (cpBodyGetType(a) != CP_BODY_TYPE_DYNAMIC && cpBodyGetType(b) != CP_BODY_TYPE_DYNAMIC) return;
     add(cpPivotJointNew2(a, b, to_chipmunk(joint.anchor_a), to_chipmunk(joint.anchor_b)), joint);
     const double zero = joint.reference_angle;
     if (joint.limits)
       add(cpRotaryLimitJointNew(a, b, zero + joint.limits->lower, zero + joint.limits->upper), joint);
     if (joint.motor) {
-      // Its rate is that of a seen from b.
+      // Its rate is that of a relative to b.
       cpConstraint* motor = add(cpSimpleMotorNew(a, b, -joint.motor->speed), joint);
       const bool unlimited = joint.motor->max_torque >= std::numeric_limits<float>::max();
       cpConstraintSetMaxForce(motor, unlimited ? INFINITY : joint.motor->max_torque);
@@ -101,7 +101,7 @@ class ChipmunkWorld final : public FieldWorld {
       };
       const double inertia = 1 / (inverse(a) + inverse(b));
       const double omega = 2 * std::numbers::pi * joint.spring->hertz;
-      // Its angle is that of a less that of b.
+      // Its angle is that of a minus that of b.
       add(cpDampedRotarySpringNew(a, b, -zero, inertia * omega * omega,
                                   2 * joint.spring->damping_ratio * inertia * omega),
           joint);

@@ -12,7 +12,7 @@
 
 namespace plumb::field {
 
-/// What the scenes are made of, in SI units, y up. Every engine is handed the same.
+/// Parts of the scenes, in SI units, y up. Every engine gets the same.
 
 struct Circle {
   Vec2d centre{};  ///< m, in the body's frame
@@ -24,13 +24,13 @@ struct Capsule {
   double radius = 0;
 };
 
-/// Convex, counter-clockwise, grown by `radius`.
+/// Convex, counter-clockwise, enlarged by `radius`.
 struct Polygon {
   std::vector<Vec2d> points;
   double radius = 0;
 };
 
-/// Touched from both sides.
+/// A two-sided segment.
 struct Segment {
   Vec2d a{}, b{};
 };
@@ -45,10 +45,10 @@ inline Polygon box(double half_width, double half_height, Vec2d centre = {}, dou
 struct ShapeDefinition {
   Geometry geometry;
   double density = 1;          ///< kg/m^2
-  double friction = 0.6;       ///< of two shapes: the geometric mean
-  double restitution = 0;      ///< of two shapes: the larger one
-  int group = 0;               ///< shapes of the same group, other than 0, never touch
-  std::uint16_t category = 1;  ///< else two shapes touch where each one's mask has the other's category
+  double friction = 0.6;       ///< of a pair: the geometric mean
+  double restitution = 0;      ///< of a pair: the larger one
+  int group = 0;               ///< shapes of the same group, other than 0, never collide
+  std::uint16_t category = 1;  ///< else two shapes collide if each one's mask has the other's category
   std::uint16_t mask = std::numeric_limits<std::uint16_t>::max();
 };
 
@@ -80,17 +80,17 @@ struct AngularSpring {
   double damping_ratio = 0;
 };
 
-/// Two anchors are one point. The joint's angle is that of b less that of a less `reference_angle`.
+/// Pins two anchors together. The joint's angle is that of b minus that of a minus `reference_angle`.
 struct RevoluteDefinition {
   Vec2d anchor_a{}, anchor_b{};  ///< m, each in its body's frame
   double reference_angle = 0;    ///< rad
   std::optional<Limits> limits{};
   std::optional<Motor> motor{};
   std::optional<AngularSpring> spring{};  ///< towards the angle 0
-  bool collide = false;                   ///< whether the joined bodies touch each other
+  bool collide = false;                   ///< true if the joined bodies collide with each other
 };
 
-/// What an engine makes of a body.
+/// Handle of a body in its engine.
 struct BodyHandle {
   std::uint64_t bits = 0;
 };
@@ -104,10 +104,10 @@ struct BodyState {
 
 struct Counts {
   int bodies = 0, shapes = 0, joints = 0;
-  int touching = 0;  ///< contacts that the engine itself holds for touching
+  int touching = 0;  ///< contacts that the engine itself reports as touching
 };
 
-/// Name and value of what an engine runs with.
+/// Names and values of an engine's settings.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 }  // namespace plumb::field

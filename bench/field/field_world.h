@@ -9,27 +9,27 @@
 
 namespace plumb::field {
 
-/// How the worlds are stepped. Each engine takes what it has, with the default that its documentation gives.
+/// Step settings. Each engine uses those that it has, with the defaults of its documentation.
 struct WorldSettings {
   Vec2d gravity{0, -10};                                 ///< m/s^2
   double dt = 1.0 / 60;                                  ///< s
-  int substeps = 4;                                      ///< of engines that solve by substeps
+  int substeps = 4;                                      ///< of engines with substeps
   int velocity_iterations = 8, position_iterations = 3;  ///< of Box2D 2.4
-  int iterations = 10;                                   ///< of Chipmunk, and of plumb's solvers that sweep
+  int iterations = 10;                                   ///< of Chipmunk, and of plumb's iterative solvers
   std::string solver{};                                  ///< of plumb, by its name; empty: its default
   bool sleeping = false;
   bool continuous = true;
 };
 
-/// An engine's world. One call costs one virtual call, which is nothing beside a step.
+/// An engine's world. A call costs one virtual call, which is negligible beside a step.
 class FieldWorld {
  public:
   virtual ~FieldWorld() = default;
 
-  /// Of a dynamic body with the given mass, whatever the engine would make of the densities.
+  /// Creates a body. Dynamic ones get the given mass, whatever the engine would compute from the densities.
   virtual BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                                  const MassProperties& mass) = 0;
-  /// With its shapes and joints.
+  /// Destroys a body with its shapes and joints.
   virtual void destroy_body(BodyHandle body) = 0;
   virtual void create_revolute(BodyHandle a, BodyHandle b, const RevoluteDefinition& joint) = 0;
   virtual void set_velocity(BodyHandle body, Vec2d velocity, double spin) = 0;

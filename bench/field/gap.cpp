@@ -20,11 +20,12 @@ double radius_of(const Round& round) {
   return round.radius;
 }
 
-/// The largest separation of b's core from a's along a normal of an edge of a; minus infinity without edges.
+/// Returns the largest separation of b's core from a's along an edge normal of a; minus infinity without
+/// edges.
 double separation_along_normals(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b) {
   double best = -std::numeric_limits<double>::infinity();
   if (a.size() < 2) return best;
-  for (std::size_t i = 0; i < a.size(); ++i) {  // of a segment both sides
+  for (std::size_t i = 0; i < a.size(); ++i) {  // both sides of a segment
     const Vec2d edge = a[(i + 1) % a.size()] - a[i];
     const double size = length(edge);
     if (size == 0) continue;
@@ -43,7 +44,7 @@ double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   return length(p - a - t * edge);
 }
 
-/// The least distance of a corner of a from an edge of b.
+/// Returns the smallest distance of a corner of a from an edge of b.
 double corners_to_edges(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec2d p : a)
@@ -67,7 +68,7 @@ double gap(const PlacedShape& a, const PlacedShape& b) {
   const double radii = a.radius + b.radius;
   const double separation =
       std::max(separation_along_normals(a.core, b.core), separation_along_normals(b.core, a.core));
-  // Cores that touch at most, or that have no area between them: the shortest way leads from a corner.
+  // Cores that touch at most, or are both points: the shortest distance is that of a corner.
   if (separation >= 0 || (a.core.size() == 1 && b.core.size() == 1))
     return std::min(corners_to_edges(a.core, b.core), corners_to_edges(b.core, a.core)) - radii;
   return separation - radii;

@@ -1,5 +1,5 @@
-// Counts what passes through glibc's allocator by standing before it. Shared libraries are bound to these
-// functions as well, because the program's own symbols come first.
+// Counts allocations by interposing glibc's allocator. Shared libraries use these functions as well, because
+// the program's own symbols come first.
 #include "bench/field/heap.h"
 
 #include <cerrno>
@@ -23,7 +23,7 @@
 namespace plumb::field::heap {
 namespace {
 
-// One relaxed add a call: exact from any thread, and cheap beside the allocation.
+// One relaxed addition per call: exact from any thread, and cheap beside the allocation.
 std::int64_t allocation_count = 0;
 std::int64_t byte_count = 0;
 
@@ -69,7 +69,7 @@ void free(void* block) {
 void* realloc(void* block, std::size_t size) {
   const std::size_t before = block == nullptr ? 0 : malloc_usable_size(block);
   void* out = __libc_realloc(block, size);
-  if (out == nullptr && size != 0) return out;  // the old block is as it was
+  if (out == nullptr && size != 0) return out;  // the old block is unchanged
   __atomic_sub_fetch(&plumb::field::heap::byte_count, static_cast<std::int64_t>(before), __ATOMIC_RELAXED);
   return plumb::field::heap::gained(out);
 }

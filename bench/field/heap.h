@@ -4,13 +4,15 @@
 
 namespace plumb::field::heap {
 
-/// Whether this build counts: not under the sanitizers, which have an allocator of their own.
+/// Returns true if this build counts. Builds with sanitizers do not, because those have an allocator of their
+/// own.
 bool counted();
 
-/// Calls of malloc, calloc, realloc, aligned allocation and operator new of the whole program, so far.
+/// Returns the calls of malloc, calloc, realloc, aligned allocation and operator new in the whole program so
+/// far.
 std::int64_t allocations();
 
-/// Bytes that are allocated now, as the allocator rounded them.
+/// Returns the bytes allocated now, as rounded by the allocator.
 std::int64_t live_bytes();
 
 }  // namespace plumb::field::heap

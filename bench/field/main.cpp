@@ -1,4 +1,4 @@
-// The field's scenes on every engine, one after another in turn, with the quality beside the time.
+// Measures the field's scenes on every engine, the engines taking turns, with time and quality.
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -38,7 +38,7 @@ constexpr const char* kFooter =
     "be\n"
     "written, 130 interrupted.";
 
-/// The program cannot go on: what to say, and the exit code.
+/// Ends the program with a message and an exit code.
 struct Stop : std::runtime_error {
   Stop(Exit exit, const std::string& text) : std::runtime_error(text), code(exit) {}
   Exit code;
@@ -51,7 +51,7 @@ struct Options {
   bool list = false, sleeping = false;
 };
 
-/// To stderr; when that is full nobody can be told.
+/// Writes to stderr; a failure cannot be reported anywhere.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 void print(const std::string& text) {
@@ -59,7 +59,7 @@ void print(const std::string& text) {
     throw Stop(errno == EPIPE ? kOk : kOutput, fmt::format("stdout: {}", std::strerror(errno)));
 }
 
-/// The entries of `all` that `names` name, in the order of `all`; all when there are no names.
+/// Returns the entries of `all` that `names` name, in the order of `all`; all entries if there are no names.
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> all, const std::vector<std::string>& names,
                                  const char* what) {
@@ -89,7 +89,7 @@ std::vector<const Engine*> select_engines(const std::vector<std::string>& names)
   return chosen;
 }
 
-/// Each engine that has solvers once for each that is named ("all": every one), the others as they are.
+/// Returns each engine that has solvers once for each named solver ("all": every one), the others unchanged.
 std::vector<Engine> by_solver(const std::vector<const Engine*>& chosen,
                               const std::vector<std::string>& names) {
   std::vector<Engine> out;
@@ -124,7 +124,7 @@ std::string list_text() {
   return out;
 }
 
-/// One line on a terminal's stderr; nothing elsewhere.
+/// One line on stderr if it is a terminal; nothing elsewhere.
 class ProgressLine {
  public:
   void show(const Progress& progress) {

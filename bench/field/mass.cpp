@@ -19,7 +19,7 @@ struct Moments {
   }
 };
 
-/// Signed, so that the triangles between the origin and the edges of a polygon add up to it.
+/// Adds a signed triangle: those between the origin and the edges of a polygon sum to the polygon.
 void add_triangle(Moments& out, Vec2d a, Vec2d b) {
   const double area = cross(a, b) / 2;
   out.zeroth += area;
@@ -27,8 +27,8 @@ void add_triangle(Moments& out, Vec2d a, Vec2d b) {
   out.polar += area / 6 * (dot(a, a) + dot(a, b) + dot(b, b));
 }
 
-/// The part of a disc between two unit normals: theta is the angle between them, and the arms of its moments
-/// point along their bisector.
+/// Adds the sector of a disc between two unit normals: theta is the angle between them, and the arms of its
+/// moments lie along their bisector.
 void add_sector(Moments& out, Vec2d corner, Vec2d n0, Vec2d n1, double radius) {
   const double theta = std::atan2(cross(n0, n1), dot(n0, n1));
   const double area = radius * radius * theta / 2;
@@ -48,7 +48,7 @@ Moments moments(const Circle& circle) {
   return out;
 }
 
-/// Core, one rectangle an edge and one sector a corner (Steiner's formula).
+/// Sums the core, one rectangle per edge and one sector per corner (Steiner's formula).
 Moments moments(const Polygon& polygon) {
   Moments out;
   const std::size_t n = polygon.points.size();
@@ -69,7 +69,7 @@ Moments moments(const Polygon& polygon) {
   return out;
 }
 
-/// A rectangle with half a disc on either end.
+/// Sums a rectangle and half a disc at either end.
 Moments moments(const Capsule& capsule) {
   Moments out;
   const Vec2d axis = capsule.b - capsule.a;

@@ -12,10 +12,10 @@
 namespace plumb::field {
 namespace {
 
-constexpr int kSamples = 10;  // of the quality of a run
-constexpr int kLarge = 1000;  // bodies, from which on a look at the clock is nothing beside a step
+constexpr int kSamples = 10;  // quality samples per run
+constexpr int kLarge = 1000;  // bodies, from which on reading the clock is negligible beside a step
 
-/// A run took too long; `what()` says how far it came.
+/// Thrown if a run takes too long; `what()` says how far it came.
 struct TooSlow : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -23,7 +23,7 @@ struct TooSlow : std::runtime_error {
 double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
 double cpu_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 
-/// One world with one scene in it.
+/// A world with one scene.
 class Run {
  public:
   Run(const Scene& scene, const Engine& engine, const Plan& plan)
@@ -36,7 +36,7 @@ class Run {
     advance(scene.warm_up);
   }
 
-  /// Mean time of `steps` steps; between tenths of them `sample` looks on.
+  /// Measures the mean time of `steps` steps; calls `sample` after each tenth of them.
   template <class Sample>
   void timed(int steps, const Sample& sample, Measurement& out) {
     const double start = builder_.cost().seconds, wall_start = wall_seconds(), cpu_start = cpu_seconds();
@@ -133,7 +133,8 @@ class Run {
   int taken_ = 0;  // steps
 };
 
-/// Depths and gaps of joints: the worst of all samples, and the means over them. The rest is the last one's.
+/// Statistics of depths and joint gaps: the worst of all samples, and the means over them. Other figures are
+/// those of the last sample.
 class Samples {
  public:
   void add(const Quality& sample) {
@@ -166,7 +167,7 @@ class Samples {
   Quality last_;
 };
 
-/// One run in this process. Into `out` go its time and, of the first, the rest.
+/// Makes one run in this process. Stores its time in `out`, and the other figures of the first run.
 void run_here(const Plan& plan, bool first, Measurement& out) {
   Run run(*out.scene, *out.engine, plan);
   if (!first) {
@@ -185,8 +186,8 @@ void run_here(const Plan& plan, bool first, Measurement& out) {
   }
 }
 
-/// One run in a process of its own, so that every engine starts from the same heap and none takes the others
-/// with it. Returns false when the user interrupts.
+/// Makes one run in a process of its own, so that every engine starts from the same heap and a crash ends no
+/// other run. Returns false after an interrupt.
 bool run_apart(const Plan& plan, bool first, Measurement& out) {
   const auto work = [&] {
     Measurement found = out;

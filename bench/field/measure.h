@@ -15,52 +15,52 @@ struct Plan {
   std::vector<const Scene*> scenes;
   std::vector<const Engine*> engines;
   int repeat = 3;
-  std::optional<int> steps;           ///< measured steps, in place of the scene's
+  std::optional<int> steps;           ///< instead of the scene's
   bool quick = false;                 ///< small scenes, few steps
-  std::optional<bool> continuous;     ///< in place of the scene's
-  double limit = 600;                 ///< s of an engine's own time, after which a run is given up
-  clockid_t clock = CLOCK_MONOTONIC;  ///< that times are taken by
+  std::optional<bool> continuous;     ///< instead of the scene's
+  double limit = 600;                 ///< s of an engine's own time, after which a run is aborted
+  clockid_t clock = CLOCK_MONOTONIC;  ///< that measures the times
   WorldSettings settings;
 };
 
-/// How far a run is, for whoever waits.
+/// Progress of the measurements.
 struct Progress {
   int done = 0, total = 0;
   std::string what;
 };
 
-/// What repetitions of one scene on one engine gave.
+/// Results of all repetitions of one scene on one engine.
 struct Measurement {
   const Scene* scene = nullptr;
   const Engine* engine = nullptr;
-  std::string failure;  ///< why there are no figures; empty when there are
+  std::string failure;  ///< why there are no figures; empty if there are
   Settings settings;
-  Counts asked;    ///< what the scene holds at its end
-  Counts counted;  ///< what the engine says that it holds at its end
+  Counts asked;    ///< bodies, shapes and joints in the scene at its end
+  Counts counted;  ///< the engine's own counts at its end
   int steps = 0;
   bool continuous = true;
-  std::vector<double> step_seconds;  ///< a repetition each: mean time of a step
-  std::vector<double> cpu_share;     ///< a repetition each: time of the processors over time; below 1 with
-                                     ///< one thread others were in the way
+  std::vector<double> step_seconds;  ///< one per repetition: mean time of a step
+  std::vector<double> cpu_share;     ///< one per repetition: processor time over wall time; with one thread,
+                                     ///< below 1 if other programs interfered
   Quality quality;                   ///< at the end; depths and joints over ten samples of the run
   Speed speed;                       ///< in one more step
-  std::optional<double> height;      ///< least height of a top over its height at the start
+  std::optional<double> height;      ///< smallest ratio of a top's height to its initial height
   int escaped = 0;                   ///< bodies outside the scene's region
-  double bytes_a_body = 0;           ///< allocated since the world was empty, over bodies; 0 when not counted
+  double bytes_a_body = 0;           ///< allocated since the world was empty, over bodies; 0 if not counted
   double allocations_a_step = 0;     ///< over the second half of the steps
 };
 
 /// Runs every scene on every engine `repeat` times, each time in a new world and a process of its own. Within
-/// a scene the engines take turns, and each repetition starts with another one, so that what disturbs the
-/// machine disturbs them alike. The first repetition measures the quality as well, outside the clock.
-/// `progress` is called before each run, `done` after each scene; `interrupted` ends the whole between two
-/// runs. A state that is not finite, an engine that throws or dies and a run beyond the limit become a
+/// a scene the engines take turns, and each repetition starts with another one, so that disturbances of the
+/// machine affect all alike. The first repetition also measures the quality, outside the measured time.
+/// `progress` is called before each run, `done` after each scene; `interrupted` ends everything between two
+/// runs. A non-finite state, an exception or crash of an engine and a run beyond the limit become a
 /// `failure`. Call without threads running.
 void measure(const Plan& plan, const std::function<void(const Progress&)>& progress,
              const std::function<void(std::vector<Measurement>&)>& done,
              const std::function<bool()>& interrupted);
 
-/// The middle of sorted `values`, or the mean of the two in the middle.
+/// Returns the median of `values`, or 0 if there are none.
 double median(std::vector<double> values);
 
 }  // namespace plumb::field

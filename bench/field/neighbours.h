@@ -11,8 +11,8 @@ struct Bounds {
   Vec2d low{}, high{};  ///< m
 };
 
-/// Calls `visit(i, j)`, i < j, once for each two boxes that meet. Sorts by the left sides and sweeps, so that
-/// it depends on no grid and on no engine.
+/// Calls `visit(i, j)`, i < j, once for each pair of overlapping boxes. Sweeps along x over boxes sorted by
+/// their left sides, so that the result depends on no grid and no engine.
 void for_each_meeting(std::span<const Bounds> boxes, const std::function<void(int, int)>& visit);
 
 }  // namespace plumb::field

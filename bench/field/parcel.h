@@ -6,11 +6,10 @@
 
 namespace plumb::field {
 
-/// What one run found, to be carried from the process that ran it. `first` says whether that was all, or the
-/// time alone.
+/// Serialises one run's figures for the pipe from its process. `first`: all figures; else the times alone.
 std::string pack(const Measurement& found, bool first);
 
-/// Adds what `text`, which `pack` wrote, holds to `out`.
+/// Adds the figures in `text`, written by `pack`, to `out`.
 void unpack(const std::string& text, Measurement& out);
 
 }  // namespace plumb::field

@@ -1,4 +1,4 @@
-// plumb's own world, float, through the interface that a game uses. Masses are the scene's.
+// plumb's own world, float, through its public interface. Masses are the scene's.
 #include <algorithm>
 #include <string>
 
@@ -8,7 +8,7 @@
 namespace plumb::field {
 namespace {
 
-/// The largest torque that a joint of plumb takes, N m: what stands for no limit.
+/// Largest torque that a joint of plumb accepts, N m; stands for no limit.
 constexpr double kUnlimited = 1e15;
 
 plumb::BodyType type_of(BodyType type) {
@@ -81,7 +81,7 @@ class PlumbWorld final : public FieldWorld {
   void destroy_body(BodyHandle body) override { world_.destroy(body_of(body)); }
 
   void create_revolute(BodyHandle a, BodyHandle b, const RevoluteDefinition& joint) override {
-    // plumb refuses a joint that has nothing to move.
+    // plumb rejects a joint between two bodies that are not dynamic.
     if (world_.type(body_of(a)) != plumb::BodyType::Dynamic &&
         world_.type(body_of(b)) != plumb::BodyType::Dynamic)
       return;

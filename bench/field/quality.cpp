@@ -12,7 +12,7 @@
 namespace plumb::field {
 namespace {
 
-/// A shape of the world, placed.
+/// A placed shape of the world.
 struct Entry {
   int body = 0;
   const ShapeDefinition* definition = nullptr;
@@ -43,7 +43,7 @@ bool all_finite(const Inventory& inventory, std::span<const BodyState> states) {
   return true;
 }
 
-/// Pairs of bodies that a joint keeps from touching each other.
+/// Returns the pairs of bodies whose joint keeps them from colliding.
 std::set<std::pair<int, int>> joined_pairs(const Inventory& inventory) {
   std::set<std::pair<int, int>> out;
   for (const JointRecord& joint : inventory.joints)
@@ -91,7 +91,7 @@ void measure_joints(const Inventory& inventory, std::span<const BodyState> state
     out.mean_joint += error;
     ++count;
     if (!definition.limits) continue;
-    // Engines may turn angles back by whole turns.
+    // Engines may normalise angles by whole turns.
     const double angle = std::remainder(b.angle - a.angle - definition.reference_angle, 2 * std::numbers::pi);
     out.worst_limit =
         std::max({out.worst_limit, definition.limits->lower - angle, angle - definition.limits->upper});

@@ -7,28 +7,30 @@
 
 namespace plumb::field {
 
-/// Two shapes nearer than this are neighbours: more than Box2D's skins keep resting boxes apart (15 mm).
+/// Two shapes nearer than this are neighbours. It exceeds the distance at which Box2D's skins keep resting
+/// boxes (15 mm).
 inline constexpr double kNear = 0.02;  // m
 
-/// Shapes overlap when they do by more than this: less is rounding, of float far from the origin too.
+/// Depth from which shapes count as overlapping; less is rounding, also in float far from the origin.
 inline constexpr double kTouch = 1e-6;  // m
 
-/// How shapes and joints stand, by one ruler for all engines: poses, and the shapes that the scene asked for.
+/// Quality of shapes and joints, measured alike for all engines from poses and the shapes that the scene
+/// requested.
 struct Quality {
-  bool finite = true;         ///< no pose and no velocity is NaN or infinite
+  bool finite = true;         ///< true if no pose and no velocity is NaN or infinite
   int near = 0;               ///< pairs that may touch and are nearer than `kNear`
   int overlapping = 0;        ///< pairs that overlap
-  double deepest = 0;         ///< m, the deepest overlap
+  double deepest = 0;         ///< m, the deepest penetration
   double mean_depth = 0;      ///< m, of those that overlap
-  double worst_joint = 0;     ///< m, the widest gap between a joint's anchors
+  double worst_joint = 0;     ///< m, the largest distance between a joint's anchors
   double mean_joint = 0;      ///< m
   double kinetic_energy = 0;  ///< J, of dynamic bodies, by the engine's velocities
-  double worst_limit = 0;     ///< rad, the farthest that a joint is beyond a limit
+  double worst_limit = 0;     ///< rad, the largest excess of a joint beyond a limit
 };
 
 Quality measure_quality(const Inventory& inventory, std::span<const BodyState> states);
 
-/// Speed of the centres of mass of dynamic bodies, by how far a step carried them.
+/// Speed of the centres of mass of dynamic bodies, from their displacement in a step.
 struct Speed {
   double rms = 0, max = 0;  ///< m/s
 };
@@ -36,7 +38,7 @@ struct Speed {
 Speed measure_speed(const Inventory& inventory, std::span<const BodyState> before,
                     std::span<const BodyState> after, double dt);
 
-/// Whether the scene lets two shapes touch.
+/// Returns true if the scene lets two shapes collide.
 bool may_touch(const ShapeDefinition& a, const ShapeDefinition& b);
 
 }  // namespace plumb::field

@@ -20,7 +20,7 @@ double most(const Measurement& m) { return *std::ranges::max_element(m.step_seco
 
 double least_share(const Measurement& m) { return *std::ranges::min_element(m.cpu_share); }
 
-/// How many times faster than the yardstick; nothing without one.
+/// Returns the speed relative to the yardstick; nothing without one.
 std::optional<double> speed_ratio(const Measurement& m, const Measurement* yardstick) {
   if (yardstick == nullptr || !m.failure.empty()) return std::nullopt;
   return median(yardstick->step_seconds) / median(m.step_seconds);
@@ -43,7 +43,7 @@ struct Column {
   bool (*told)(const Measurement&) = [](const Measurement&) { return true; };
 };
 
-/// Three digits.
+/// Formats a time in three digits.
 std::string time_cell(const Measurement& m, const Measurement*) {
   const double time = median(m.step_seconds);
   const auto [scale, unit] = time < 1e-6   ? std::pair{1e9, "ns"}
@@ -58,7 +58,7 @@ std::string range_cell(const Measurement& m, const Measurement*) {
   return fmt::format("{:+.0f}/{:+.0f} %", 100 * (least(m) / middle - 1), 100 * (most(m) / middle - 1));
 }
 
-/// "~" where the repetitions of the two overlap: then the noise hides which is faster.
+/// Adds "~" if the repetitions of the two overlap, because noise then hides which is faster.
 std::string ratio_cell(const Measurement& m, const Measurement* yardstick) {
   const auto ratio = speed_ratio(m, yardstick);
   if (!ratio) return "";

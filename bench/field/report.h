@@ -8,20 +8,20 @@
 
 namespace plumb::field {
 
-/// One scene as a table, a row an engine. Columns that say nothing in a scene are left out.
+/// Formats one scene, one row per engine. Columns without information are left out.
 std::string table(std::span<const Measurement> row, const harness::Style& style);
 
-/// What every engine ran with, where and how: below the tables.
+/// Formats every engine's settings, the build and the machine, for below the tables.
 std::string settings_text(std::span<const Measurement> all, const harness::Style& style);
 
-/// One line a measurement; the first line names the columns.
+/// One line per measurement; the header names the columns.
 std::string csv_header();
 std::string csv_row(const Measurement& measurement, const Measurement* yardstick);
 
-/// Everything, with the environment and the settings.
+/// Returns everything, with the environment and the settings.
 std::string json(std::span<const Measurement> all, const Plan& plan);
 
-/// The engine that ratios are given to, in the same scene; null when it is not among them or failed.
+/// Returns the engine that ratios refer to, in the same scene; null if it is not measured or failed.
 const Measurement* yardstick_of(std::span<const Measurement> all, const Scene& scene);
 
 }  // namespace plumb::field

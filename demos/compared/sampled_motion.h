@@ -8,7 +8,7 @@
 
 namespace plumb::demos {
 
-/// Where an engine had a scene's bodies, on a grid of times from 0 on.
+/// Poses of a scene's bodies as an engine computed them, on a grid of times from 0 on.
 class SampledMotion {
  public:
   /// `dt`: s between samples.
@@ -17,7 +17,7 @@ class SampledMotion {
   struct Pose {
     double x, y, angle;
   };
-  /// The next sample: a state for each body.
+  /// Appends a sample: a state for each body.
   void add(std::span<const BodyState> states);
   void assign(std::vector<Pose> poses) { poses_ = std::move(poses); }
 
@@ -25,7 +25,7 @@ class SampledMotion {
   const std::vector<Pose>& poses() const { return poses_; }
   double end() const;  ///< s, of the last sample
 
-  /// Positions and angles at `time`, on straight lines between the samples; false beyond the end.
+  /// Interpolates positions and angles at `time` linearly between the samples; false beyond the end.
   bool at(double time, std::span<BodyState> out) const;
 
  private:

@@ -10,8 +10,8 @@
 namespace plumb::demos {
 namespace {
 
-constexpr double kLeast = 10;  // s, that other engines run, however short the scenario
-constexpr int kSamples = 120;  // of the truth, for what to show
+constexpr double kLeast = 10;  // s, minimum duration of other engines' runs
+constexpr int kSamples = 120;  // of the truth, for the view
 
 bool finite(const BodyState& state) {
   return std::isfinite(state.position.x) && std::isfinite(state.position.y) && std::isfinite(state.angle);

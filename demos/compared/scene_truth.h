@@ -10,26 +10,26 @@
 
 namespace plumb::demos {
 
-/// What a scene that is shown is held against: the motion that no engine computed, and its energy.
+/// Reference of a displayed scene: the exact motion, which no engine computed, and its energy.
 class SceneTruth {
  public:
   explicit SceneTruth(scenarios::Problem problem);
 
   const Scene& scene() const { return problem_.scene; }
   bool known() const { return static_cast<bool>(problem_.truth.exact); }
-  /// Where it comes from; "" where it is not known.
+  /// Source of the truth; "" if it is unknown.
   const std::string& source() const { return problem_.truth.source; }
-  /// s, how far other engines are asked to go: the scenario's own duration, and 10 s at least.
+  /// Returns the duration of other engines' runs, s: the scenario's own, and at least 10 s.
   double end() const;
 
-  /// The exact states at `time`; false beyond `end` and where they are not known.
+  /// Computes the exact states at `time`; false beyond `end` and if they are unknown.
   bool at(double time, std::span<BodyState> out) const;
 
-  /// Energy (J), its drift relative to the truth's largest kinetic energy, and the largest errors of position
-  /// (m) and angle (rad) over the bodies; those that mean something for this scene.
+  /// Returns the energy (J), its drift relative to the truth's largest kinetic energy, and the largest errors
+  /// of position (m) and angle (rad) over the bodies. Only those with a meaning for this scene.
   std::vector<Figure> figures(double time, std::span<const BodyState> states) const;
 
-  /// What the truth goes through, with some room around it, m; nothing where it is not known.
+  /// Returns the box around the true motion, with a margin, m; nothing if the truth is unknown.
   std::optional<Aabb<double>> view() const;
 
  private:
@@ -39,7 +39,7 @@ class SceneTruth {
   double start_ = 0, energy_scale_ = 0;  // J
 };
 
-/// m, the largest over the bodies.
+/// Returns the largest distance over the bodies, m.
 double largest_distance(std::span<const BodyState> a, std::span<const BodyState> b);
 
 }  // namespace plumb::demos

@@ -70,9 +70,9 @@ class BouncingBall final : public Demo {
   const Simulation* simulation() const override { return &*simulation_; }
 
  private:
-  static constexpr std::size_t kBall = 1;  // its place in the scene
+  static constexpr std::size_t kBall = 1;  // its index in the scene
 
-  // Four walls about the room, as one body, and the ball, which does not turn.
+  // Returns the scene: four walls around the room, as one body, and the ball, which has a fixed rotation.
   Scene scene() const {
     constexpr double kThick = 1;
     const auto wall = [&](Vec2d middle, double width, double height) {
@@ -107,7 +107,7 @@ class BouncingBall final : public Demo {
     before_ = simulation_->state(kBall);
   }
 
-  // The ball flies on under the new rules.
+  // Keeps the ball's state when a setting changes.
   void changed(std::string_view) override {
     const BodyState ball = simulation_->state(kBall);
     simulation_.emplace(compiled());
@@ -122,7 +122,7 @@ class BouncingBall final : public Demo {
     trail_.push_back(simulation_->state(kBall).position);
   }
 
-  // While it is held it rests at the pointer, inside the room.
+  // Fixes the ball at the pointer, inside the room.
   void hold(Vec2d point) {
     held_ = Vec2d{std::clamp(point.x, kRadius, kWidth - kRadius),
                   std::clamp(point.y, kRadius, kHeight - kRadius)};
@@ -150,8 +150,8 @@ class BouncingBall final : public Demo {
   double gravity_ = 9.81, restitution_ = 0.8, damping_ = 0.1;
   int integrator_ = 2;
   std::optional<Simulation> simulation_;
-  std::optional<Vec2d> held_;  // where the pointer holds the ball
-  BodyState before_;           // the step
+  std::optional<Vec2d> held_;  // position of the pointer that holds the ball
+  BodyState before_;           // ball before the step
   std::vector<Vec2d> trail_;
 };
 

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kGravity = 9.81;         // m/s^2
 constexpr Vec2d kMuzzle{1, 1.5};          // m
-constexpr double kBarrel = 1;             // m, from its hinge at the muzzle's foot
+constexpr double kBarrel = 1;             // m, from the hinge at the cannon's base to the muzzle
 constexpr double kMasses[] = {1, 10};     // kg
-constexpr double kRadii[] = {0.2, 0.43};  // m: as 10 to 1 in volume
-constexpr double kApart = 0.8;            // m, between two balls that are fired together
+constexpr double kRadii[] = {0.2, 0.43};  // m: a volume ratio of 10 to 1
+constexpr double kApart = 0.8;            // m, between two balls fired together
 constexpr std::size_t kMost = 40;         // balls at a time
-constexpr double kLost = 200;             // m from the muzzle, where a ball is given up
+constexpr double kLost = 200;             // m from the muzzle, beyond which a ball is removed
 constexpr double kForceScale = 0.03;      // m of arrow for 1 N
 constexpr double kPathStep = 0.05;        // s
 constexpr int kPathSteps = 60;
@@ -34,11 +34,11 @@ const About kAbout{
      {' ', "fire"},
      {'c', "clear the balls away"}}};
 
-/// A ball in flight, and what pushes it on.
+/// A ball in flight, with its thrust.
 struct Ball {
   BodyId body{};
   Vec2d thrust{};   // N
-  double left = 0;  // s, that it still acts
+  double left = 0;  // s, remaining duration of the thrust
 };
 
 class Cannonballs final : public WorldDemo {
@@ -151,8 +151,8 @@ class Cannonballs final : public WorldDemo {
     return weight + Vec2d{wind_, 0} + (ball.left > 0 ? ball.thrust : Vec2d{});
   }
 
-  // Weight is the world's own. A push that ends within the step acts with its share of it, so that its
-  // impulse is that of its duration. Balls that sleep are left alone.
+  // Gravity is the world's own. A thrust that ends within the step is scaled by the fraction of the step, so
+  // that its impulse is right. Sleeping balls are skipped.
   void before_step() override {
     for (Ball& ball : balls_) {
       const double share = std::clamp(ball.left / dt(), 0.0, 1.0);
@@ -186,7 +186,7 @@ class Cannonballs final : public WorldDemo {
     }
   }
 
-  // Where a ball would go: x = v t + a t^2/2 while it is pushed, and from there on without.
+  // Draws the predicted path of a ball: x = v t + a t^2/2 under thrust, and from there on without.
   void draw_path(DebugDraw& out, int which) const {
     const double mass = kMasses[which];
     const Vec2d free = world_.gravity() + Vec2d{wind_ / mass, 0};
@@ -227,7 +227,7 @@ class Cannonballs final : public WorldDemo {
   double impulse_ = 15, force_ = 50, duration_ = 0.3, wind_ = 0, gravity_ = kGravity;
   bool show_forces_ = true;
   Vec2d pointer_{12, 9};
-  std::vector<Ball> balls_;  // the oldest first
+  std::vector<Ball> balls_;  // oldest first
 };
 
 const Register kEntry{2, kAbout, [] { return std::unique_ptr<Demo>(new Cannonballs); }};

@@ -5,22 +5,22 @@
 
 namespace plumb::demos {
 
-/// Something that a player can set while a demo runs. Its value is a number whatever its kind.
+/// A setting that the player can change while a demo runs. Its value is a number for every kind.
 struct Control {
   enum class Kind {
-    Slider,  ///< any number from low to high; whole numbers where `whole`
-    Choice,  ///< the place of one of `choices`
+    Slider,  ///< any number from low to high; integers if `whole`
+    Choice,  ///< index into `choices`
     Switch,  ///< 0 or 1
   };
   std::string name{};
   Kind kind = Kind::Slider;
-  std::string unit{};  ///< "" where there is none
+  std::string unit{};  ///< "" if there is none
   double low = 0, high = 1;
   bool whole = false;
   double value = 0;
-  double initial = 0;  ///< what it started with
+  double initial = 0;  ///< initial value
   std::vector<std::string> choices{};
-  std::string about{};  ///< a line
+  std::string about{};  ///< one line
 };
 
 }  // namespace plumb::demos

@@ -18,7 +18,7 @@ double value_of(const std::variant<double*, int*, bool*>& target) {
   return std::visit([](const auto* member) { return static_cast<double>(*member); }, target);
 }
 
-// Throws unless the control can have the value.
+// Throws unless the control accepts the value.
 void check(const Control& control, double value) {
   const bool in_range = value >= control.low && value <= control.high;
   const bool whole = !control.whole || value == std::floor(value);
@@ -120,7 +120,7 @@ void Demo::set(std::string_view name, std::string_view choice) {
 int Demo::advance(double seconds) {
   if (!(seconds > 0)) return 0;
   waiting_ += std::min(seconds, kLongestFrame);
-  // Frames that add up to a step but for rounding are a step.
+  // Frames that sum to a step up to rounding count as a step.
   constexpr double kRounding = 1e-9;
   int taken = 0;
   for (; waiting_ >= dt_ * (1 - kRounding); ++taken) {

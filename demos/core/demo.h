@@ -18,37 +18,37 @@ namespace plumb {
 class Simulation;
 }
 
-/// The demos, without a window: what a player does comes in as calls, what there is to see goes out through
-/// DebugDraw. They need the engine alone. SI units, y up.
+/// The demos, without a window: the player's actions come in as calls, and drawings go out through DebugDraw.
+/// They depend on the engine alone. SI units, y up.
 namespace plumb::demos {
 
-/// The world that demos play in: the one of games.
+/// World used by the demos: the same as in games.
 using DemoReal = float;
 using DemoWorld = BasicWorld<DemoReal>;
 
-/// A key that a demo answers to, and what it does then.
+/// A key that a demo reacts to, and its effect.
 struct Key {
   char key = 0;
   std::string about;
 };
 
-/// What a demo is.
+/// Name and description of a demo.
 struct About {
-  std::string name;     ///< as command lines write it
-  std::string summary;  ///< a line
+  std::string name;     ///< as on the command line
+  std::string summary;  ///< one line
   std::string play;     ///< how to play, in a few sentences
   std::vector<Key> keys{};
 };
 
-/// A number that is worth watching.
+/// A figure to display.
 struct Figure {
   std::string_view name;
   double value = 0;
-  std::string_view unit;  ///< "" where there is none
+  std::string_view unit;  ///< "" if there is none
 };
 
-/// Something to play with. Time passes in fixed steps whatever the frame rate: the same calls between the
-/// same steps give the same bits. Neither copied nor moved: controls point into it.
+/// An interactive demo. Time advances in fixed steps at any frame rate: the same calls between the same steps
+/// give the same bits. Neither copied nor moved, because controls point into it.
 class Demo {
  public:
   explicit Demo(About about) : about_(std::move(about)) {}
@@ -58,15 +58,15 @@ class Demo {
 
   const About& about() const { return about_; }
 
-  // What can be set.
+  // Settings.
   const std::vector<Control>& controls() const { return controls_; }
-  const Control& control(std::string_view name) const;  ///< throws Error (Name) that suggests the nearest
-  /// Throws Error (Name) for a control that there is not, and Error (Value) for a number out of its range, or
-  /// that is no choice; nothing has changed then.
+  const Control& control(std::string_view name) const;  ///< throws Error (Name) with the nearest name
+  /// Throws Error (Name) for an unknown control, and Error (Value) for a number out of range or an invalid
+  /// choice; nothing has changed then.
   void set(std::string_view name, double value);
   void set(std::string_view name, std::string_view choice);
 
-  // What a player does; points in m. A press is followed by drags and one release.
+  // Actions of the player; points in m. A press is followed by drags and one release.
   virtual void press(Vec2d) {}
   virtual void drag(Vec2d) {}
   virtual void release(Vec2d) {}
@@ -74,53 +74,54 @@ class Demo {
   virtual void key(char) {}     ///< one of about().keys; others are ignored
 
   // Time.
-  /// Lets `seconds` of real time pass: takes the steps that are due, keeps the rest for the next call, and
-  /// returns how many steps it took. Of a call no more than `kLongestFrame` s counts, so that steps which
-  /// cost more than they last slow the demo down, and never pile up.
+  /// Advances by `seconds` of real time: takes the due steps, keeps the rest for the next call, and returns
+  /// the number of steps. A call counts for at most `kLongestFrame` s, so that steps slower than real time
+  /// slow the demo down and do not accumulate.
   int advance(double seconds);
   void step_once();
-  /// As it began, with the controls as they are.
+  /// Resets the demo to its start, with the present values of the controls.
   void restart();
   double dt() const { return dt_; }  ///< s, of a step; a control of each demo
   std::int64_t step_count() const { return steps_; }
   double time() const { return time_; }  ///< s
-  /// How much of a step has passed since the last one, 0..1: what is drawn lies so far between the last two.
+  /// Returns the fraction of a step since the last one, 0..1: drawings interpolate between the last two steps
+  /// by it.
   double fraction() const;
 
-  // What there is to see.
+  // Output.
   virtual void draw(DebugDraw& out, const DrawOptions& options = {}) const = 0;
   virtual std::vector<Figure> figures() const = 0;
-  virtual Aabb<double> view() const = 0;  ///< m, what to show
+  virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show
 
   // State.
-  /// 64 bits of every body's state: equal on every platform for the same calls.
+  /// Returns 64 bits of every body's state: equal on every platform for the same calls.
   virtual std::uint64_t hash() const = 0;
-  /// All that the future depends on, controls included.
+  /// Saves everything that the future depends on, controls included.
   std::vector<std::byte> save() const;
-  /// Throws Error (Value) for bytes that are not of this demo or damaged; nothing has changed then. Whatever
-  /// the pointer held is let go.
+  /// Throws Error (Value) for bytes that are damaged or of another demo; nothing has changed then. Releases
+  /// the body that the pointer held.
   void restore(std::span<const std::byte> bytes);
 
-  /// For a look inside; null where the demo has none.
+  /// For inspection; null if the demo has none.
   virtual const DemoWorld* world() const { return nullptr; }
   virtual const Simulation* simulation() const { return nullptr; }
 
   static constexpr double kLongestFrame = 0.1;  ///< s
 
  protected:
-  /// Controls stand for members of the demo, whose values they start with.
+  /// Adds a control for a member of the demo, starting with its value.
   void add_slider(std::string name, std::string unit, double low, double high, double& target,
                   std::string about);
   void add_slider(std::string name, std::string unit, int low, int high, int& target, std::string about);
   void add_choice(std::string name, std::vector<std::string> choices, int& target, std::string about);
   void add_switch(std::string name, bool& target, std::string about);
-  /// The member has its new value.
+  /// Called after the member has its new value.
   virtual void changed(std::string_view /*control*/) {}
 
-  virtual void build() = 0;  ///< the scene's start, from the controls
-  virtual void step() = 0;   ///< by dt()
+  virtual void build() = 0;  ///< builds the scene's start from the controls
+  virtual void step() = 0;   ///< advances by dt()
   virtual void write(ByteWriter& out) const = 0;
-  /// Reads what `write` wrote. Controls have their values from then. Changes nothing when it throws.
+  /// Reads the data of `write`. Controls already have the values saved with it. Changes nothing if it throws.
   virtual void read(ByteReader& in) = 0;
 
   double dt_ = 1.0 / 60;  ///< s
@@ -133,8 +134,8 @@ class Demo {
 
   About about_;
   std::vector<Control> controls_;
-  std::vector<Target> targets_;  // by control
-  double waiting_ = 0;           // s, that have passed but not been stepped
+  std::vector<Target> targets_;  // one per control
+  double waiting_ = 0;           // s, elapsed but not stepped yet
   double time_ = 0;
   std::int64_t steps_ = 0;
 };

@@ -6,18 +6,18 @@
 namespace plumb::demos {
 namespace {
 
-// Where joints are, m from the hip's middle; those of the left side have the x mirrored.
+// Positions of joints, m from the middle of the hip; the left side has x mirrored.
 constexpr Vec2d kNeck{0, 0.61}, kHead{0, 0.78}, kChest{0, 0.3};
 constexpr Vec2d kShoulder{0.2, 0.54}, kElbow{0.2, 0.26}, kHand{0.2, -0.02};
 constexpr Vec2d kHip{0.1, 0.02}, kKnee{0.1, -0.4}, kFoot{0.1, -0.82};
 constexpr Box kTorso{0.36, 0.6};
 constexpr double kHeadRadius = 0.13, kArmRadius = 0.055, kThighRadius = 0.075, kShinRadius = 0.06;  // m
 
-// How far joints turn from where they are in a figure that stands, rad.
+// Limits of the joints' angles relative to a standing figure, rad.
 constexpr Range kNeckTurns{-0.5, 0.5}, kShoulderTurns{-0.9, 2.8}, kElbowTurns{-0.05, 2.4};
 constexpr Range kHipTurns{-0.5, 1.9}, kKneeTurns{-2.4, 0.05};
 
-// kg, of rigid parts; and of points, which share the same 60 kg.
+// kg, of rigid parts; the masses of points, below, add up to the same 60 kg.
 constexpr double kHeadMass = 5, kTorsoMass = 29, kUpperArmMass = 2, kForearmMass = 1.5, kThighMass = 6,
                  kShinMass = 3.5;
 constexpr double kShoulderMass = 8, kHipMass = 10, kElbowMass = 1.75, kHandMass = 1, kKneeMass = 4.5,
@@ -40,7 +40,7 @@ struct Doll {
     const Vec2d half = 0.5 * (to - from);
     return part(name, from + half, mass, Capsule{-half, half, radius});
   }
-  // It has no angle, or the figure would roll on its hands and feet.
+  // Adds a point. Its rotation is fixed, or the figure would roll on its hands and feet.
   BodyId point(const char* name, Vec2d place, double mass, double radius) {
     return part(name, place, mass, Circle{radius}, false);
   }
@@ -96,7 +96,8 @@ void add_stick_doll(DemoWorld& world, Vec2d hip, int group) {
     shoulders[i] = doll.point("shoulder", on_side(side, kShoulder), kShoulderMass, kArmRadius);
     hips[i] = doll.point("hip", on_side(side, kHip), kHipMass, kThighRadius);
   }
-  // The torso: a frame with both diagonals. The head stands on it, and does not sink into it.
+  // The torso is a frame with both diagonals. Sticks to the shoulders carry the head; those to the hips keep
+  // it from sinking in.
   add_stick(world, shoulders[0], shoulders[1]), add_stick(world, hips[0], hips[1]);
   for (const int i : {0, 1}) {
     add_stick(world, shoulders[i], hips[0]), add_stick(world, shoulders[i], hips[1]);

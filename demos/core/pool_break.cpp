@@ -9,14 +9,14 @@
 namespace plumb::demos {
 namespace {
 
-constexpr double kLength = 2.54, kWidth = 1.27;     // m, a table of nine feet, whose middle is the origin
+constexpr double kLength = 2.54, kWidth = 1.27;     // m, a table of nine feet with its middle at the origin
 constexpr double kRadius = 0.028575, kMass = 0.17;  // m, kg, of a ball
-constexpr double kCushion = 0.1;                    // m, how thick it is drawn
-constexpr double kPocket = 0.05;                    // m: a ball whose centre is so near to one falls in
+constexpr double kCushion = 0.1;                    // m, drawn thickness
+constexpr double kPocket = 0.05;                    // m: a ball whose centre is nearer to a pocket falls in
 constexpr Vec2d kCueSpot{-kLength / 4, 0}, kFootSpot{kLength / 4, 0};
 constexpr double kGap = 1e-4;                   // m, between the balls of the rack
-constexpr double kHardness = 8, kFastest = 12;  // 1/s, m/s: the cue ball's speed for a metre of aim
-constexpr double kGlow = 0.25;                  // s, that a ball lights up for
+constexpr double kHardness = 8, kFastest = 12;  // 1/s, m/s: the cue ball's speed per metre of aim
+constexpr double kGlow = 0.25;                  // s, for which a ball is highlighted
 constexpr int kBalls = 16;                      // the cue ball is the first
 
 const About kAbout{
@@ -98,7 +98,8 @@ class PoolBreak final : public WorldDemo {
     world_.create_body({.name = "table", .type = BodyType::Static, .user_data = kBalls}, shapes);
   }
 
-  // The rack: rows of 1, 2, ... 5 balls in a triangle, whose tip is on the foot spot.
+  // Returns a ball's place in the rack: rows of 1, 2, ... 5 balls in a triangle with its tip on the foot
+  // spot.
   static Vec2d spot(int ball) {
     int row = 0, first = 1;
     while (ball >= first + row + 1) first += ++row;
@@ -138,7 +139,8 @@ class PoolBreak final : public WorldDemo {
   }
   void shoot(Vec2d way) { world_.apply_impulse(cue(), cue_mass_ * speed_for(way)); }
 
-  // Fast balls meet and part within a step, of which hits tell; others press on each other for a while.
+  // Records the time of a ball's last contact: hit events for balls that meet and separate within a step, and
+  // touching pairs.
   void touch(ShapeId shape) {
     const std::uint64_t ball = world_.valid(shape) ? world_.user_data(world_.body(shape)) : kBalls;
     if (ball < kBalls) touched_[ball] = time();
@@ -166,7 +168,7 @@ class PoolBreak final : public WorldDemo {
     return false;
   }
 
-  // The cue ball comes back to its spot.
+  // Removes balls over pockets; the cue ball returns to its spot.
   void drop_into_pockets() {
     for (int ball = 0; ball < kBalls; ++ball) {
       if (!on_table(ball) || !over_pocket(world_.position(balls_[ball]))) continue;
@@ -217,7 +219,7 @@ class PoolBreak final : public WorldDemo {
   double restitution_ = 0.95, cue_mass_ = kMass, cloth_ = 0.3;
   bool pockets_ = true;
   BodyId balls_[kBalls];
-  double touched_[kBalls] = {};  // s, when they last did
+  double touched_[kBalls] = {};  // s, time of each ball's last contact
   double collisions_ = 0;
   std::optional<Vec2d> aim_;
 };

@@ -11,7 +11,7 @@ namespace plumb::demos {
 namespace {
 
 constexpr double kHalfWidth = 7, kHeight = 7;  // m, of the room above the ground
-constexpr double kReach = 0.2;                 // m, that the hand reaches beside the pointer
+constexpr double kReach = 0.2;                 // m, search radius of the pointer
 constexpr int kMostDolls = 6;
 constexpr Vec2d kStart{2.2, 5.0};  // m, of the first figure's hip
 
@@ -63,8 +63,8 @@ class Ragdoll final : public WorldDemo {
   Aabb<double> view() const override { return {{-kHalfWidth - 0.3, -0.4}, {kHalfWidth + 0.3, kHeight}}; }
 
  private:
-  // Sweeps give way where a figure is pinched with its joints at their limits; solved directly, joints stay
-  // closed to micrometres, until such a pinch.
+  // Iterative solvers yield if a figure is pinched with its joints at their limits. The direct solver keeps
+  // joints closed to micrometres until such a pinch.
   WorldDefinition definition() const override {
     constexpr Solver kSolvers[] = {Solver::SoftSteps, Solver::Jakobsen, Solver::Direct};
     return {.gravity = {0, -gravity_},
@@ -102,7 +102,7 @@ class Ragdoll final : public WorldDemo {
     world_.create_body({.name = "room", .type = BodyType::Static}, shapes);
   }
 
-  // Parts of a line do not touch those of the same one.
+  // Adds a bead; parts of one line do not collide with each other.
   BodyId add_bead(const char* name, Vec2d position, double radius, double mass, int group) {
     return world_.create_body({.name = name, .position = position},
                               {.geometry = Circle{radius},
@@ -110,7 +110,7 @@ class Ragdoll final : public WorldDemo {
                                .filter = {.group = -group}});
   }
 
-  // A stick from the hook to the middle of a body.
+  // Adds a stick from the hook to the centre of a body.
   void hang(Vec2d hook, BodyId body) {
     const double length = std::sqrt(length_squared(world_.centre(body) - hook));
     world_.create_joint(frame_, body, {.kind = DistanceDefinition{.anchor_a = hook, .length = length}});
@@ -118,7 +118,7 @@ class Ragdoll final : public WorldDemo {
 
   static constexpr int kRopeGroup = 1, kChainGroup = 2, kFirstDollGroup = 3;
 
-  // Of rods that hinges join, or of beads on sticks.
+  // Adds a rope of rods joined by hinges, or of beads on sticks.
   void add_rope() {
     BodyId last = frame_;
     for (int i = 0; i < kRopeParts; ++i) {
@@ -142,7 +142,7 @@ class Ragdoll final : public WorldDemo {
     }
   }
 
-  // Circles whose middles keep their distance, whatever joins the rest.
+  // Adds a chain of circles joined by sticks between their centres, for either kind of joints.
   void add_chain() {
     BodyId last{};
     for (int i = 0; i < kChainParts; ++i) {
@@ -154,7 +154,7 @@ class Ragdoll final : public WorldDemo {
     }
   }
 
-  // Where there is room for one.
+  // Adds another figure at the first free place.
   void add_another() {
     constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, about the hip
     for (const double x : {2.2, 0.8, 3.6, 5.0, -0.6, -2.0}) {

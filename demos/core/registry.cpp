@@ -10,7 +10,7 @@
 namespace plumb::demos {
 namespace {
 
-// Files register in no particular order, before main.
+// A function-local list, because files register in no particular order, before main.
 std::vector<Entry>& entries() {
   static std::vector<Entry> list;
   return list;

@@ -8,20 +8,20 @@
 
 namespace plumb::demos {
 
-/// A demo that can be made. Those of the course come first, in its order.
+/// A demo that can be created. Those of the course come first, in its order.
 struct Entry {
   int order = 0;
   About about;
   std::unique_ptr<Demo> (*make)();
 };
 
-/// All demos, by order and name.
+/// Returns all demos, by order and name.
 const std::vector<Entry>& all();
 
-/// Throws Error (Name) that suggests the nearest.
+/// Creates a demo. Throws Error (Name) that suggests the nearest name.
 std::unique_ptr<Demo> make(std::string_view name);
 
-/// A demo enters the list in its own file: `const Register kEntry{order, about, make};`
+/// Registers a demo in its own file: `const Register kEntry{order, about, make};`
 struct Register {
   Register(int order, const About& about, std::unique_ptr<Demo> (*make)());
 };

@@ -10,9 +10,9 @@
 namespace plumb::demos {
 namespace {
 
-constexpr double kWidth = 12, kHeight = 8;  // m, of the room, whose middle is the origin
+constexpr double kWidth = 12, kHeight = 8;  // m, of the room with its middle at the origin
 constexpr double kMass = 1;                 // kg, of every box
-constexpr double kPush = 0.1;               // s, that a push lasts
+constexpr double kPush = 0.1;               // s, duration of a push
 constexpr double kForceScale = 0.05;        // m of arrow for 1 N
 constexpr std::size_t kMost = 60;           // boxes at a time
 
@@ -30,12 +30,12 @@ const About kAbout{
     "the same mass has twice the inertia of a square one, and its corners are twice as far out.",
     {{'1', "new boxes are square"}, {'2', "new boxes are thin"}}};
 
-/// A force at a point of a box while a push lasts.
+/// A force at a point of a box for the duration of a push.
 struct Push {
   BodyId body{};
   Vec2d point{};    // m, in the body's frame
   Vec2d force{};    // N
-  double left = 0;  // s
+  double left = 0;  // s, remaining duration
 };
 
 class SpinningBoxes final : public WorldDemo {
@@ -51,7 +51,7 @@ class SpinningBoxes final : public WorldDemo {
     restart();
   }
 
-  // On a box: the start of a push. Elsewhere: a new box.
+  // Starts a push on a box, or adds a new box elsewhere.
   void press(Vec2d point) override {
     const auto is_box = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
     const std::optional<NearestResult> hit = nearest(world_, point, 0, {.condition = is_box});
@@ -134,22 +134,22 @@ class SpinningBoxes final : public WorldDemo {
     return out;
   }
   Box box_of(BodyId body) const { return kForms[world_.user_data(body)].box; }
-  // m (w^2 + h^2) / 12, also while the box may not turn.
+  // Returns m (w^2 + h^2) / 12, even if the box has a fixed rotation.
   double form_inertia(BodyId body) const {
     const Box box = box_of(body);
     return kMass * (box.width * box.width + box.height * box.height) / 12;
   }
 
-  // The middle or the corner that is nearest to a point of the box.
+  // Returns the centre or the corner that is nearest to a point of the box.
   Vec2d nearest_handle(BodyId body, Vec2d point) const {
     const double x = box_of(body).width / 2, y = box_of(body).height / 2;
     const Vec2d handles[] = {{0, 0}, {x, y}, {-x, y}, {-x, -y}, {x, -y}};
     return *std::ranges::min_element(handles, {}, [&](Vec2d each) { return length_squared(each - point); });
   }
 
-  // A click pushes up, a drag along itself.
+  // Returns the direction of the push: up for a click, else that of the drag.
   Vec2d direction() const {
-    constexpr double kClick = 0.1;  // m, that a hand shakes
+    constexpr double kClick = 0.1;  // m, tolerance for a shaky hand
     const Vec2d way = to_ - from_;
     const double length = std::sqrt(length_squared(way));
     return length > kClick ? (1 / length) * way : Vec2d{0, 1};
@@ -160,8 +160,8 @@ class SpinningBoxes final : public WorldDemo {
     pushes_.push_back(last_);
   }
 
-  // The force keeps its direction, and its point moves with the box. What ends within the step acts with its
-  // share of it.
+  // The force keeps its direction, and its point moves with the box. A push that ends within the step is
+  // scaled by the fraction of the step.
   void before_step() override {
     std::erase_if(pushes_, [&](const Push& push) { return push.left <= 0 || !world_.valid(push.body); });
     for (Push& push : pushes_) {
@@ -228,7 +228,7 @@ class SpinningBoxes final : public WorldDemo {
 
   int form_ = 0, locked_ = 0;
   double strength_ = 20, restitution_ = 0.6, friction_ = 0.2, gravity_ = 0;
-  std::vector<Push> pushes_;  // that act
+  std::vector<Push> pushes_;  // active ones
   Push last_;                 // the last one
   BodyId aimed_{};            // the box that the pointer is on
   Vec2d aimed_point_{}, from_{}, to_{};

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kHalfWidth = 16, kHeight = 30;  // m, of the basin
 constexpr double kSize = 0.7;                    // m, of the bodies
-constexpr double kApart = 0.9;                   // m, when they start
+constexpr double kApart = 0.9;                   // m, initial distance
 constexpr int kColumns = 32;
 
 const About kAbout{"thousand", "a thousand circles, boxes and triangles rain into a basin",

@@ -11,9 +11,9 @@
 namespace plumb::demos {
 namespace {
 
-constexpr double kReach = 20;  // the view is so many times as large as the reach of the pointer
+constexpr double kReach = 20;  // ratio of the view's size to the search radius of the pointer
 
-// Where something was drawn.
+// Bounding box of everything drawn.
 class Bounds final : public DebugDraw {
  public:
   void polygon(std::span<const Vec2d> corners, double radius, DrawRole) override {
@@ -140,8 +140,8 @@ void SceneDemo::read_states(std::span<BodyState> out) const {
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
 }
 
-// Queries do not see what touches nothing, as the rods of a chain: of those the nearest by the box around
-// each in its own frame.
+// Grabs a body. Queries do not find shapes that collide with nothing, as the rods of a chain: of those it
+// takes the nearest by the bounding box of each in its own frame.
 void SceneDemo::press(Vec2d point) {
   const double reach = view_.half_perimeter() / kReach;
   if (grab(point, reach)) return;

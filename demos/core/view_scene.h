@@ -10,15 +10,16 @@
 
 namespace plumb::demos {
 
-/// Any scene as a demo: bodies can be dragged, and the step, the substeps and the solver chosen. Nothing
-/// sleeps.
+/// Any scene as a demo: bodies can be dragged, and the step, the substeps and the solver chosen. Sleep is
+/// off.
 class SceneDemo final : public WorldDemo {
  public:
-  /// `view`: what to show, m; without it what moves at the start. Throws Error as `add_scene`.
+  /// `view`: the part to show, m; by default the dynamic and kinematic bodies at the start. Throws Error as
+  /// `add_scene`.
   SceneDemo(const Scene& scene, const std::string& summary, std::optional<Aabb<double>> view = {});
 
   const Scene& scene() const { return scene_; }
-  /// The state of every body, in the scene's order.
+  /// Reads the state of every body, in the scene's order.
   void read_states(std::span<BodyState> out) const;
 
   void press(Vec2d point) override;
@@ -40,8 +41,8 @@ class SceneDemo final : public WorldDemo {
   int solver_ = 0, iterations_ = 10;
 };
 
-/// A box around what a scene's bodies that are not static, or else all, look like in these states (in the
-/// scene's order), m.
+/// Returns the box around a scene's bodies that are not static, or all if there are none, in these states (in
+/// the scene's order), m.
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
 
 /// Draws the shapes of one body of a scene in a state.

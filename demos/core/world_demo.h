@@ -7,7 +7,7 @@
 
 namespace plumb::demos {
 
-/// A demo that plays in a world: what those have in common.
+/// Common parts of the demos that play in a world.
 class WorldDemo : public Demo {
  public:
   void draw(DebugDraw& out, const DrawOptions& options = {}) const override;
@@ -16,17 +16,17 @@ class WorldDemo : public Demo {
 
  protected:
   explicit WorldDemo(About about) : Demo(std::move(about)) {}
-  /// The controls that all worlds have; to be called after the demo's own.
+  /// Adds the controls that all worlds have; call it after adding the demo's own.
   void add_step_controls();
 
   virtual WorldDefinition definition() const { return {}; }
-  virtual void fill() = 0;       ///< the empty world, from the controls
-  virtual void before_step() {}  ///< forces of the next step
-  virtual void after_step() {}   ///< what happened in it
+  virtual void fill() = 0;       ///< fills the empty world, from the controls
+  virtual void before_step() {}  ///< applies forces for the next step
+  virtual void after_step() {}   ///< handles the events of the step
   virtual void draw_over(DebugDraw&) const {}
-  /// What the demo itself remembers, beside the world and the controls.
+  /// Returns the demo's own state, beside the world and the controls.
   virtual std::vector<double> own() const { return {}; }
-  /// Takes what `own` gave; the world is the one of then.
+  /// Restores the state that `own` returned; the world has been restored before.
   virtual void set_own(std::span<const double>) {}
 
   void build() final;
@@ -34,23 +34,23 @@ class WorldDemo : public Demo {
   void write(ByteWriter& out) const final;
   void read(ByteReader& in) final;
 
-  // A body that the pointer holds by a point, as by a rubber band.
-  /// Takes hold of the dynamic body at `point`, or of the nearest one not farther than `reach` m; false where
-  /// there is none. `strength`: the most that the band pulls with, in weights of the body.
+  // A body held by the pointer at a point, as by a rubber band.
+  /// Grabs the dynamic body at `point`, or the nearest one within `reach` m; false if there is none.
+  /// `strength`: maximum force of the band, in weights of the body.
   bool grab(Vec2d point, double reach, double strength = 100);
-  /// Takes hold of this dynamic body.
+  /// Grabs this dynamic body.
   void hold(BodyId body, Vec2d point, double strength = 100);
-  void pull(Vec2d point);  ///< the pointer is here now
+  void pull(Vec2d point);  ///< moves the target of the band
   void let_go();
-  BodyId held() const;  ///< names nothing where nothing is held
+  BodyId held() const;  ///< invalid if nothing is held
 
-  /// Where the centre of a body is drawn.
+  /// Returns the drawn position of a body's centre of mass.
   Vec2d drawn_centre(BodyId body) const;
-  /// The same with its angle as a rotation.
+  /// Returns the drawn pose of a body.
   Pose<double> drawn_pose(BodyId body) const;
 
   DemoWorld world_;
-  BodyId frame_{};  ///< static, without shapes: what bands and hinges are fixed to
+  BodyId frame_{};  ///< static, without shapes: the fixed end of bands and hinges
   int substeps_ = 4;
 
  private:
@@ -58,10 +58,10 @@ class WorldDemo : public Demo {
   JointId band_{};
 };
 
-/// An arrow, its head a tenth of its length.
+/// Draws an arrow, its head a fifth of its length.
 void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
 
-/// The momentum and energy of all dynamic bodies: kg m/s, J.
+/// Total momentum and energy of all dynamic bodies: kg m/s, J.
 struct Totals {
   Vec2d momentum{};
   double energy = 0;  ///< kinetic: of translation and of rotation

@@ -8,16 +8,15 @@
 
 namespace plumb::web {
 
-/// What is to be drawn, as numbers in a row for a reader that has no C++: each command is its own number, its
-/// role's number (as in DrawRole), and
-///   0 polygon: radius, how many corners, their x and y
+/// Records drawing commands as numbers in a row, for a reader outside C++: each command is its own number,
+/// its role's number (as in DrawRole), and
+///   0 polygon: radius, number of corners, their x and y
 ///   1 circle: x, y, radius, x and y of its axis
 ///   2 capsule: x and y of both ends, radius
 ///   3 segment: x and y of both ends
 ///   4 point: x, y
-///   5 text: x, y, and where in `words` it begins and how long it is, in bytes
-/// Outlines that lie over the bodies, as of other engines, have kGhost and their own number instead of a
-/// role.
+///   5 text: x, y, and its offset and length in `words`, in bytes
+/// Outlines drawn over the bodies, as of other engines, have kGhost and their own number instead of a role.
 class CommandBuffer : public DebugDraw {
  public:
   void clear() {

@@ -1,5 +1,6 @@
-// What JavaScript calls. Texts and bytes pass through one buffer each way: arguments are written where
-// `argument(size)` says, answers lie at `answer()` and are `answer_size()` long, until the next call.
+// Functions called from JavaScript. Texts and bytes pass through one buffer each way: arguments are written
+// to the address from `argument(size)`. Answers lie at `answer()` and are `answer_size()` long, until the
+// next call.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,8 +21,8 @@ using demos::Demo;
 std::vector<char> given, answered;
 CommandBuffer commands;
 std::unique_ptr<Demo> played;
-std::unique_ptr<Viewer> viewer;  // where a scenario is open
-Demo* demo = nullptr;            // whichever is open
+std::unique_ptr<Viewer> viewer;  // set if a scenario is open
+Demo* demo = nullptr;            // the open demo or scenario
 
 std::string_view text_of(std::size_t size) { return {given.data(), size}; }
 
@@ -67,7 +68,7 @@ PLUMB_EXPORT("argument") char* plumb_argument(std::size_t size) {
 PLUMB_EXPORT("answer") const char* plumb_answer() { return answered.data(); }
 PLUMB_EXPORT("answer_size") std::size_t plumb_answer_size() { return answered.size(); }
 
-/// All demos and then all scenarios, as JSON.
+/// Lists all demos and then all scenarios, as JSON.
 PLUMB_EXPORT("list") void plumb_list() {
   JsonList list;
   for (const plumb::demos::Entry& entry : plumb::demos::all()) {
@@ -93,8 +94,7 @@ PLUMB_EXPORT("list") void plumb_list() {
   answer_with(list.text());
 }
 
-/// The demo or scenario of the name that was given takes the place of the one before; all below is about
-/// that.
+/// Opens the demo or scenario with the given name instead of the one before; all functions below refer to it.
 PLUMB_EXPORT("open") void plumb_open(std::size_t size) {
   const std::string_view name = text_of(size);
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
@@ -111,7 +111,7 @@ PLUMB_EXPORT("open") void plumb_open(std::size_t size) {
   viewer.reset();
 }
 
-/// What can lie over a scenario: nothing for a demo.
+/// Lists the motions that can be drawn over a scenario: none for a demo.
 PLUMB_EXPORT("ghosts") void plumb_ghosts() {
   JsonList list;
   if (viewer) {
@@ -134,7 +134,7 @@ PLUMB_EXPORT("controls") void plumb_controls() {
   for (const Control& control : demo->controls()) list.add(text_of(control));
   answer_with(list.text());
 }
-/// The control whose name was given.
+/// Sets the control with the given name.
 PLUMB_EXPORT("set") void plumb_set(std::size_t size, double value) { demo->set(text_of(size), value); }
 
 PLUMB_EXPORT("press") void plumb_press(double x, double y) { demo->press({x, y}); }
@@ -161,7 +161,7 @@ PLUMB_EXPORT("figures") void plumb_figures() {
   answer_with(list.text());
 }
 
-/// [left, lower, right, upper], m.
+/// Returns [left, lower, right, upper], m.
 PLUMB_EXPORT("view") void plumb_view() {
   const plumb::Aabb<double> view = demo->view();
   JsonList list;
@@ -170,8 +170,8 @@ PLUMB_EXPORT("view") void plumb_view() {
   answer_with(list.text());
 }
 
-/// Fills the buffer of commands, which command_buffer.h describes, and returns where it begins. `shown`: a
-/// bit for each of contacts, normals, impulses, boxes, centres, joints, names.
+/// Fills the buffer of commands, which command_buffer.h describes, and returns its address. `shown`: a bit
+/// for each of contacts, normals, impulses, boxes, centres, joints, names.
 PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_length) {
   const auto bit = [&](int place) { return (shown >> place & 1u) != 0; };
   commands.clear();
@@ -187,7 +187,7 @@ PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_len
   answer_with(commands.words());
   return commands.numbers().data();
 }
-/// How many numbers the commands take; the words that they name are the answer.
+/// Returns the number of numbers in the commands; their texts are the answer.
 PLUMB_EXPORT("draw_size") std::size_t plumb_draw_size() { return commands.numbers().size(); }
 
 PLUMB_EXPORT("save") void plumb_save() {

@@ -6,7 +6,7 @@
 
 #include "engine/scene/text.h"
 
-/// JSON for the page, of texts that the program itself wrote.
+/// JSON for the page; its texts are the program's own.
 namespace plumb::web {
 
 inline std::string json_text(std::string_view text) {
@@ -17,7 +17,7 @@ inline std::string json_text(std::string_view text) {
   }
   return out + '"';
 }
-/// What is not finite is null.
+/// Returns null for a non-finite value.
 inline std::string json_text(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
 
 class JsonList {

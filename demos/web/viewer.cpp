@@ -5,7 +5,7 @@
 namespace plumb::web {
 namespace {
 
-constexpr std::size_t kTruth = 0;  // its place among the ghosts
+constexpr std::size_t kTruth = 0;  // its index in the ghosts
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void Viewer::start(std::size_t ghost) {
   runs_[ghost]->motion.add(states);
 }
 
-// A step that was changed counts from the next start on, as for the demo itself.
+// Restarts the engines if the step was changed; as for the demo itself, that takes effect at its next start.
 void Viewer::follow_step() {
   if (demo_.step_count() != 0 || demo_.dt() == dt_) return;
   dt_ = demo_.dt();

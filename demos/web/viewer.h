@@ -12,8 +12,8 @@
 
 namespace plumb::web {
 
-/// A scenario in the page: plumb's world as a demo, and over it the truth and plumb's other engines, which
-/// run in the page too and go along step by step.
+/// A scenario in the page: plumb's world as a demo, and over it the truth and plumb's other engines. Those
+/// run in the page too and advance with it step by step.
 class Viewer {
  public:
   explicit Viewer(const scenarios::Instance& instance);
@@ -23,15 +23,16 @@ class Viewer {
   struct Ghost {
     std::string name;
     bool shown = false;
-    std::string remark{};  ///< where it comes from, or why it is not there
+    std::string remark{};  ///< its source, or the reason for its absence
   };
   const std::vector<Ghost>& ghosts() const { return ghosts_; }
-  /// An engine that is shown runs from the start with the step that the demo has then.
+  /// Shows or hides a ghost. An engine that is shown runs from the start with the demo's present step.
   void show(std::size_t ghost, bool shown);
 
-  /// The demo's own, energy, and errors against the truth. Throws what an engine throws that is shown.
+  /// Returns the demo's own figures, energy, and errors against the truth. Throws any exception of a shown
+  /// engine.
   std::vector<demos::Figure> figures();
-  /// Outlines of what is shown.
+  /// Draws the outlines of the shown ghosts.
   void draw(CommandBuffer& out);
 
  private:
@@ -47,9 +48,9 @@ class Viewer {
   demos::SceneDemo demo_;
   std::vector<BodyState> states_;
   std::vector<Ghost> ghosts_;                        // the truth, then engines
-  std::vector<const reference::Backend*> backends_;  // by ghost; null for the truth
-  std::vector<std::unique_ptr<Run>> runs_;           // likewise; null where it is not shown
-  std::vector<std::string> error_names_;             // likewise
+  std::vector<const reference::Backend*> backends_;  // one per ghost; null for the truth
+  std::vector<std::unique_ptr<Run>> runs_;           // one per ghost; null if it is not shown
+  std::vector<std::string> error_names_;             // one per ghost
   double dt_;                                        // s, of the runs
 };
 

@@ -13,7 +13,7 @@ void Camera::fit(const Aabb<double>& view, double left, double top) {
   const Vec2d size = view.upper - view.lower;
   const double across = size.x > 0 ? wide / size.x : kLargest, up = size.y > 0 ? high / size.y : kLargest;
   scale_ = std::clamp(std::min(across, up), kSmallest, kLargest);
-  // The middle of what is free of the panel shows the middle of the view.
+  // The middle of the area beside the panel shows the middle of the view.
   centre_ = 0.5 * (view.lower + view.upper) + Vec2d{-left, top} * (0.5 / scale_);
 }
 

@@ -5,28 +5,27 @@
 
 namespace plumb::window {
 
-/// Which part of the world is seen, and how large. Pixels: (0, 0) at the top left, y down; the world: m, y
-/// up.
+/// Visible part of the world, and its scale. Pixels: (0, 0) at the top left, y down; the world: m, y up.
 class Camera {
  public:
-  /// The size of the picture, px. The middle stays where it is.
+  /// Sets the size of the picture, px. The middle stays fixed.
   void resize(int width, int height);
-  /// Shows all of `view`, with a margin, and as large as it goes to the right of `left` px and below `top`.
+  /// Shows all of `view`, with a margin, as large as possible to the right of `left` px and below `top`.
   void fit(const Aabb<double>& view, double left = 0, double top = 0);
 
   Vec2d to_pixel(Vec2d point) const;
   Vec2d to_world(Vec2d pixel) const;
   double scale() const { return scale_; }  ///< px/m
 
-  /// `factor` times as large; what is at `pixel` stays there.
+  /// Scales by `factor`; the point at `pixel` stays fixed.
   void zoom(Vec2d pixel, double factor);
-  void pan(Vec2d pixels);  ///< what is seen moves by so much
+  void pan(Vec2d pixels);  ///< moves the picture by so much
 
   static constexpr double kSmallest = 1e-3, kLargest = 1e6;  ///< px/m
 
  private:
   int width_ = 1, height_ = 1;
-  Vec2d centre_{};  // m, in the middle of the picture
+  Vec2d centre_{};  // m, at the middle of the picture
   double scale_ = 50;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMostCorners = 64;
 
-// From `first` to `last`, empty when they are the wrong way round.
+// Interval from `first` to `last`; empty if last < first.
 struct Interval {
   double first = std::numeric_limits<double>::infinity();
   double last = -std::numeric_limits<double>::infinity();
@@ -19,7 +19,7 @@ struct Interval {
   }
 };
 
-// The convex hull of some corners, with the distance to it.
+// Convex hull of some corners, with the distance to it.
 class Hull {
  public:
   Hull(std::span<const Vec2d> corners, bool sharp) : count_(static_cast<int>(corners.size())), sharp_(sharp) {
@@ -33,7 +33,8 @@ class Hull {
     }
   }
 
-  // px, negative inside. Sharp: the edges go on beyond the corners until they meet.
+  // Returns the distance in px, negative inside. If sharp, the edges extend beyond the corners until they
+  // meet.
   double distance(Vec2d point) const {
     if (count_ > 2) {
       double highest = -std::numeric_limits<double>::infinity();
@@ -52,7 +53,7 @@ class Hull {
     return std::sqrt(nearest);
   }
 
-  // Where the row `y` lies within `offset` of the hull; a negative offset: deeper inside than that.
+  // Returns the part of row `y` within `offset` of the hull; a negative offset: at least that deep inside.
   Interval row(double y, double offset) const {
     if (offset < 0) return inner_row(y, -offset);
     Interval out;
@@ -106,7 +107,7 @@ class Hull {
   Vec2d corners_[kMostCorners], normals_[kMostCorners];
 };
 
-// What a pixel becomes where the shape's edge is `distance` px away (negative: inside).
+// Returns the colour of a pixel at `distance` px from the shape's edge (negative: inside).
 std::uint32_t at_edge(std::uint32_t under, double distance, const Paint& paint) {
   const auto cover = [](double d) { return std::clamp(0.5 - d, 0.0, 1.0); };
   const double filled = cover(distance + paint.line_width);
@@ -124,7 +125,7 @@ std::uint32_t at_edge(std::uint32_t under, double distance, const Paint& paint) 
   return blended(under, packed(over), opacity);
 }
 
-// The pixels whose centres lie in an interval, of `width`: [first, last).
+// Pixels of a row of `width` with centres in an interval: [first, last).
 struct Span {
   int first = 0, last = 0;
 };
@@ -159,7 +160,7 @@ void Canvas::paint(std::span<const Vec2d> corners, double radius, const Paint& p
     std::uint32_t* row = &pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
     const double middle = y + 0.5;
     const Span outer = pixels_in(hull.row(middle, radius + 0.5), width_);
-    // Where nothing but the fill is: as many as in the row, or none.
+    // Pixels of the fill alone; empty, at the end of the row, if there are none.
     Span inner = pixels_in(hull.row(middle, radius - paint.line_width - 0.5), width_);
     if (inner.first >= inner.last) inner = {outer.last, outer.last};
     const auto edge = [&](int x) {

@@ -14,15 +14,15 @@ struct Colour {
   friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-/// How a shape is painted. Alpha 0: not at all.
+/// Fill and outline of a shape. Alpha 0: none.
 struct Paint {
   Colour fill{0, 0, 0, 0};
   Colour line{0, 0, 0, 0};
   double line_width = 0;  ///< px, inside the shape's edge
 };
 
-/// A picture in memory, painted without any graphics hardware: the same bytes on every machine. Pixel (0, 0)
-/// is at the top left, its centre at (0.5, 0.5); y points down.
+/// A picture in memory, painted in software: the same bytes on every machine. Pixel (0, 0) is at the top
+/// left, its centre at (0.5, 0.5); y points down.
 class Canvas {
  public:
   Canvas(int width, int height) { resize(width, height); }
@@ -33,13 +33,13 @@ class Canvas {
   void clear(Colour colour);
 
   Colour at(int x, int y) const;
-  /// Rows from the top; each pixel is `packed`, as screens have it.
+  /// Rows from the top; each pixel is `packed`.
   std::span<const std::uint32_t> pixels() const { return pixels_; }
   std::span<std::uint32_t> pixels() { return pixels_; }
 
-  /// All points within `radius` px of the convex hull of `corners`: one corner is a disc, two a capsule or a
-  /// line, more a rounded polygon, in either order around. Anti-aliased: a pixel is covered by how far its
-  /// centre is from the edge.
+  /// Paints all points within `radius` px of the convex hull of `corners`: one corner is a disc, two a
+  /// capsule or a line, more a rounded polygon, in either order. Anti-aliased: a pixel's coverage follows
+  /// from the distance of its centre from the edge.
   void paint(std::span<const Vec2d> corners, double radius, const Paint& paint);
 
  private:
@@ -47,7 +47,7 @@ class Canvas {
   std::vector<std::uint32_t> pixels_;
 };
 
-/// A colour as a pixel, 0xaarrggbb, and back.
+/// Converts a colour to a pixel, 0xaarrggbb, and back.
 constexpr std::uint32_t packed(Colour c) {
   return c.b | std::uint32_t{c.g} << 8 | std::uint32_t{c.r} << 16 | std::uint32_t{c.a} << 24;
 }
@@ -56,7 +56,7 @@ constexpr Colour unpacked(std::uint32_t pixel) {
           static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 24)};
 }
 
-/// `over` with opacity `alpha` (0..255) on top of an opaque pixel.
+/// Blends `over` with opacity `alpha` (0..255) onto an opaque pixel.
 constexpr std::uint32_t blended(std::uint32_t under, std::uint32_t over, std::uint32_t alpha) {
   // (x * alpha + 128) * 257 >> 16 is x * alpha / 255, rounded.
   const auto mix = [alpha](std::uint32_t a, std::uint32_t b) {

@@ -8,14 +8,14 @@
 
 namespace plumb::window {
 
-/// Another engine's motion, which can be drawn over plumb's.
+/// Motion of another engine, which can be drawn over plumb's.
 struct Ghost {
   std::string name;
   bool shown = false;
-  std::string remark{};  ///< why it is not there, or what to know about it
+  std::string remark{};  ///< the reason for its absence, or a note
 };
 
-/// What goes along with a demo: what it is compared with.
+/// References that a demo is compared with.
 class Companion {
  public:
   virtual ~Companion() = default;
@@ -23,7 +23,7 @@ class Companion {
   virtual std::string about() const = 0;  ///< a line or two for the panel
   virtual std::vector<demos::Figure> figures(const demos::Demo& demo) = 0;
   virtual const std::vector<Ghost>& ghosts() const = 0;
-  virtual void show_ghost(std::size_t ghost, bool shown) = 0;  ///< from the next step or picture on
+  virtual void show_ghost(std::size_t ghost, bool shown) = 0;  ///< takes effect at the next step or picture
   virtual void draw(Painter& out, const demos::Demo& demo) = 0;
 };
 

@@ -13,7 +13,7 @@
 namespace plumb::window {
 namespace {
 
-constexpr double kPatience = 20;          // s, that an engine may take
+constexpr double kPatience = 20;          // s, time limit of an engine
 constexpr std::size_t kMost = 4'000'000;  // poses
 
 std::string settings_text(const reference::Settings& settings) {

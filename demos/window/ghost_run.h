@@ -8,14 +8,14 @@
 
 namespace plumb::window {
 
-/// How an engine moved a scene's bodies, on a grid of times.
+/// Motion of a scene's bodies as an engine computed it, on a grid of times.
 class GhostRun {
  public:
-  /// Lets the engine run, in a process of its own: a crash or a hang stays there.
+  /// Runs the engine in a process of its own, so that it may crash or hang.
   GhostRun(const Scene& scene, const reference::Backend& backend, const reference::StepSettings& settings,
            double duration);
 
-  /// Why there is no motion, or with which settings it came about.
+  /// Returns the reason if there is no motion, else the settings of the run.
   const std::string& remark() const { return remark_; }
   bool known() const { return !motion_.empty(); }
   const demos::SampledMotion& motion() const { return motion_; }

@@ -35,7 +35,7 @@ void run_headless(Player& player, const Options& options) {
   }
   if (options.measured_frames > 0) measure(player, stage, options.measured_frames);
   if (!options.screenshot.empty()) {
-    // The panel finds its scroll bars in a second frame.
+    // The panel lays out its scroll bars in a second frame.
     stage.frame({});
     stage.frame({});
     stage.take_picture(options.screenshot);

@@ -7,14 +7,14 @@
 
 namespace plumb::window {
 
-/// The last states of a demo, oldest first, as many as fit.
+/// Last states of a demo, oldest first, as many as fit.
 class History {
  public:
   explicit History(std::size_t most_bytes = std::size_t{96} << 20) : most_bytes_(most_bytes) {}
 
   void clear();
   void push(std::vector<std::byte> state);
-  /// Drops the newest, and gives the one before; empty when there is none (the newest stays then).
+  /// Removes the newest and returns the one before; if there is none, returns nothing and keeps the newest.
   std::span<const std::byte> back();
   std::size_t size() const { return states_.size(); }
 

@@ -8,17 +8,17 @@
 namespace plumb::window {
 namespace {
 
-constexpr double kDot = 2;          // px, radius of a shape that is smaller
+constexpr double kDot = 2;          // px, radius of shapes that would be smaller
 constexpr double kPoint = 3;        // px, radius of a point
-constexpr double kGridStep = 70;    // px, at least so far apart
-constexpr std::size_t kFewest = 2;  // corners of what has an inside
+constexpr double kGridStep = 70;    // px, minimum distance
+constexpr std::size_t kFewest = 2;  // corners of a shape with an inside
 
 Paint filled(Colour colour) { return {colour, {0, 0, 0, 0}, 0}; }
 
-// The colour of a role's lines.
+// Returns the colour of a role's lines.
 Colour line_colour(const Paint& paint) { return paint.line.a > 0 ? paint.line : paint.fill; }
 
-// 1, 2 or 5 times a power of ten, `least` or a little more.
+// Returns 1, 2 or 5 times a power of ten, at least `least`.
 double round_step(double least) {
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -36,7 +36,7 @@ Paint Painter::paint_of(DrawRole role) const {
 void Painter::shape(std::span<const Vec2d> corners, double radius, DrawRole role) {
   pixels_.clear();
   for (const Vec2d& corner : corners) pixels_.push_back(camera_.to_pixel(corner));
-  // What is too small to be seen is a dot.
+  // Shapes too small to be seen are drawn as a dot.
   const Vec2d first = pixels_.front();
   const auto near = [&](Vec2d pixel) { return length_squared(pixel - first) < kDot * kDot; };
   if (radius * camera_.scale() < kDot && std::ranges::all_of(pixels_, near)) {
@@ -53,7 +53,7 @@ void Painter::polygon(std::span<const Vec2d> corners, double radius, DrawRole ro
 
 void Painter::circle(Vec2d centre, double radius, Vec2d axis, DrawRole role) {
   shape(std::array{centre}, radius, role);
-  // What spins shows it.
+  // Draw a radius, to show the rotation.
   const Paint paint = paint_of(role);
   const Vec2d ends[] = {camera_.to_pixel(centre), camera_.to_pixel(centre + radius * axis)};
   if (radius * camera_.scale() > kPoint) canvas_.paint(ends, 0.5 * paint.line_width, filled(paint.line));
@@ -84,7 +84,7 @@ void Painter::grid() {
   const double width = canvas_.width(), height = canvas_.height();
   const Vec2d lower = camera_.to_world({0, height}), upper = camera_.to_world({width, 0});
   const Paint paint = filled(theme_.grid());
-  // Half a pixel in, so that a line covers one row or column of pixels.
+  // At the middle of a pixel, so that a line covers one row or column of pixels.
   const auto sharp = [](double pixel) { return std::floor(pixel) + 0.5; };
   for (double i = std::ceil(lower.x / step); i * step <= upper.x; ++i) {
     const double x = sharp(camera_.to_pixel({i * step, 0}).x);

@@ -9,21 +9,21 @@
 
 namespace plumb::window {
 
-/// A word that stands in the picture.
+/// A text in the picture.
 struct Label {
   Vec2d pixel{};
   std::string text;
   Colour colour{};
 };
 
-/// Paints what a world draws of itself. Words are collected: whoever has a font writes them.
+/// Paints a world's debug drawing. Texts are collected for a caller that has a font.
 class Painter : public DebugDraw {
  public:
   Painter(Canvas& canvas, const Camera& camera, const Theme& theme)
       : canvas_(canvas), camera_(camera), theme_(theme) {}
 
-  bool sleep_shows = true;  ///< whether bodies that sleep have a colour of their own
-  /// In place of the roles' colours: outlines of this colour. Alpha 0: none.
+  bool sleep_shows = true;  ///< true if sleeping bodies have a colour of their own
+  /// If alpha is not 0, draws only outlines of this colour, instead of the roles' colours.
   Colour outline{0, 0, 0, 0};
 
   void polygon(std::span<const Vec2d> corners, double radius, DrawRole role) override;
@@ -33,10 +33,10 @@ class Painter : public DebugDraw {
   void point(Vec2d point, DrawRole role) override;
   void text(Vec2d point, std::string_view text, DrawRole role) override;
 
-  /// Lines a whole number of 1, 2 or 5 times a power of ten m apart, and how long one such step is.
+  /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m, and labels one step with its length.
   void grid();
 
-  /// The colour of the n-th ghost.
+  /// Returns the colour of the n-th ghost.
   Colour ghost(int n) const { return theme_.ghost(n); }
 
   const std::vector<Label>& labels() const { return labels_; }

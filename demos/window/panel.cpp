@@ -11,7 +11,7 @@
 namespace plumb::window {
 namespace {
 
-// What helps with the thing before it.
+// Adds a tooltip to the item before it.
 void tip(const std::string& text) {
   if (!text.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
@@ -83,7 +83,7 @@ void draw_control(Player& player, const demos::Control& control) {
 
 void draw_figures(const Player& player) {
   for (const Series& series : player.series()) {
-    if (series.name() == "time") continue;  // stands at the top
+    if (series.name() == "time") continue;  // shown at the top
     char text[64];
     std::snprintf(text, sizeof text, "%.4g %s", series.last(), series.unit().c_str());
     const std::vector<float> values = series.values();

@@ -4,11 +4,11 @@
 
 namespace plumb::window {
 
-/// The panel at the left: what there is to open, what can be set, what is measured, what is drawn. Call
-/// between ImGui's NewFrame and Render.
+/// Draws the panel at the left: items, settings, figures, and kinds of drawings. Call between ImGui's
+/// NewFrame and Render.
 void draw_panel(Player& player, double width);
 
-/// The player's message, at the lower edge, and whether time stands still.
+/// Draws the player's message at the lower edge, after "paused" while time is paused.
 void draw_message(const Player& player);
 
 }  // namespace plumb::window

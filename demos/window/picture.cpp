@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t kPalette = 256;
 
-// How many pixels have each colour.
+// Counts the pixels of each colour.
 std::map<std::uint32_t, long> histogram(const Canvas& canvas) {
   std::map<std::uint32_t, long> counts;
   for (const std::uint32_t pixel : canvas.pixels()) ++counts[pixel];
   return counts;
 }
 
-// Rows for libpng, and the colours that they count in, if they do.
+// Rows for libpng, with the palette if they are indexed.
 struct Encoded {
   std::vector<png_byte> bytes;
   std::vector<png_color> palette;

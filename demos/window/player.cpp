@@ -29,7 +29,7 @@ std::span<const CommandKey> command_keys() { return kKeys; }
 Player::Player(std::vector<Item> items, std::size_t first) : items_(std::move(items)) { open(first); }
 
 void Player::open(std::size_t place) {
-  show_ = items_.at(place).make();  // the old one stays when this throws
+  show_ = items_.at(place).make();  // throws before the old show is replaced
   place_ = place;
   pressed_ = false;
   message.clear();

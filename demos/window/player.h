@@ -17,19 +17,19 @@
 
 namespace plumb::window {
 
-/// A demo on the stage.
+/// An open demo.
 struct Show {
   std::unique_ptr<demos::Demo> demo;
   std::unique_ptr<Companion> companion{};  ///< may be null
 };
 
-/// Something that can be opened.
+/// A demo or scene that can be opened.
 struct Item {
   std::string name, summary;
   std::function<Show()> make;
 };
 
-/// What a key of the window does, whatever is open.
+/// Effects of the window's keys, the same for all items.
 enum class Command { Pause, Step, Back, Restart, Previous, Next, Panel, Slow, Home, Picture, Quit };
 
 struct CommandKey {
@@ -38,10 +38,10 @@ struct CommandKey {
   std::string_view label, about;
 };
 
-/// All of them, in the order of the help.
+/// Returns all of them, in the order of the help.
 std::span<const CommandKey> command_keys();
 
-/// What there is to play with and what is done with it, without a window: time, keys, pointer, camera.
+/// State and actions of the window, without the window itself: items, time, keys, pointer, camera.
 class Player {
  public:
   Player(std::vector<Item> items, std::size_t first);
@@ -49,32 +49,32 @@ class Player {
   const std::vector<Item>& items() const { return items_; }
   std::size_t place() const { return place_; }
   void open(std::size_t place);
-  void choose(std::size_t place);  ///< likewise; what goes wrong is said in `message`
+  void choose(std::size_t place);  ///< the same, but errors are shown in `message`
 
   demos::Demo& demo() { return *show_.demo; }
   const demos::Demo& demo() const { return *show_.demo; }
   Companion* companion() { return show_.companion.get(); }
 
-  /// A key by its name: the window's own, or else the demo's. Pictures and quitting are the caller's:
-  /// returns the command, if it was one.
+  /// Handles a key by its name: the window's own, or else the demo's. Returns the command, if it was one;
+  /// pictures and quitting are left to the caller.
   std::optional<Command> key(std::string_view name);
 
-  void press(Vec2d point);  ///< m; likewise the others
+  void press(Vec2d point);  ///< m, as below
   void drag(Vec2d point);
   void release(Vec2d point);
   void hover(Vec2d point);
   bool pressed() const { return pressed_; }
   void set(std::string_view control, double value);
 
-  /// Lets real time pass: nothing while paused, a tenth of it in slow motion. What the demo throws pauses it
-  /// and is said in `message`.
+  /// Advances by real time: not at all while paused, by a tenth of it in slow motion. An exception of the
+  /// demo pauses it and is shown in `message`.
   void advance(double seconds);
   void step();
-  /// Takes the last step back, and pauses. False: there is none that is remembered.
+  /// Undoes the last step and pauses. Returns false if no earlier state is stored.
   bool back();
   void restart();
 
-  /// The size of the picture, and how much of it at the left the panel covers, px.
+  /// Sets the size of the picture, and the width that the panel covers at the left, px.
   void resize(int width, int height, double panel_width);
   void home();
   void zoom(Vec2d pixel, double factor);
@@ -83,17 +83,17 @@ class Player {
   const std::vector<Series>& series() const { return series_; }
   std::size_t remembered() const { return history_.size(); }
 
-  bool strict = false;  ///< what goes wrong is thrown, not said
+  bool strict = false;  ///< throws errors instead of showing them
   bool paused = false, slow = false, panel = true, sleep_shows = true;
   DrawOptions options{};
   Theme theme{};
   Camera camera{};
-  std::string message{};  ///< the last thing to tell the player
+  std::string message{};  ///< last message for the player
 
   static constexpr double kSlow = 0.1;
 
  private:
-  void remember();  // a new state
+  void remember();  // stores a new state
   void sample();
   template <class Act>
   void guarded(Act&& act);
@@ -104,7 +104,7 @@ class Player {
   History history_;
   std::vector<Series> series_;
   bool pressed_ = false;
-  bool at_home_ = true;  // the camera is where `home` put it
+  bool at_home_ = true;  // true if the camera is at the position set by `home`
   int width_ = 1, height_ = 1;
   double panel_width_ = 0;
 };

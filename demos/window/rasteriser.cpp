@@ -9,10 +9,10 @@
 namespace plumb::window {
 namespace {
 
-// Corners lie on a grid of 1/16 px, so that edges are exact.
+// Corners are snapped to a grid of 1/16 px, so that edge functions are exact.
 constexpr int kSub = 16;
 
-// ImGui has red in the lowest byte.
+// Swaps red and blue: ImGui has red in the lowest byte.
 std::uint32_t swapped(std::uint32_t c) { return (c & 0xff00ff00u) | (c & 255) << 16 | (c >> 16 & 255); }
 
 struct Clip {
@@ -20,10 +20,10 @@ struct Clip {
 };
 
 struct Texture {
-  const unsigned char* alpha = nullptr;  // of the fonts; their colour is white
+  const unsigned char* alpha = nullptr;  // of the font texture; its colour is white
   int width = 0, height = 0;
 
-  // Bilinear, 0..255.
+  // Returns the bilinear interpolation, 0..255.
   float at(float u, float v) const {
     const float x = u * static_cast<float>(width) - 0.5f, y = v * static_cast<float>(height) - 0.5f;
     const float left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
@@ -38,11 +38,11 @@ struct Texture {
   }
 };
 
-// Floor and ceiling of n / d, d > 0.
+// Return floor and ceiling of n / d, d > 0.
 long floor_of(long n, long d) { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 long ceil_of(long n, long d) { return -floor_of(-n, d); }
 
-// What is to the left of the way from one corner to the next, in units of kSub: a x + b y + c >= 0.
+// Half plane to the left of the line from one corner to the next, in units of kSub: a x + b y + c >= 0.
 struct Edge {
   long a, b, c;
 };
@@ -102,7 +102,7 @@ class Triangle {
   }
 
  private:
-  // One colour, and one point of the texture, which is then the white one.
+  // Returns true for a single colour and texture point, which is then the white one.
   bool is_plain() const {
     const ImDrawVert &p = *corners_[0], &q = *corners_[1], &r = *corners_[2];
     return p.col == q.col && p.col == r.col && p.uv.x == q.uv.x && p.uv.x == r.uv.x && p.uv.y == q.uv.y &&
@@ -121,7 +121,7 @@ class Triangle {
   void paint_mixed(std::uint32_t* row, long first, long last, long middle, const Texture& texture) const {
     const float whole = 1.0f / static_cast<float>(area_);
     for (long x = first; x <= last; ++x) {
-      // The weight of a corner is the area of the part across from it.
+      // A corner's weight is the area opposite to it.
       float weight[3];
       for (std::size_t i = 0; i < 3; ++i) {
         const Edge& across = edges_[(i + 1) % 3];
@@ -146,7 +146,7 @@ class Triangle {
   std::array<const ImDrawVert*, 3> corners_;
   std::array<long, 3> x_{}, y_{};
   std::array<Edge, 3> edges_{};
-  long area_ = 0;  // twice the triangle's, 1/kSub^2 px^2
+  long area_ = 0;  // twice the triangle's, in 1/kSub^2 px^2
 };
 
 }  // namespace

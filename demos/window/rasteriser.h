@@ -7,13 +7,13 @@ struct ImFontAtlas;
 
 namespace plumb::window {
 
-/// A colour as ImGui has it.
+/// Converts a colour to ImGui's format.
 constexpr std::uint32_t imgui_colour(Colour c) {
   return c.r | std::uint32_t{c.g} << 8 | std::uint32_t{c.b} << 16 | std::uint32_t{c.a} << 24;
 }
 
-/// Paints what Dear ImGui has to draw onto a canvas, triangle by triangle, without graphics hardware. The
-/// textures are the fonts of `atlas`; a pixel that two triangles share an edge in is painted once.
+/// Paints Dear ImGui's draw data onto a canvas, triangle by triangle, in software. The textures are the fonts
+/// of `atlas`; a pixel on an edge shared by two triangles is painted once.
 void rasterise(const ImDrawData& data, ImFontAtlas& atlas, Canvas& canvas);
 
 }  // namespace plumb::window

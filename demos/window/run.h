@@ -7,24 +7,24 @@
 
 namespace plumb::window {
 
-/// How to show things.
+/// Options of a window or a headless run.
 struct Options {
   int width = 1280, height = 800;  ///< px
-  double seconds = -1;             ///< of the show; negative: until the player has had enough
-  std::string screenshot{};        ///< the last frame goes into this file
-  int colours = 0;                 ///< of pictures, at most; 0: as many as there are
+  double seconds = -1;             ///< duration of the show; negative: until the player quits
+  std::string screenshot{};        ///< file for the last frame
+  int colours = 0;                 ///< largest number in pictures; 0: unlimited
   std::vector<Deed> script{};
-  int measured_frames = 0;  ///< as many frames as fast as they go, and how long they took
+  int measured_frames = 0;  ///< draws so many frames at full speed and reports their times
 };
 
-/// Shows the player in a window until it is closed. Throws Error (Io) where there is no display.
+/// Shows the player in a window until it is closed. Throws Error (Io) if there is no display.
 void run_in_window(Player& player, const Options& options);
 
-/// Shows it to nobody, with 60 frames a second of the show's own time: the same calls give the same pictures.
-/// Whatever goes wrong is thrown.
+/// Runs without a window, with 60 frames a second of the show's own time: the same calls give the same
+/// pictures. Throws all errors.
 void run_headless(Player& player, const Options& options);
 
-/// The figures of the demo, its time and its hash, a line each.
+/// Returns the demo's figures, its time and its hash, one per line.
 std::string report(const Player& player);
 
 }  // namespace plumb::window

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Uint32 kFormat = SDL_PIXELFORMAT_RGB888;  // 0x00rrggbb, as `packed` without its alpha
 
-// Whether drawing goes to a graphics card, and not to a library that does its work on the processor.
+// Returns true if drawing uses a graphics card instead of a software library.
 bool has_card(const SDL_RendererInfo& info) {
   const std::string_view name = info.name;
   if ((info.flags & SDL_RENDERER_ACCELERATED) == 0) return false;
@@ -49,7 +49,7 @@ Screen::Screen(SDL_Window* window, bool vsync) : window_(window) {
     return;
   }
   renderer_.reset();
-  // Otherwise SDL would draw the surface by the library again.
+  // Keeps SDL from drawing the surface with the software library again.
   SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
   if (SDL_GetWindowSurface(window) != nullptr) return;
   renderer_.reset(SDL_CreateRenderer(window, -1, 0));
@@ -70,7 +70,7 @@ void Screen::show(const Canvas& canvas) {
 }
 
 void Screen::show_on_surface(const Canvas& canvas) {
-  SDL_Surface* surface = SDL_GetWindowSurface(window_);  // another one after the window's size has changed
+  SDL_Surface* surface = SDL_GetWindowSurface(window_);  // changes with the window's size
   if (surface == nullptr) fail_without_window("a window", "cannot be drawn to", SDL_GetError());
   SDL_LockSurface(surface);
   SDL_ConvertPixels(std::min(canvas.width(), surface->w), std::min(canvas.height(), surface->h), kFormat,

@@ -11,16 +11,16 @@ struct SDL_Texture;
 
 namespace plumb::window {
 
-/// Shows a canvas in a window: through the graphics card where there is one, else by handing the pixels to
-/// the window system, which is quicker than a graphics library that does without a card.
+/// Shows a canvas in a window: by the graphics card if there is one, else by passing the pixels to the window
+/// system, which is faster than software rendering.
 class Screen {
  public:
-  /// Throws Error (Io) when nothing can be shown.
+  /// Throws Error (Io) if nothing can be shown.
   Screen(SDL_Window* window, bool vsync);
 
-  /// Whether `show` waits for the screen.
+  /// Returns true if `show` waits for vertical sync.
   bool vsync() const { return vsync_; }
-  /// The canvas has the window's size.
+  /// Shows a canvas of the window's size.
   void show(const Canvas& canvas);
 
  private:
@@ -37,7 +37,7 @@ class Screen {
   bool vsync_ = false;
 };
 
-/// Throws Error (Io) that says how to do without a window.
+/// Throws Error (Io) that says how to run without a window.
 [[noreturn]] void fail_without_window(const std::string& subject, const std::string& problem,
                                       const std::string& why);
 

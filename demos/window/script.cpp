@@ -14,7 +14,7 @@ namespace {
 
 using Kind = Deed::Kind;
 
-// What stands after a command: a point, a number, a text that goes to the line's end.
+// Arguments of a command: a point, a number, a text up to the end of the line.
 struct Syntax {
   std::string_view word;
   Kind kind;
@@ -60,7 +60,7 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-// One line of a script; what is wrong with it is thrown.
+// Parses one line of a script; throws on errors.
 class Line {
  public:
   Line(std::string_view text, const std::string& file, int number)

@@ -8,31 +8,31 @@
 
 namespace plumb::window {
 
-/// Something that a player does at a time, s of the show (not of the demo, which may be paused).
+/// An action of the player at a time, in s of the show (not of the demo, which may be paused).
 struct Deed {
   enum class Kind { Press, Drag, Release, Hover, Key, Set, Show, Wheel, Picture };
   double time = 0;
   Kind kind = Kind::Key;
   Vec2d point{};     ///< m
   double turns = 0;  ///< of the wheel
-  std::string text;  ///< the key, "NAME=VALUE", what to show, the file
+  std::string text;  ///< the key, "NAME=VALUE", the kind of drawing, or the file
 };
 
-/// Reads lines "TIME press X Y", "drag X Y", "release X Y", "hover X Y", "key K", "set NAME=VALUE",
-/// "show contacts", "wheel X Y TURNS", "picture FILE"; empty ones and those that start with # are skipped.
-/// Points are in m. Times do not decrease. Throws Error (Syntax) that names the line.
+/// Parses lines "TIME press X Y", "drag X Y", "release X Y", "hover X Y", "key K", "set NAME=VALUE", "show
+/// contacts", "wheel X Y TURNS", "picture FILE"; empty ones and those that start with # are skipped. Points
+/// are in m. Times do not decrease. Throws Error (Syntax) that names the line.
 std::vector<Deed> parse_script(std::string_view text, const std::string& file);
 
-/// "NAME=VALUE": a number, on, off, or one of the control's choices. Throws Error (Name, Value).
+/// Sets "NAME=VALUE": a number, on, off, or one of the control's choices. Throws Error (Name, Value).
 void assign(demos::Demo& demo, std::string_view assignment);
 
 /// Switches on a kind of drawing: "contacts", "normals", ... Throws Error (Name).
 void show(DrawOptions& options, std::string_view name);
 
-/// What a wheel's turn does to the size of the picture.
+/// Returns the zoom factor of the wheel's turns.
 double zoom_factor(double turns);
 
-/// Does it; pictures and commands that are the caller's are returned.
+/// Executes an action; returns pictures and other commands that the caller must execute.
 std::optional<Command> act(Player& player, const Deed& deed);
 
 }  // namespace plumb::window

@@ -23,7 +23,7 @@ struct Video {
   Video() {
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) fail_without_window("the display", "cannot be used", SDL_GetError());
-    // Where there is no display SDL takes a driver that shows nothing.
+    // Without a display SDL chooses a driver that shows nothing.
     const std::string driver = SDL_GetCurrentVideoDriver();
     const bool nowhere = driver == "offscreen" || driver == "dummy" || driver == "evdev";
     if (!nowhere || SDL_getenv("SDL_VIDEODRIVER") != nullptr) return;
@@ -45,7 +45,7 @@ std::string name_of(const SDL_Keysym& key) {
   return lower(SDL_GetKeyName(key.sym));
 }
 
-// A window that shows a canvas and turns events into what the player does.
+// A window that shows a canvas and translates events to the player's actions.
 class Window {
  public:
   Window(Player& player, const Options& options, bool vsync) : player_(player), stage_(player, options) {
@@ -60,7 +60,7 @@ class Window {
   bool vsync() const { return screen_->vsync(); }
   Stage& stage() { return stage_; }
 
-  // False: the player has had enough.
+  // Returns false if the player quits.
   bool handle_events() {
     input_.wheel = 0;
     typed_.clear();
@@ -75,7 +75,7 @@ class Window {
     input_.text = typed_;
     input_.control_key = (SDL_GetModState() & KMOD_CTRL) != 0;
     stage_.frame(input_);
-    // A click that began and ended between two frames lasted for one.
+    // A click that began and ended between two frames counts for one frame.
     input_.left = left_down_;
     if (title_ != player_.demo().about().name) {
       title_ = player_.demo().about().name;
@@ -138,7 +138,7 @@ class Window {
       input_.right = down;
       panning_ = down && ours;
     }
-    // What moves outside the window is still ours while a button is down.
+    // Receive motion outside the window while a button is down.
     SDL_CaptureMouse(player_.pressed() || panning_ ? SDL_TRUE : SDL_FALSE);
   }
 
@@ -155,7 +155,7 @@ class Window {
     }
   }
 
-  // Characters as the keyboard's layout has them.
+  // Handles characters, as the keyboard layout gives them.
   bool handle_text(const char* text) {
     if (stage_.ui.wants_keys()) {
       typed_ += text;
@@ -168,7 +168,7 @@ class Window {
     const std::string name = name_of(event.keysym);
     const bool down = event.state == SDL_PRESSED;
     stage_.ui.edit_key(name, down && stage_.ui.wants_keys());
-    // Single characters come as text.
+    // Single characters arrive as text events.
     if (!down || event.repeat != 0 || stage_.ui.wants_keys() || name.size() < 2) return true;
     return !stage_.carry_out(player_.key(name));
   }

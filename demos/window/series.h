@@ -5,7 +5,7 @@
 
 namespace plumb::window {
 
-/// A number that is watched, over the last few seconds.
+/// A figure over the last few seconds.
 class Series {
  public:
   Series(std::string name, std::string unit) : name_(std::move(name)), unit_(std::move(unit)) {}
@@ -14,9 +14,9 @@ class Series {
   const std::string& unit() const { return unit_; }
   double last() const { return samples_.empty() ? 0 : samples_.back().value; }
 
-  /// Of samples at `time` s or later, only this one stays.
+  /// Adds a sample, replacing those at `time` s or later.
   void add(double time, double value);
-  /// The values as one draws them: the oldest first.
+  /// Returns the values for a plot, oldest first.
   std::vector<float> values() const;
 
   static constexpr std::size_t kMost = 300;

@@ -8,16 +8,16 @@
 
 namespace plumb::window {
 
-/// What windows and headless runs share: script, pictures and the measuring of frames.
+/// Common parts of windows and headless runs: script, pictures and frame times.
 class Stage {
  public:
   Stage(Player& player, const Options& options);
 
-  /// Does what the script says until `time`. True: it says to quit.
+  /// Executes the script up to `time`. Returns true if it quits.
   bool follow_script(double time);
-  /// Writes the canvas into `file`, or into a file of a new name.
+  /// Writes the canvas to `file`, or to a file with a new name.
   void take_picture(const std::string& file = "");
-  /// Carries a command out that the player leaves to us. True: to quit.
+  /// Executes a command that the player leaves to the caller. Returns true to quit.
   bool carry_out(std::optional<Command> command);
   void frame(const PanelInput& input) { ui.frame(player_, input, canvas); }
 
@@ -31,7 +31,7 @@ class Stage {
   int pictures_ = 0;
 };
 
-/// How long the parts of frames took, ms.
+/// Times of the parts of frames, ms.
 class FrameTimes {
  public:
   struct Frame {
@@ -40,15 +40,15 @@ class FrameTimes {
   };
   void add(const Frame& frame) { frames_.push_back(frame); }
   std::size_t count() const { return frames_.size(); }
-  /// Median and 99th percentile of each part, of the whole, and of the processor's time for it, which other
-  /// programs do not lengthen.
+  /// Reports the median and 99th percentile of each part, of the whole, and of its processor time, which
+  /// other programs do not lengthen.
   std::string report() const;
 
  private:
   std::vector<Frame> frames_;
 };
 
-/// ms, of a clock that only goes on; of the time that processors have spent on this program.
+/// Return a monotonic time, and the processor time of this program, ms.
 double now_ms();
 double processor_ms();
 

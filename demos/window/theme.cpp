@@ -37,7 +37,7 @@ constexpr std::array<Style, 16> kStyles = {{
     {line({150, 160, 176, 130}, 1.2), line({110, 116, 128, 150}, 1.2)},
 }};
 
-// The truth first.
+// The truth's colour, then those of the engines.
 constexpr std::array<Colour, 12> kGhosts = {{{236, 72, 132},
                                              {72, 176, 240},
                                              {96, 190, 72},

@@ -5,16 +5,16 @@
 
 namespace plumb::window {
 
-/// Colours on a dark or a light ground.
+/// Colours on a dark or a light background.
 struct Theme {
   bool dark = true;
 
   Colour ground() const;
   Colour grid() const;
   Colour text() const;
-  /// Of what stands for `role`.
+  /// Returns the paint of `role`.
   Paint paint(DrawRole role) const;
-  /// Of the n-th engine whose motion is drawn over plumb's.
+  /// Returns the colour of the n-th engine drawn over plumb's motion.
   Colour ghost(int n) const;
 };
 

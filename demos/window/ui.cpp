@@ -37,7 +37,7 @@ void set_style(bool dark) {
   }
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
-  style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white would not be seen
+  style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white need a border
   style.AntiAliasedLinesUseTex = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
 }
@@ -64,7 +64,7 @@ bool Ui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 void Ui::edit_key(std::string_view name, bool down) {
   for (std::size_t i = 0; i < kEditKeys.size(); ++i) {
     if (kEditKeys[i].name != name) continue;
-    // A press that is over before a frame has seen it lasts for that frame.
+    // A press that ended before a frame counts for that frame.
     if (down) {
       ImGui::GetIO().KeysDown[i] = true;
       unseen_.set(i);

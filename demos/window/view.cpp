@@ -16,9 +16,9 @@ namespace {
 
 using demos::SceneDemo;
 
-constexpr std::size_t kTruth = 0;  // its place among the ghosts
+constexpr std::size_t kTruth = 0;  // its index in the ghosts
 
-// plumb's motion against the truth and other engines.
+// Compares plumb's motion with the truth and other engines.
 class Comparison final : public Companion {
  public:
   explicit Comparison(scenarios::Problem problem)
@@ -44,7 +44,7 @@ class Comparison final : public Companion {
   }
 
   std::vector<demos::Figure> figures(const demos::Demo& demo) override {
-    // The others run with the step that the player has chosen, from when that is chosen or from the start.
+    // Other engines run with the step chosen by the player, from its choice or from the start.
     run_ghosts(demo);
     static_cast<const SceneDemo&>(demo).read_states(states_);
     std::vector<demos::Figure> out = truth_.figures(demo.time(), states_);
@@ -77,7 +77,7 @@ class Comparison final : public Companion {
  private:
   const Scene& scene() const { return truth_.scene(); }
 
-  // Names live as long as this: figures hold on to them.
+  // Names must live as long as this object: figures refer to them.
   std::string_view error_name(std::size_t ghost) {
     std::string& name = error_names_[ghost];
     if (name.empty()) name = ghosts_[ghost].name + " error";
@@ -110,7 +110,7 @@ class Comparison final : public Companion {
   std::vector<BodyState> states_;
   std::vector<Ghost> ghosts_;
   std::vector<const reference::Backend*> backends_;  // of the ghosts after the truth
-  std::map<std::size_t, GhostRun> runs_;             // by ghost
+  std::map<std::size_t, GhostRun> runs_;             // keyed by ghost
   std::map<std::size_t, std::string> error_names_;
   double dt_ = 0;
   bool stale_ = true;

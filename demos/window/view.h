@@ -7,13 +7,14 @@
 
 namespace plumb::window {
 
-/// Every scenario of the catalogue, each variant and size, with its truth and every engine to compare with.
+/// Returns every scenario of the catalogue, each variant and size, with its truth and every engine to compare
+/// with.
 std::vector<Item> scenario_items();
 
-/// One instance of a scenario.
+/// Returns one instance of a scenario.
 Item scenario_item(const scenarios::Instance& instance);
 
-/// A scene without a known answer; other engines run it for `duration` s.
+/// Returns a scene without a known answer; other engines run it for `duration` s.
 Item scene_item(const Scene& scene, double duration);
 
 }  // namespace plumb::window

@@ -21,7 +21,7 @@ enum class JointSolver {
   Iterative,  ///< sequential impulses, one joint after another
 };
 
-/// What Realtime does when its watch finds that a step did not keep what it promises (docs/design.md).
+/// Reaction of Realtime when its watch finds that a step violates a bound (docs/design.md).
 enum class OnDoubt {
   Stop,    ///< takes the step back and throws `Error` (Run)
   Report,  ///< goes on; `Simulation::doubt` has what was found first

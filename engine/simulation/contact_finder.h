@@ -50,7 +50,7 @@ class ContactFinder {
   void touch(int body) { touched_.push_back(body); }
 
   std::span<const SolidShape<Real>> shapes() const { return shapes_; }
-  /// What the next search starts from: the shapes' boxes, none before the first search.
+  /// Returns the shapes' AABBs, from which the next search starts; empty before the first search.
   std::vector<Aabb<Real>> boxes() const;
   void put_boxes(std::span<const Aabb<Real>> boxes);
 

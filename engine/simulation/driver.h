@@ -13,13 +13,13 @@
 
 namespace plumb {
 
-/// What happens to contacts in Precise.
+/// Events of contacts in Precise.
 enum class ContactEvent {
   Impact,      ///< shapes that met got an impulse
   Rest,        ///< bouncing that piles up ended; the last time is that of its limit
   Hold,        ///< a contact that lasts began
   Separation,  ///< the force of a lasting contact fell to zero
-  SlipStart,   ///< what stuck or rolled began to slip
+  SlipStart,   ///< a sticking or rolling contact began to slip
   SlipEnd,     ///< slip came to an end: it sticks, rolls, or slips back
   Change,      ///< a contact went over to another corner or edge
   Paradox,     ///< no force could hold a slipping contact (Painleve): an impulse ended its slip
@@ -34,13 +34,13 @@ struct EventCount {
 
 /// How far a run is from the true motion, by estimate: the largest of all bodies and steps.
 struct ErrorEstimate {
-  bool known = false;   ///< whether the run was asked to estimate it
+  bool known = false;   ///< the run estimates its error
   double position = 0;  ///< m
   double angle = 0;     ///< rad
   double velocity = 0;  ///< m/s
 };
 
-/// What a run did so far.
+/// Statistics of a run so far.
 struct Statistics {
   std::int64_t steps = 0;        ///< Realtime: substeps; Precise: accepted steps
   std::int64_t rejected = 0;     ///< Precise: steps that were redone with a smaller one
@@ -57,7 +57,7 @@ struct Statistics {
   const EventCount& of(ContactEvent event) const { return contacts[static_cast<std::size_t>(event)]; }
 };
 
-/// What a joint pushes body b with, and body a with the opposite: the multipliers of its rows, its springs,
+/// Reaction of a joint on body b, and the opposite on body a: the multipliers of its rows, its springs,
 /// limits and motors.
 struct JointReaction {
   std::string joint;
@@ -66,7 +66,7 @@ struct JointReaction {
   double torque = 0;  ///< N m, about that anchor
 };
 
-/// What a contact that lasts pushes body b with at one point, and body a with the opposite.
+/// Reaction of a lasting contact on body b at one point, and the opposite on body a.
 struct ContactReaction {
   std::size_t body_a = 0, body_b = 0;  ///< of the scene
   Vec2d position{};                    ///< m

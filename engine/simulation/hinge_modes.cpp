@@ -27,7 +27,7 @@ struct End {
 
 double norm(Vec2d v) { return std::sqrt(length_squared(v)); }
 
-/// What a body resists a sideways push at `arm` with, kg: 1 / (1/m + r^2/I).
+/// Returns a body's effective mass for a push perpendicular to `arm`, kg: 1 / (1/m + r^2/I).
 double resistance(const Body& body, Vec2d arm) {
   const double inertia = inertia_of(body);
   return 1 / (1 / body.mass + (inertia > 0 ? length_squared(arm) / inertia : 0));
@@ -52,7 +52,7 @@ class Hangings {
  private:
   bool held(int body) const { return body == kFixedFrame || scene_.bodies[body].type != BodyType::Dynamic; }
 
-  /// What hangs on one hinge to the fixed frame, parents first; nothing where it closes a loop.
+  /// Adds the bodies that hang on one hinge to the fixed frame, parents first; none if they form a loop.
   void grow(int root, const End& ground) {
     const std::size_t first = all_.size();
     bool loop = false;

@@ -204,7 +204,8 @@ void RealtimeDriver<Real>::kick(Real duration) {
 template <class Real>
 void RealtimeDriver<Real>::drift(Real h) {
   stage(Drift, [&] {
-    // What a sum rounds off is kept for the next one (Kahan 1965): far from the origin it would add up.
+    // Kahan compensation (1965): carries rounding errors to the next sum; far from the origin they would add
+    // up.
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
       const Vec2<Real> before = bodies_.pose[body].position;
       const Vec2<Real> way = h * bodies_.twist[body].velocity + remainder_[body];

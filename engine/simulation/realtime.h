@@ -59,7 +59,7 @@ class RealtimeDriver final : public Driver {
   void semi_implicit_euler(double t, Real h);
   void explicit_euler(double t, Real h);
 
-  // What they are made of.
+  // Parts of the integrators.
   void plan_for_towers();
   void detect(Real dt);
   void evaluate_forces(double t0, double t1, const std::vector<Twist<Real>>& twists);

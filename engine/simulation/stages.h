@@ -6,10 +6,10 @@
 
 namespace plumb {
 
-/// What a Realtime step can consist of, in the order in which it runs. A plan lists them all.
+/// Stages of a Realtime step, in the order in which they run. A plan lists them all.
 enum class RealtimeStage {
-  BroadPhase,    ///< which shapes are near each other
-  NarrowPhase,   ///< where they touch, and in which direction
+  BroadPhase,    ///< finds shapes near each other
+  NarrowPhase,   ///< computes contact points and normals
   Forces,        ///< accelerations by force laws
   Kick,          ///< v += a h
   Restitution,   ///< impacts, each at its own time

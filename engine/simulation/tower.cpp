@@ -9,7 +9,7 @@ namespace {
 /// See `sway_of`.
 constexpr double kSwayOfTwo = 0.5;
 
-/// What touches is this near, in reaches of the smaller shape.
+/// Maximum separation of touching shapes, as a fraction of the contact's `reach` (of the smaller shape).
 constexpr double kTouches = 0.01;
 
 }  // namespace

@@ -49,7 +49,7 @@ Error broken(const std::string& subject, const char* field, Real value, Real bou
 /// Lower towers stand at any step that what rests allows.
 constexpr std::size_t kLeastTower = 6;
 
-/// Whether a bound that is missed `times` over is to be said; `misses` counts the steps in a row.
+/// Returns true if a value of `times` its bound is to be reported; `misses` counts consecutive violations.
 bool lasts(double times, int& misses) {
   misses = times > 1 ? std::min(misses + 1, bounds::kLasting) : 0;
   return misses >= bounds::kLasting || times > bounds::kAtOnce;
@@ -169,7 +169,7 @@ void Watch<Real>::note_excess(const Bodies<Real>& bodies, std::span<const Contac
   excess_.swap(deepest_);
 }
 
-/// Where bodies may meet others that move, or are tied; what is on its own has its energy to tell.
+/// Checks positions of bodies that can collide or are jointed; the energy check suffices for isolated ones.
 template <class Real>
 std::optional<Error> Watch<Real>::look_at_positions(const Bodies<Real>& bodies) const {
   for (std::size_t body = 0; body < farthest_.size(); ++body) {
@@ -206,9 +206,9 @@ Real Watch<Real>::width_between(const Contact<Real>& contact,
   return width;
 }
 
-/// What stands on something has sunk as far as that, and as far as it lies in it, of the width of the wider
-/// one: a pebble on a tower has not sunk by its own size. A cage stands on its ground and not, by its lid, on
-/// what is inside: of two that move the one whose centre is higher stands on the other.
+/// Updates the sag of the upper body: the lower one's plus the penetration, as a fraction of the wider one's
+/// width (a pebble on a tower has not sunk by its own size). Of two dynamic bodies the one with the higher
+/// centre stands on the other: a cage stands on its ground, not by its lid on its content.
 template <class Real>
 void Watch<Real>::note_sag(const Bodies<Real>& bodies, const Contact<Real>& contact, Real depth) {
   const Real upward = dot(contact.normal, up_);

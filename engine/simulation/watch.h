@@ -28,7 +28,7 @@ class Watch {
   void start_anew() { anew_ = true; }
   bool starts_anew() const { return anew_; }
 
-  /// What is there now is no fault of the driver. Contacts have been detected.
+  /// Tolerates violations present now, which the driver did not cause. Contacts must have been detected.
   void begin(const Bodies<Real>& bodies, std::span<const Contact<Real>> contacts,
              std::span<const SolidShape<Real>> shapes);
 

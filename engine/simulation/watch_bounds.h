@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the fixed-step driver promises of a run, as bounds that its watch holds it to. All are shares of the
-/// scene's own sizes and energies.
+/// Bounds that the watch of the fixed-step driver checks. All are fractions of the scene's own sizes and
+/// energies.
 namespace plumb::bounds {
 
 /// A joint's gap, of the distance from the anchor to the centre of its body (or the length of a rod). The
@@ -13,7 +13,7 @@ inline constexpr double kOverlap = 0.008;
 
 /// How deep what a body stands on may have sunk, down to the ground, each of the width of the wider one.
 inline constexpr double kSag = 0.03;
-/// What has sunk so far is no matter of time.
+/// Above this sag the violation is reported at once.
 inline constexpr double kSunk = 0.5;
 
 /// How far the top of a tower may sway, of its width, by what the sweeps leave (`sway_of`); and what substeps
@@ -42,7 +42,7 @@ inline constexpr int kLasting = 15, kSettling = 30;
 /// of one that misses.
 inline constexpr int kRecurrence = 4;
 
-/// What dissolves is a step later no more than this share of what it was.
+/// Maximum ratio of a dissolving penetration or sag to that of the step before.
 inline constexpr double kDissolving = 0.998;
 
 /// How many times over a bound may be missed for that while.

@@ -97,12 +97,12 @@ void EnergyWatch<Real>::begin(const Bodies<Real>& bodies) {
   rounding_ = 0;
   for (Mover& mover : movers_) {
     mover.start = bodies.pose[mover.body].position.template as<double>();
-    // What flies freely far away must not be rounded either: there nothing else would say so.
+    // Without joints, forces and contacts only the reach counts: nothing else detects rounding far away.
     const double way = mover.reach + (tied_ ? std::sqrt(length_squared(mover.start)) : 0);
     rounding_ += share * mover.mass * g * way;
   }
   moving_ = kinetic(bodies);
-  // Where springs pull against each other, their energies are rounded, and not only what is in motion.
+  // Stored energies are rounded too, as of springs that pull against each other.
   double stored = moving_;
   for (const auto& spring : springs_)
     stored += std::abs(spring.energy(pose_of(bodies, spring.a), pose_of(bodies, spring.b)));
@@ -122,7 +122,7 @@ double EnergyWatch<Real>::change(const Bodies<Real>& bodies) {
   if (fresh_ && jointed_ && last_ < start_) start_ = last_, moving_ = moving;
   fresh_ = false;
   double gained = last_ - (falls_ ? least_ : start_);
-  // What has sunk within its bound may rise again; twice the reach is no less than the width.
+  // Bodies that have sunk within the bound may rise again; twice the reach is no less than the width.
   if (gained > 0) gained = std::max(gained - 2 * bounds::kSag * standing_, 0.0);
   least_ = std::min(least_, last_);
   if (!(std::abs(gained) > rounding_)) return 0;

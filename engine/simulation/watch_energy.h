@@ -23,14 +23,14 @@ class EnergyWatch {
   /// The energy is counted from here on.
   void begin(const Bodies<Real>& bodies);
 
-  /// What has been gained, or where nothing takes any lost (< 0), as a share of the most that was in motion;
-  /// 0 while that is nothing beyond rounding.
+  /// Returns the energy gained, or lost (< 0) where nothing dissipates, as a fraction of the maximum in
+  /// motion; 0 within rounding.
   double change(const Bodies<Real>& bodies);
 
-  /// What is there was not made by the method: gains count from it.
+  /// Accepts the present energy as not caused by the method; gains count from it.
   void forgive() { least_ = last_; }
 
-  /// Whether something may take energy.
+  /// Returns true if something may dissipate energy.
   bool falls() const { return falls_; }
 
   void write(SnapshotWriter& out) const;

@@ -16,7 +16,7 @@ Body bullet_body(std::string name, const Bullet& bullet, double speed, double si
           .shapes = {{.geometry = bullet.geometry, .friction = 0, .restitution = 1}}};
 }
 
-// Of the body that comes from `side` (-1: the left).
+// Returns the exact state of the body that comes from `side` (-1: the left).
 BodyState exact_state(const Bullet& bullet, double speed, double side, double time) {
   const double hit = kFlight * kDt, away = bullet.reach + speed * std::abs(hit - time);
   return {.position = {side * away, 0},
@@ -48,7 +48,7 @@ Rule speed_after(double speed, std::size_t body, double side) {
   return rule;
 }
 
-// `beyond` is how far it is where it must not be, m.
+// `beyond` returns the distance by which a body is beyond the obstacle, m.
 Rule nothing_beyond(std::function<double(std::span<const BodyState>)> beyond) {
   Rule rule{
       .measure = "way beyond what stops it", .unit = "m", .bound = 0, .beyond = Verdict::Tunnels, .sane = 0};

@@ -4,11 +4,11 @@
 
 namespace plumb::extremes {
 
-/// What a bullet is made of.
+/// Shape and orientation of a bullet.
 struct Bullet {
   Geometry geometry{};
   double angle = 0;  ///< rad
-  double reach = 0;  ///< m, from its centre to what hits
+  double reach = 0;  ///< m, from its centre to the point that hits
 };
 
 inline constexpr double kFlight = 2.5;  // steps until it hits

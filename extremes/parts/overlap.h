@@ -4,8 +4,8 @@
 
 namespace plumb::extremes {
 
-/// Two free bodies of 1 m start with `share` of the size in each other, without gravity, for 5 s: they never
-/// move faster than 10 m/s, and lie at most 1 % in each other at the end.
+/// Two free bodies of 1 m start with a penetration of `share` of their size, without gravity, for 5 s. They
+/// must never exceed 10 m/s, and their penetration at the end is at most 1 %.
 inline Trial overlapping(std::string name, const Geometry& geometry, double share) {
   constexpr double kSeconds = 5, kFastest = 10;
   Trial trial{.scene = {.name = std::move(name), .gravity = {}},

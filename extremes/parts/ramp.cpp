@@ -18,7 +18,7 @@ Trial on_a_slope(std::string name, const Geometry& geometry, double height, doub
                          .angle = kSlope,
                          .shapes = {{.geometry = Box{20, 1}, .friction = friction}}}};
   const bool rolls = std::holds_alternative<Circle>(geometry);
-  // A disc on which friction F acts turns with F r/I: friction is what the slide lacks of g sin.
+  // A disc on which friction F acts rotates with F r/I. F/m is g sin minus the acceleration, and I = m r^2/2.
   const double pull = kGravity * std::sin(kSlope), turn = rolls ? 2 * (pull - acceleration) / height : 0;
   trial.exact = [=, start = trial.scene.bodies](double t, std::span<BodyState> out) {
     out[0] = initial_state(start[0]);

@@ -22,14 +22,15 @@ class Swing {
   std::shared_ptr<const scenarios::truth::Trajectory> path_;
 };
 
-/// How the rod of `pendulum` moves. A rod about its end has k = 3 g/(2 L).
+/// Returns the exact motion of the rod of `pendulum`. A rod about its end has k = 3 g/(2 L).
 harness::stress::Motion swinging(double length, double angle, Vec2d pivot = {});
 
-/// What the rod of `pendulum` turns over, J: m g L (1 - cos(angle))/2, its mass being L^2.
+/// Returns the potential energy that the rod of `pendulum` releases when it swings down from `angle`, J:
+/// m g L (1 - cos(angle))/2, with mass L^2.
 double swing_energy(double length, double angle);
 
-/// The rod of `pendulum` at 60 degrees, for two periods: it keeps its hinge within 1 % of its length, its
-/// energy within 5 % of what it turns over, and its place within 10 % of its length.
+/// The rod of `pendulum` at 60 degrees, for two periods: its hinge's gap stays within 1 % of its length, its
+/// energy within 5 % of `swing_energy`, and its position within 10 % of its length.
 harness::stress::Trial swinging_rod(std::string name, double length, Vec2d pivot, double dt);
 
 }  // namespace plumb::extremes

@@ -49,7 +49,7 @@ std::string explicit_euler() {
          " It adds energy every step: update the velocity first, then move with the new one.";
 }
 
-// s, in which a velocity that has changed is used for the first time.
+// Returns the substep, s, or the step if the method adapts its own.
 double step_of(const Lab& lab) { return lab.substep() > 0 ? lab.substep() : lab.dt(); }
 
 Finding falls_far_enough(const Lab& lab) {
@@ -96,7 +96,7 @@ Finding scene_says_gravity(const Lab& lab) {
       .finding();
 }
 
-// The speed after one second at three sizes of the step.
+// Compares the speed after one second at three step sizes.
 Finding any_step_size(const Lab& lab) {
   const auto speed = [&](int finer) {
     const Trace trace = lab.run(falling(), 1, finer);
@@ -141,7 +141,7 @@ Finding bounces(const Lab& lab) {
       .finding();
 }
 
-// How often the velocity turns round, on either axis.
+// Counts the sign changes of the velocity, on either axis.
 int turns(const Trace& trace) {
   int count = 0;
   for (std::size_t k = 1; k < trace.states.size(); ++k) {
@@ -151,7 +151,7 @@ int turns(const Trace& trace) {
   return count;
 }
 
-// Whether it turns round in one step and back in the next.
+// Returns true if the velocity reverses in one step and again in the next.
 bool trembles(const Trace& trace) {
   for (std::size_t k = 2; k < trace.states.size(); ++k) {
     const auto speed = [&](std::size_t at) { return trace.states[at][0].velocity.y; };
@@ -168,7 +168,7 @@ Finding restitution(const Lab& lab) {
   const double e = 0.7, wall = 0.2, v = 2;
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = wall}));
-  // The gap is no whole number of steps: the ball is found well inside the floor.
+  // The gap is not a whole number of steps, so the ball is detected well inside the floor.
   const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -v}, .restitution = e});
   const Trace trace = lab.run(scene_of("restitution", {}, {ball, floor}), 1);
   return Judgement()
@@ -195,7 +195,7 @@ Finding restitution(const Lab& lab) {
       .finding();
 }
 
-// Where the ball left the room, if it did: the farthest wall that it is behind.
+// Returns a wall that the ball is behind, right and left first; empty if it is in the room.
 std::string wall_passed(const BodyState& s, double half_width, double half_height) {
   if (s.position.x > half_width) return "right";
   if (s.position.x < -half_width) return "left";
@@ -222,7 +222,7 @@ Finding four_walls(const Lab& lab) {
   }
   const double speed = std::hypot(v.x, v.y),
                end = std::hypot(trace.last(0).velocity.x, trace.last(0).velocity.y);
-  // Unfolded, the room has a wall every 2 (half - r).
+  // In the unfolded room there is a wall every 2 (half - r).
   const double t = trace.duration();
   const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
                   static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
@@ -250,7 +250,7 @@ Finding settles(const Lab& lab) {
       fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
   const Body ball = make(Ball{.position = {0, 1 + r}, .radius = r, .restitution = 0.5});
   const Trace trace = lab.run(scene_of("settle", {0, -kGravity}, {ball, floor}), 5);
-  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice that is let pass.
+  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice that is tolerated.
   double high = 0, low = 0;
   for (std::size_t k = 0; k < trace.states.size(); ++k) {
     if (trace.times[k] < 2.7) continue;

@@ -102,7 +102,7 @@ Finding push_ends(const Lab& lab) {
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
-  // An engine that asks only at the start of each step sees a step more or less of it.
+  // An engine that evaluates forces only at the start of each step sees up to a step more or less of it.
   return Judgement()
       .read("vx after the push", "m/s", trace.last(0).velocity.x, v, step + lab.rounding(v, t))
       .mistake("push_never_ends", {force / mass * (t - start)},
@@ -157,7 +157,7 @@ Finding spring(const Lab& lab) {
   const std::size_t early = trace.states.size() / 10;
   const double te = trace.times[early];
   const auto x = [&](double frequency) { return rest + amplitude * std::cos(frequency * te); };
-  // A symplectic method's energy swings by w h at most about the true one.
+  // The energy of a symplectic method oscillates by at most w h around the true one.
   const double swing = std::log1p(lab.method_error(w, 1e-3) * 2 + 1e-3) / n;
   return Judgement()
       .read("growth of energy a step", "", growth, 1, swing)

@@ -1,4 +1,4 @@
-// Chapter 3: circles that hit circles. No gravity and no friction: the speeds after a collision are closed
+// Chapter 3: collisions of circles. Without gravity and friction, the speeds after a collision are closed
 // forms.
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kCircles = "\"shapes\":[\"circle\"] and \"features\":[\"contacts\"]: circles that move";
 constexpr double kNever = 1e9;    // m/s
-constexpr double kShare = 0.002;  // of the closing speed: what a contact's softness may take
+constexpr double kShare = 0.002;  // of the closing speed: tolerance for a contact's softness
 
 double distance(const Trace& trace, std::size_t k) {
   const Vec2d way = trace.states[k][1].position - trace.states[k][0].position;
@@ -97,7 +97,7 @@ Finding heavy_hits_light(const Lab& lab) {
                               {.position = {0, 0}, .mass = light}, 2);
   const double j = 2 * v / (1 / heavy + 1 / light);
   const double after_heavy = v - j / heavy, after_light = j / light, wrong_j = 2 * v / (heavy + light);
-  const double together = v * heavy / (heavy + light);  // after as many weak blows as it takes
+  const double together = v * heavy / (heavy + light);  // after any number of weak impacts
   int blows = 0;                                        // steps in which the heavy ball's velocity changes
   for (std::size_t k = 1; k < trace.states.size(); ++k)
     blows += std::abs(trace.states[k][0].velocity.x - trace.states[k - 1][0].velocity.x) > 1e-6 * v;
@@ -145,12 +145,12 @@ Finding restitution(const Lab& lab) {
 }
 
 Finding oblique(const Lab& lab) {
-  const double r = 0.4, v = 2, offset = r, d = 2 * r;  // the line of centres at contact is 30 degrees off
+  const double r = 0.4, v = 2, offset = r, d = 2 * r;  // line of centres at contact: 30 degrees
   const Trace trace = head_on(lab, {.position = {-2, offset}, .velocity = {v, 0}, .radius = r},
                               {.position = {0, 0}, .radius = r}, 2);
   const double s = offset / d, c = std::sqrt(1 - s * s);
   const Vec2d n{c, -s}, hit = v * c * n, stays = Vec2d{v, 0} - hit;
-  // Found a step late, the line of centres has turned by v dt s/d at most, and velocities by twice that.
+  // Detected a step late, the line of centres has turned by at most v dt s/d, and velocities by twice that.
   const double tolerance = 2 * v * (v * lab.dt() * s / d) + kShare * v;
   const Vec2d a = trace.last(0).velocity, b = trace.last(1).velocity;
   const auto gives = [](Vec2d first, Vec2d second) {
@@ -195,8 +195,8 @@ Finding post(const Lab& lab) {
       .finding();
 }
 
-// How fast two balls part that lie in each other at first: nothing should drive them. Who refuses to begin so
-// drives nothing.
+// Returns the separation speed of two balls that overlap at the start; nothing should drive them apart. It is
+// 0 for an engine that refuses such a start.
 double kick(const Lab& lab) try {
   const double r = 0.5, deep = 0.1;
   const Trace trace = head_on(lab, {.position = {-r + deep / 2, 0}, .radius = r, .restitution = 0},
@@ -208,7 +208,7 @@ double kick(const Lab& lab) try {
 }
 
 Finding break_shot(const Lab& lab) {
-  const double r = 0.2, gap = 0.06, v = 2;  // slower than a gap a step: one collision at a time
+  const double r = 0.2, gap = 0.06, v = 2;  // slower than a gap a step: collisions do not coincide
   std::vector<Body> bodies{
       make(Ball{.name = "cue", .position = {-1, 0.12}, .velocity = {v, 0}, .radius = r})};
   for (int row = 0; row < 4; ++row) {

@@ -46,7 +46,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
     worst = std::max(worst, std::abs(length(states[1].position - states[0].position) - d));
   const double t = trace.duration(), w = 2 * v / d, wh = w * lab.dt();
   const double end = length(trace.last(1).position - trace.last(0).position);
-  // Each step leaves the circle by (w h)^2 d/2; ten times that may pile up before it is put right.
+  // Each step leaves the circle by (w h)^2 d/2; ten times that may accumulate before it is corrected.
   const double tolerance = (5 * wh * wh + 0.005) * d;
   // Without correction the tangent step lengthens d^2 by (v h)^2 while d v stays: d^4 grows by 2 d0^2 v0^2
   // h^2.
@@ -72,7 +72,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
       .finding();
 }
 
-// A heavy and a light ball on a stick; the light one is pulled along it.
+// Pulls the light ball of a stick with a heavy and a light ball along the stick.
 Finding stick_weighs_masses(const Lab& lab) {
   const double heavy = 10, light = 1, force = 11;
   Scene scene = scene_of("pull", {},
@@ -102,7 +102,7 @@ Finding stick_weighs_masses(const Lab& lab) {
       .finding();
 }
 
-// The times at which `angle_of` goes through zero, by straight lines between samples.
+// Returns the period from the times at which `angle_of` crosses zero, interpolated linearly between samples.
 template <class AngleOf>
 std::optional<double> period_of(const Trace& trace, const AngleOf& angle_of) {
   std::vector<double> zeros;
@@ -116,7 +116,8 @@ std::optional<double> period_of(const Trace& trace, const AngleOf& angle_of) {
   return 2 * (zeros[last] - zeros[0]) / static_cast<double>(last);
 }
 
-// Period of a pendulum of `amplitude` over that of a small swing: 1/agm(1, cos(amplitude/2)) (Gauss).
+// Returns the period of a pendulum of `amplitude` over that of a small swing: 1/agm(1, cos(amplitude/2))
+// (Gauss).
 double period_ratio(double amplitude) {
   double a = 1, g = std::cos(amplitude / 2);
   for (int i = 0; i < 6; ++i) {

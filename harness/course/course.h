@@ -8,21 +8,21 @@
 #include "harness/course/finding.h"
 #include "harness/course/lab.h"
 
-/// The course's five chapters as checks that any engine can be put through.
+/// The course's five chapters, as checks that run on any engine.
 namespace plumb::course {
 
-/// One thing that an engine must get right.
+/// One requirement on an engine.
 struct Check {
   std::string name;   ///< unique: "heavy_hits_light"
-  std::string title;  ///< what holds, in a line
-  std::string wants;  ///< what the engine declares in answer to "hello" (docs/protocol.md)
+  std::string title;  ///< the expected behaviour, in a line
+  std::string wants;  ///< capability that the engine must declare in answer to "hello" (docs/protocol.md)
   Finding (*run)(const Lab& lab) = nullptr;
 };
 
 struct Chapter {
   int number = 0;
   std::string title;
-  std::string page;  ///< under docs/course
+  std::string page;  ///< file below docs/course
   std::vector<Check> checks;
 };
 
@@ -32,7 +32,7 @@ Chapter circle_collisions();
 Chapter rotation_and_boxes();
 Chapter constraints_and_ragdoll();
 
-/// All five, in order.
+/// Returns all five, in order.
 std::vector<Chapter> chapters();
 
 struct Outcome {
@@ -41,8 +41,8 @@ struct Outcome {
   Finding finding;
 };
 
-/// Puts `engine` through `chapters`, one check after another; `done` hears of each. An engine that hangs,
-/// crashes or loses a number has a broken check; after `kPatience` that hang the rest is not tried.
+/// Runs `chapters` on `engine`, one check after another, and calls `done` after each. If the engine fails,
+/// hangs or returns a non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped.
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done);

@@ -9,7 +9,7 @@
 namespace plumb::course {
 namespace {
 
-// Of the way between right and wrong: how near a figure must be to what the mistake gives.
+// Tolerance of a mistake's figure, as a fraction of its distance from the right figure.
 constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
 std::string nothing_known(const std::vector<Reading>& readings) {
@@ -48,7 +48,8 @@ Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says
   return *this;
 }
 
-// How far the readings are from what the mistake gives, in units of what is let pass; above 1 it is another.
+// Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; above 1 the
+// mistake does not match.
 double Judgement::miss(const Mistake& mistake) const {
   double worst = 0;
   for (std::size_t i = 0; i < readings_.size(); ++i) {
@@ -56,7 +57,7 @@ double Judgement::miss(const Mistake& mistake) const {
     const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
     if (std::isnan(gives)) continue;
     const double way = std::abs(gives - reading.expected);
-    // A figure that the mistake leaves right has the reading's own tolerance.
+    // A figure that the mistake leaves right keeps the reading's own tolerance.
     const double most = way <= reading.tolerance ? reading.tolerance : kLargestShare * way;
     const double passes = std::max(std::min(reading.tolerance, most), kSmallestShare * way);
     worst = std::max(worst, std::abs(reading.measured - gives) / passes);

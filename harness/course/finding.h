@@ -6,7 +6,7 @@
 
 namespace plumb::course {
 
-/// One figure of a check: what the engine gave, and what it should have given.
+/// One figure of a check: the engine's value and the expected one.
 struct Reading {
   std::string what, unit;
   double measured = 0, expected = 0, tolerance = 0;
@@ -17,35 +17,37 @@ struct Reading {
 enum class Verdict {
   Pass,
   Fail,
-  NotYet,  ///< the engine says that it does not do such scenes
-  Broken,  ///< it crashed, hung, lied or lost a number on the way
+  NotYet,  ///< the engine declares that it does not support such scenes
+  Broken,  ///< the engine crashed, hung, or returned invalid or non-finite data
 };
 
-/// What came of a check.
+/// Result of a check.
 struct Finding {
   Verdict verdict = Verdict::Pass;
   std::vector<Reading> readings;
-  std::string mistake;  ///< what gives such figures, by name: "explicit_euler"; empty where none is known
+  std::string mistake;  ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;     ///< the diagnosis, the reason or the error, for people
 };
 
-/// In place of a figure that a mistake leaves open.
+/// Stands for a figure that a mistake leaves undetermined.
 inline constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
-/// Holds readings against what they should be, and where they are off, against what known mistakes give. A
-/// mistake is recognised when it explains every reading: within the reading's own tolerance, but no more than
-/// a tenth of the way between right and wrong, and no less than 3 % of it. Of several the nearest is named.
+/// Compares readings with their expected values and, if they are off, with the figures of known mistakes. A
+/// mistake matches if every reading is within the reading's tolerance of the mistake's figure. That tolerance
+/// is clamped to 3 % to 10 % of the distance between right and wrong. Of several matches the nearest is
+/// named.
 class Judgement {
  public:
   Judgement& read(std::string what, std::string unit, double measured, double expected, double tolerance);
 
-  /// `gives` has what each reading would be, in the order of `read`; `kAny` where it might be anything.
+  /// `gives` has the mistake's figure for each reading, in the order of `read`; `kAny` if undetermined.
   Judgement& mistake(std::string name, std::vector<double> gives, std::string says);
 
-  /// A mistake that shows in something else than the readings. It goes before those of figures.
+  /// Adds a mistake recognised by something other than the readings. It takes precedence over mistakes by
+  /// figures.
   Judgement& mistake_if(bool seen, std::string name, std::string says);
 
-  /// Likewise, where the figures fit none.
+  /// Adds a mistake recognised by something other than the readings, named if nothing else matches.
   Judgement& otherwise_if(bool seen, std::string name, std::string says);
 
   Finding finding() const;

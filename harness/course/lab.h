@@ -8,7 +8,7 @@
 
 namespace plumb::course {
 
-/// What an engine did with a scene: the states at the start and after every sample.
+/// Trace of an engine's run of a scene: the states at the start and after every sample.
 struct Trace {
   std::vector<double> times;  ///< s
   std::vector<std::vector<BodyState>> states;
@@ -17,47 +17,46 @@ struct Trace {
   const BodyState& last(std::size_t body) const { return states.back()[body]; }
   double duration() const { return times.back(); }
 
-  /// Whether the body is where it was at the start, after all of it.
+  /// Returns true if the body's final position equals its initial position.
   bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
 
-/// The engine does not do such scenes; `what()` is the reason.
+/// Thrown if the engine does not support such scenes; `what()` is the reason.
 class NotYet : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Where an engine is tried: runs scenes on it and knows how its method steps through time.
+/// Runs scenes on an engine and knows how its method steps through time.
 class Lab {
  public:
   Lab(const reference::Backend& engine, const reference::StepSettings& settings);
 
-  /// Steps `scene` for as many whole steps as `duration`, in s, holds, with a sample each step. `finer` parts
-  /// of dt make a step. Throws `NotYet`, or `Error` where the engine fails.
+  /// Steps `scene` for as many whole steps as fit into `duration`, in s, with a sample after each. A step is
+  /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
   Trace run(const Scene& scene, double duration, int finer = 1) const;
 
   double dt() const { return settings_.dt; }          ///< s
-  double substep() const { return method_.substep; }  ///< s; 0 where the method adapts its own
+  double substep() const { return method_.substep; }  ///< s; 0 if the method adapts its own
   reference::Scheme scheme() const { return method_.scheme; }
 
-  /// What rounding may do to a sum of the size of `scale` in `time` s: half a unit a step, with four
-  /// operations a step.
+  /// Returns the bound of rounding errors in a sum of the size of `scale` over `time` s: four roundings a
+  /// step, each of half an epsilon. Adaptive methods get 1e-6 `scale` more.
   double rounding(double scale, double time) const;
 
-  /// Bound of a first-order method's relative error at `rate` 1/s: rate h/2, of higher orders its power; and
-  /// `floor` at least.
+  /// Returns the bound of the method's relative error at `rate` 1/s: (rate h)^order / 2, at least `floor`.
   double method_error(double rate, double floor) const;
 
-  /// How much a first-order method slows a turn at `w` rad/s in `time` s: a joint that turns velocities at
-  /// the end of each tangent step takes 1 - (w h)^2/2 a step, dw/dt = -w^3 h/2. 1 for methods of higher
-  /// order.
+  /// Returns the fraction of a spin of `w` rad/s that a first-order method keeps over `time` s. A joint that
+  /// corrects velocities at the end of each tangent step removes (w h)^2/2 a step, so dw/dt = -w^3 h/2.
+  /// Returns 1 for other orders.
   double turn_kept(double w, double time) const;
 
-  /// How much wider joints may come apart than at 1/60 s: a step along the tangent leaves a circle by
-  /// (w dt)^2/2 of its radius.
+  /// Returns the factor on joint gaps, relative to dt = 1/60 s and at least 1: a step along the tangent
+  /// leaves a circle by (w dt)^2/2 of its radius.
   double coarseness() const;
 
-  /// The way in `time` s from velocity `v` under acceleration `a`, as the declared method computes it:
-  /// Euler's two methods are off by a h t/2, to either side; the others are exact.
+  /// Returns the displacement in `time` s from velocity `v` under acceleration `a`, as the declared method
+  /// computes it. The two Euler methods are off by a h t/2, with opposite signs; the others are exact.
   double way(double v, double a, double time) const;
 
  private:

@@ -19,7 +19,7 @@ struct Limb {
   double width, height;
 };
 
-// A head, a torso, and limbs that hang from it by hinges; arms out, so that nothing touches. 1.5 m high.
+// Builds a head, a torso, and limbs attached by hinges; arms out, so that nothing touches. 1.5 m high.
 Scene ragdoll(Vec2d at, double spin, Vec2d gravity) {
   constexpr Limb kLimbs[] = {{"left arm", {-0.45, 0.25}, 0.5, 0.12},
                              {"right arm", {0.45, 0.25}, 0.5, 0.12},
@@ -66,7 +66,7 @@ Scene ragdoll(Vec2d at, double spin, Vec2d gravity) {
   return scene;
 }
 
-// The widest that any hinge of `scene` comes apart.
+// Returns the largest gap of any hinge of `scene`.
 double widest_gap(const Scene& scene, const Trace& trace) {
   double widest = 0;
   for (const auto& states : trace.states) {
@@ -115,7 +115,7 @@ Finding ragdoll_flies(const Lab& lab) {
   }
   const double gap = widest_gap(scene, trace), fall = lab.way(0, -kGravity, t);
   const double lost = 1 - 0.95 * lab.turn_kept(spin, t);
-  // Soft steps move what is held by semi-implicit Euler, what is free exactly.
+  // Soft steps move jointed bodies by semi-implicit Euler, free ones exactly.
   const double held = lab.scheme() == reference::Scheme::SoftStep ? kGravity * t * lab.substep() / 2 : 0;
   const double off = 0.005 * std::abs(fall) + held;
   return Judgement()
@@ -151,7 +151,8 @@ Finding ragdoll_drops(const Lab& lab) {
     fastest = std::max(fastest, length(trace.last(i).velocity));
   }
   const double in_ground = std::max(0.0, -lowest);
-  // From 2 m nothing moves faster than sqrt(2 g 2.6); at rest after 4 s, slow sliding aside.
+  // After a fall from 2 m nothing moves faster than sqrt(2 g 2.6); at rest after 4 s, apart from slow
+  // sliding.
   return Judgement()
       .read("widest gap in a joint", "m", gap, 0, 0.1 * lab.coarseness())
       .read("deepest centre below the ground", "m", in_ground, 0, 0.02)

@@ -3,13 +3,13 @@
 #include "harness/course/finding.h"
 #include "harness/course/lab.h"
 
-/// The checks of chapter 5 that a whole figure takes: a head, a torso and limbs on hinges.
+/// Checks of chapter 5 on a whole ragdoll: a head, a torso and limbs on hinges.
 namespace plumb::course {
 
-/// In the air: its centre of mass falls as a stone does, and its spin stays.
+/// Checks a ragdoll in free flight: its centre of mass falls as a point mass, and its spin stays.
 Finding ragdoll_flies(const Lab& lab);
 
-/// On the ground: it holds together and settles.
+/// Checks a ragdoll dropped on the ground: its joints hold and it comes to rest.
 Finding ragdoll_drops(const Lab& lab);
 
 }  // namespace plumb::course

@@ -8,16 +8,16 @@
 
 namespace plumb::course {
 
-/// A chapter's name, before its checks.
+/// Returns the heading of a chapter, printed before its checks.
 std::string heading(const Chapter& chapter, const harness::Style& style);
 
-/// A check's verdict; where it failed its figures and what is likely wrong.
+/// Returns a check's verdict; if it failed, also its figures and the likely mistake.
 std::string line(const Outcome& outcome, const harness::Style& style);
 
-/// The score by chapter, and what to do next.
+/// Returns the score by chapter, and the next thing to do.
 std::string score(std::span<const Outcome> outcomes, const harness::Style& style);
 
-/// All of it as a JSON object; docs/course/README.md names its members.
+/// Returns everything as a JSON object; docs/course/README.md names its members.
 std::string as_json(const std::string& engine, std::span<const Outcome> outcomes);
 
 bool all_passed(std::span<const Outcome> outcomes);

@@ -96,7 +96,7 @@ Finding angle_in_radians(const Lab& lab) {
       .finding();
 }
 
-// A push of 0.1 s at `point` of a box that stands at `angle`, away from the origin.
+// Pushes for 0.1 s at `point` of a box at angle `angle`, away from the origin.
 Trace pushed(const Lab& lab, double angle, Vec2d force, Vec2d point) {
   Scene scene = scene_of("push", {}, {make(Crate{.position = {5, 3}, .angle = angle, .mass = 2})});
   PointForce law = push("box", force, point);
@@ -108,7 +108,8 @@ Trace pushed(const Lab& lab, double angle, Vec2d force, Vec2d point) {
 constexpr double kPushed = 0.1;           // s
 constexpr double kPushInertia = 1.0 / 3;  // 2 kg, 1 m by 1 m
 
-// An engine that looks at the clock once a step sees a step more or less of a push.
+// Returns the relative error of the push: an engine that reads the clock once a step sees a step more or less
+// of it.
 double share_of_push(const Lab& lab) { return lab.dt() / kPushed + 0.01; }
 
 Finding central_force(const Lab& lab) {
@@ -193,7 +194,8 @@ constexpr const char* kBothCorners =
     "the "
     "first has left, several times, and keep their sums from pulling.";
 
-// At a corner of a square of mass m and side s, I = m s^2/6, an impulse feels 1/m + (s/2)^2/I = 2.5/m.
+// A square of mass m and side s has I = m s^2/6. The inverse effective mass at its corner is 1/m + (s/2)^2/I
+// = 2.5/m.
 Finding lands_flat(const Lab& lab) {
   const double v = 2, e = 0.5, side = 0.8;
   const Body box = make(Crate{.position = {0.3, 1.2},

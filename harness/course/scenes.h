@@ -5,7 +5,7 @@
 
 #include "engine/scene/scene.h"
 
-/// Building blocks of the checks' scenes. Nothing rubs: friction is 0 but where a check asks for it.
+/// Building blocks of the checks' scenes. Friction is 0 unless a check sets it.
 namespace plumb::course {
 
 struct Ball {
@@ -30,12 +30,12 @@ struct Crate {
 
 Body make(const Crate& crate);
 
-/// The same, but it stands still.
+/// Returns `body` as a static body.
 Body fixed(Body body);
 
 Scene scene_of(std::string name, Vec2d gravity, std::vector<Body> bodies);
 
-/// The force `force` at the body's point `point` from `start` for `duration`.
+/// Returns the force `force` on the body's point `point` from `start` for `duration`.
 PointForce push(const std::string& body, Vec2d force, Vec2d point = {});
 
 }  // namespace plumb::course

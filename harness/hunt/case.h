@@ -9,18 +9,18 @@
 
 #include "engine/scene/scene.h"
 
-/// Scenes that nobody thought of, judged without an answer sheet.
+/// Random scenes, judged without a known answer.
 namespace plumb::harness::hunt {
 
 enum class ActionKind : std::uint8_t {
-  Create,        ///< a body of the scene that is not there before
+  Create,        ///< a body of the scene that does not exist before
   Destroy,       ///< a body
-  CreateJoint,   ///< a joint of the scene that is not there before
+  CreateJoint,   ///< a joint of the scene that does not exist before
   DestroyJoint,  ///< a joint
   Teleport,      ///< a body to `position` and `angle`
   Push,          ///< a body: its velocity becomes `position` per second, its angular velocity `angle`
   SetType,       ///< of a body
-  SetFilter,     ///< of all shapes of a body: they meet nothing, or everything
+  SetFilter,     ///< of all shapes of a body: they collide with nothing, or with everything
   DestroyShape,  ///< the last shape of a body
   Sleep,         ///< a body with its island
 };
@@ -28,10 +28,10 @@ inline constexpr std::string_view kActionNames[] = {
     "create", "destroy",  "create_joint", "destroy_joint", "teleport",
     "push",   "set_type", "set_filter",   "destroy_shape", "sleep"};
 
-/// Something that is done to a world before a step.
+/// An action on a world before a step.
 struct Action {
   ActionKind kind = ActionKind::Destroy;
-  int step = 0;        ///< before which it happens; 0: before the first
+  int step = 0;        ///< step before which it happens; 0: the first
   std::string target;  ///< the name of a body or joint
   Vec2d position{};
   double angle = 0;
@@ -46,15 +46,15 @@ enum class Quantity : std::uint8_t {
   VelocityX,
   VelocityY,
   AngularVelocity,
-  Drift,  ///< m, the distance from where the body was at `from`
+  Drift,  ///< m, the distance from the body's position at `from`
 };
 inline constexpr std::string_view kQuantityNames[] = {
     "x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity", "drift"};
 
-/// Among an expectation's needs: that masses and inertias are those that it was composed with.
+/// Need of an expectation: masses and inertias must be those of its composition.
 inline constexpr std::string_view kMasses = "masses";
 
-/// What the one who composed a scene knows of its motion.
+/// Property of the motion that is known from a scene's composition.
 struct Expectation {
   std::string name;  ///< "keeps its speed"
   std::string body;
@@ -63,15 +63,15 @@ struct Expectation {
   double upper = std::numeric_limits<double>::infinity();
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s
-  std::vector<std::string> needs{};       ///< bodies or joints without which it is not owed; or `kMasses`
-  std::map<std::string, double> until{};  ///< s: bodies without which it is owed only until then
-  std::string why{};                      ///< one line that says what is right
+  std::vector<std::string> needs{};       ///< bodies or joints without which it does not apply; or `kMasses`
+  std::map<std::string, double> until{};  ///< s: bodies without which it applies only until then
+  std::string why{};                      ///< the expected behaviour, in one line
 };
 
-/// One scene with all that a run of it takes.
+/// One scene with everything needed to run it.
 struct Case {
   std::uint64_t seed = 0, index = 0;
-  std::vector<std::string> idioms{};  ///< that it was composed of
+  std::vector<std::string> idioms{};  ///< idioms that it was composed of
   Scene scene{};
   double dt = 1.0 / 60;  ///< s
   int substeps = 4;
@@ -81,14 +81,14 @@ struct Case {
   std::vector<Action> actions{};       ///< in the order of their steps
   std::vector<Expectation> expectations{};
 
-  /// Whether only a World can run it.
+  /// Returns true if only a World can run it.
   bool world_only() const { return !actions.empty() || !sensors.empty(); }
 };
 
-/// The case as JSON, which reads back to the same bits.
+/// Converts the case to JSON, which reads back to the same bits.
 std::string to_json(const Case& one, int indent = 2);
 
-/// Throws `Error` for what is no case.
+/// Throws `Error` if `text` is not a case.
 Case case_from_json(std::string_view text);
 
 }  // namespace plumb::harness::hunt

@@ -90,7 +90,7 @@ Case compose(std::uint64_t seed, std::uint64_t index, const std::vector<const Id
   draw_world(draft);
   Random& random = draft.random;
   const Idiom* structure = drawn(random, wanted.empty() ? of_role(Idiom::Role::Structure) : wanted);
-  // A support is drawn until it is one that the structure stands on.
+  // Draw supports until one accepts the structure.
   const std::vector<const Idiom*> supports = of_role(Idiom::Role::Support);
   for (int tries = 0;; ++tries) {
     Draft attempt = draft;

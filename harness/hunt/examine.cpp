@@ -26,11 +26,11 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
     if (!verdict) continue;
     verdict->law = each.name;
     out.objections.push_back(std::move(*verdict));
-    // A run that broke off shows nothing of the other laws.
+    // A run that broke off is not checked against the other laws.
     if (each.name == "finite") return out;
   }
-  // Two of the relations a scene, by turns: each costs a run or more. A run that broke a law is known to be
-  // wrong.
+  // Check two of the relations per scene, in turn, because each costs a run or more. A run that broke a law
+  // is already known to be wrong.
   const std::size_t count = relations().size();
   for (std::size_t i = 0; i < count; ++i) {
     const Relation& each = relations()[i];

@@ -7,16 +7,16 @@
 
 namespace plumb::harness::hunt {
 
-/// What one case on one engine came to.
+/// Result of one case on one engine.
 struct Examined {
-  std::vector<Objection> objections{};  ///< one a judge at most
-  std::string skipped{};                ///< why the engine did not take it
+  std::vector<Objection> objections{};  ///< at most one per judge
+  std::string skipped{};                ///< reason for which the engine rejected it
 };
 
-/// Runs `one` and asks every judge, or only that of `law`.
+/// Runs `one` and evaluates every judge, or only that of `law`.
 Examined examine(const Engine& engine, const Case& one, const std::string& law = "");
 
-/// The names of all judges, in the order in which they are asked.
+/// Returns the names of all judges, in the order of evaluation.
 std::vector<std::string> judge_names();
 
 }  // namespace plumb::harness::hunt

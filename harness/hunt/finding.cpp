@@ -41,7 +41,7 @@ std::string joined(const std::set<std::string>& parts) {
   return out;
 }
 
-// Numbers that are none become text: JSON has no others.
+// Writes non-finite numbers as null: JSON has no others.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
@@ -55,8 +55,8 @@ std::string made_of(const Case& one, const std::string& law) {
       (body.type == BodyType::Dynamic ? shapes : grounds).insert(kind_of(shape.geometry));
   for (const Action& action : one.actions)
     actions.insert(std::string(kActionNames[static_cast<std::size_t>(action.kind)]));
-  if (law == "events" || law == "sensors") return joined(actions);  // whatever it is that sees or is seen
-  // Shapes say something where they may touch: bodies that pass each other in the air are points.
+  if (law == "events" || law == "sensors") return joined(actions);  // only actions matter
+  // Shapes matter only if they may touch: bodies that pass each other in the air are points.
   pairs = !grounds.empty() || joints.empty();
   std::string out = joined(joints);
   if (pairs) {

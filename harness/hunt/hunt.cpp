@@ -24,13 +24,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSceneSeconds = 60;  // of processor time, as the next
+constexpr double kSceneSeconds = 60;  // of processor time, as is kRunSeconds
 constexpr rlim_t kRunSeconds = 10;
-constexpr double kMoreSeconds = 30;  // after the time is over, for findings to be made smaller
-// Scenes whose process died are examined again, each engine on its own.
+constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
+// Stands for a law: a scene whose process died is examined again, each engine on its own.
 constexpr std::uint64_t kCrashed = 0xFF;
 
-/// A piece of work as a number: a scene, or one finding in it that is to be made smaller.
+/// A task packed into a number: a scene, or one finding in it to be shrunk.
 struct Task {
   bool shrinks = false;
   std::uint64_t engine = 0, law = 0, scene = 0;
@@ -44,7 +44,7 @@ struct Task {
   }
 };
 
-/// What the worker processes do.
+/// Work of the worker processes.
 class Workshop {
  public:
   explicit Workshop(const HuntOptions& options) : options_(options) {}
@@ -93,7 +93,7 @@ class Workshop {
     return to_json(out);
   }
 
-  // Each run in a process of its own: it may die again.
+  // Runs each candidate in a process of its own, because it may crash again.
   std::string shrunk_crash(const Case& one, const Task& task) const {
     const Engine& engine = options_.engines[task.engine];
     std::string how;
@@ -145,8 +145,8 @@ class Hunt {
     for (;;) {
       const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
       const bool over = options_.seconds > 0 && passed > options_.seconds;
-      if (over && passed > options_.seconds + kMoreSeconds) queue_.clear();  // the next run goes on with them
-      // What is found is made smaller before new scenes are drawn, also when the time is over.
+      if (over && passed > options_.seconds + kMoreSeconds) queue_.clear();  // the next hunt shrinks them
+      // Shrink findings before drawing new scenes, also after the time limit.
       while (workers.idle() > 0 && !interrupted() && (!queue_.empty() || (!over && next()))) {
         workers.start(queue_.front());
         queue_.erase(queue_.begin());
@@ -178,7 +178,7 @@ class Hunt {
       if (line.contains("finding"))
         remember({line.at("scene_of").get<std::uint64_t>(), finding_from_json(line["finding"].dump())});
     }
-    // Those that nobody had the time to make smaller.
+    // Queue the findings that were not shrunk in time.
     std::set<std::string> small;
     const auto key = [](const Found& found) {
       return fmt::format("{} {} {}", found.scene, found.finding.engine, found.finding.objection.law);
@@ -196,7 +196,7 @@ class Hunt {
     result_.skipped += line.value("skipped", 0);
   }
 
-  // Puts the next scene into the queue; false where there is none.
+  // Puts the next scene into the queue; false if there is none.
   bool next() {
     while (done_.contains(next_)) ++next_;
     if (options_.scenes > 0 && next_ >= options_.scenes) return false;

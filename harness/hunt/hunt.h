@@ -16,19 +16,19 @@ struct HuntOptions {
   std::vector<Engine> engines{};
   std::uint64_t seed = 1;
   double seconds = 60;       ///< of wall time; 0: no limit
-  std::uint64_t scenes = 0;  ///< 0: as many as there is time for
+  std::uint64_t scenes = 0;  ///< 0: unlimited
   int jobs = 1;
   std::string folder = "hunt";
-  int shrinks = 3;  ///< findings of one judge, engine and structure that are made smaller
+  int shrinks = 3;  ///< number of findings per judge, engine and structure that are shrunk
 };
 
-/// Findings that show the same fault.
+/// Findings that probably have one cause.
 struct Kind {
-  std::string name;  ///< judge, and what the smallest scene is made of
+  std::string name;  ///< judge, and the parts of the smallest scene
   std::vector<std::string> engines{};
-  std::vector<std::string> idioms{};  ///< structures that showed it
-  std::uint64_t first = 0;            ///< scenes drawn until it appeared
-  std::uint64_t count = 0;            ///< findings
+  std::vector<std::string> idioms{};  ///< structures in which it appeared
+  std::uint64_t first = 0;            ///< number of scenes drawn until it appeared
+  std::uint64_t count = 0;            ///< number of findings
   Finding smallest{};
   std::string file{};  ///< of the smallest, in the folder
 };
@@ -44,17 +44,17 @@ struct HuntEvents {
   std::function<void(const Finding&)> found{};
 };
 
-/// Draws scenes, runs and judges them, and makes smaller what fails. Goes on where an earlier run in the
-/// folder stopped. Throws `Error` (Io), also where the folder holds a hunt of another seed, engines or
-/// families.
+/// Draws scenes, runs and judges them, and shrinks the failing ones. Resumes an earlier hunt in the folder.
+/// Throws `Error` (Io), also if the folder holds a hunt of another seed, engines or families.
 Hunted hunt(const HuntOptions& options, const HuntEvents& events);
 
-/// Writes the finding's case, its picture and how to replay it to `folder`/`name`.json and .svg.
+/// Writes the finding's case to `folder`/`name`.json, and its picture with the command that replays it to
+/// .svg.
 void write_finding(const Finding& finding, const std::string& folder, const std::string& name);
 
-/// The kinds as a table for people.
+/// Formats the kinds as a table for people.
 std::string kinds_text(const Hunted& hunted);
-/// As a JSON list.
+/// Formats the kinds as a JSON list.
 std::string kinds_json(const Hunted& hunted);
 
 }  // namespace plumb::harness::hunt

@@ -10,14 +10,14 @@
 
 namespace plumb::harness::hunt {
 
-/// The ground that a support leaves for a structure.
+/// Ground that a support leaves for a structure.
 struct Site {
   enum class Kind { Air, Floor, Enclosure } kind = Kind::Air;
   double width = 0;   ///< m, of the floor or the inside; its middle is x = 0, its ground y = 0
   double height = 0;  ///< m, of the inside
   double friction = 0.6;
   bool level = true;   ///< a floor that is flat and at rest
-  bool moves = false;  ///< or runs
+  bool moves = false;  ///< the ground moves or has a surface speed
 };
 
 /// A case that is being composed.
@@ -28,11 +28,11 @@ class Draft {
   Random random;
   Case out;
   Site site;
-  double size = 1;         ///< m, of what is built
-  double friction = 0.6;   ///< of what is built, unless an idiom draws its own
-  double restitution = 0;  ///< likewise
+  double size = 1;         ///< m, of the bodies being built
+  double friction = 0.6;   ///< of the bodies being built, unless an idiom draws its own
+  double restitution = 0;  ///< as friction
   double density = 1;      ///< kg/m^2
-  std::string idiom;       ///< whose bodies come next: part of their names
+  std::string idiom;       ///< idiom of the next bodies: part of their names
 
   Body& body(int index) { return out.scene.bodies[static_cast<std::size_t>(index)]; }
   const std::string& name(int index) const;  ///< of a body; "world" for -1
@@ -41,13 +41,13 @@ class Draft {
   int add(const Geometry& geometry, Vec2d at, double angle = 0, BodyType type = BodyType::Dynamic);
   int box(Vec2d at, double width, double height, double angle = 0, BodyType type = BodyType::Dynamic);
   int disc(Vec2d at, double radius, BodyType type = BodyType::Dynamic);
-  /// A disc, a box, a capsule, a polygon or a rounded one, of about `size` m.
+  /// Adds a disc, a box, a capsule, a polygon or a rounded one, of about `size` m.
   int any(Vec2d at, double size, double angle = 0);
   Geometry any_geometry(double size);
-  /// Weighs the body anew, after shapes were added; centres it on its mass.
+  /// Recomputes the body's mass after shapes were added, and moves its origin to its centre of mass.
   void weigh(int index);
 
-  /// A point of the world in a body's frame; -1: the fixed frame.
+  /// Transforms a point of the world to a body's frame; -1: the fixed frame.
   Vec2d local(int index, Vec2d point) const;
 
   /// Adds a joint between two bodies at a point of the world; -1: the fixed frame. Its angle there is 0.
@@ -65,9 +65,9 @@ class Draft {
     return std::get<Kind>(out.scene.joints.back());
   }
 
-  /// Makes the bodies from `first` on meet nothing of each other.
+  /// Disables collisions among the bodies from `first` on.
   void pass_each_other(int first);
-  /// Makes the bodies from `first` on turn about a point together.
+  /// Adds a common rotation about a point to the bodies from `first` on.
   void whirl(int first, Vec2d about, double rate);
   int count() const { return static_cast<int>(out.scene.bodies.size()); }
 
@@ -77,26 +77,26 @@ class Draft {
   double relative_angle(int a, int b) const;
 };
 
-/// The direction of an angle, with the same bits everywhere.
+/// Returns the unit vector of an angle, with the same bits everywhere.
 Vec2d direction(double angle);
 
-/// One thing that people build, or do to it. One file in idioms/, no registration elsewhere.
+/// A common structure, support or disturbance. One file in idioms/, registered nowhere else.
 struct Idiom {
   enum class Role { Support, Structure, Disturbance };
   std::string name;
   std::string title;  ///< "four blades on a hub"
   Role role = Role::Structure;
-  double weight = 1;                                 ///< how often it is drawn
-  bool air = true, floor = true, enclosure = false;  ///< the sites that a structure is built on
+  double weight = 1;                                 ///< relative frequency
+  bool air = true, floor = true, enclosure = false;  ///< sites that a structure is built on
   bool level = false;                                ///< only on floors that are flat and at rest
   std::function<bool(const Draft&)> fits{};          ///< of a disturbance; none: always
   std::function<void(Draft&)> build{};
 };
 
-/// Every idiom, by name.
+/// Returns every idiom, sorted by name.
 const std::vector<Idiom>& idioms();
 
-/// Throws `Error` (Name) that suggests the nearest.
+/// Throws `Error` (Name) that suggests the nearest name.
 const Idiom& find_idiom(std::string_view name);
 
 /// Adds an idiom: `static const Register r{{.name = ..., .build = ...}};`
@@ -104,7 +104,7 @@ struct Register {
   explicit Register(Idiom idiom);
 };
 
-/// Draws case `index` of a hunt; `wanted` names the structures to choose from, none: all. The same numbers
+/// Draws case `index` of a hunt; `wanted` names the structures to choose from, none: all. The same arguments
 /// give the same case on every machine.
 Case compose(std::uint64_t seed, std::uint64_t index, const std::vector<const Idiom*>& wanted = {});
 

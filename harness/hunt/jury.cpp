@@ -1,4 +1,4 @@
-// Other engines as judges: Precise alone, and the rivals with it as a jury.
+// Other engines as references: Precise alone, and the rivals with Precise as a jury.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,18 +13,18 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-constexpr double kSeconds = 2;     // that another engine may take
+constexpr double kSeconds = 2;     // time limit of another engine
 constexpr double kShare = 0.2;     // of the largest body
-constexpr std::size_t kMost = 12;  // bodies that Precise is asked about
+constexpr std::size_t kMost = 12;  // largest number of dynamic bodies for Precise
 constexpr double kCalm = 0.02;
-// Of the bound: how far a rival may leave itself with half the step. A method of first order halves its
-// error, so that it is off by twice that.
+// Largest change of a rival with half the step, as a fraction of the bound. The step halves a first-order
+// error, so the remaining error is twice the change.
 constexpr double kSteady = 0.25;
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
-/// What a method of first order may be off by at each sample, m: the way of three steps, at the speed that
-/// bodies have and fall at.
+/// Returns the possible error of a first-order method at each sample, m: the displacement of three steps, at
+/// the bodies' largest speed plus that of free fall.
 std::vector<double> bounds(const Case& one, const Motion& motion) {
   std::vector<double> out;
   const double g = length(one.scene.gravity), share = kShare * largest_size(one.scene);
@@ -45,19 +45,21 @@ std::optional<Motion> run_by(const char* name, const Case& one) {
   if (!unsupported(engine, one).empty()) return {};
   Motion out = run(engine, one, {.seconds = kSeconds});
   if (out.samples.empty()) return {};
-  // Who makes energy is no judge of others: Newton's law of restitution with friction may (Kane, Levinson
-  // 1985).
+  // An engine that gains energy is no reference: Newton's law of restitution with friction may gain energy
+  // (Kane, Levinson 1985).
   if (energy_law(one, engine, out)) return {};
   return out;
 }
 
-// Moving contacts and loose joints bend each engine its own way; what no judge knows is left out.
+// Returns false for cases without a reliable reference: initial overlaps or joint errors are resolved
+// differently by each engine.
 bool judged(const Case& one, const Motion& motion) {
   return motion.failure.empty() && starts_closed(one.scene) && starts_apart(one.scene) &&
          one.scene.bodies.size() <= 3 * kMost;
 }
 
-/// The first sample at which `a` leaves `b` by more than its bound; none: never, while both last.
+/// Returns the first sample at which `a` deviates from `b` by more than its bound; none if never, while both
+/// last.
 std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motion& b,
                                    const std::vector<double>& bound, double times = 1) {
   const std::vector<double> off = apart(one, a, b);
@@ -66,7 +68,8 @@ std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motio
   return {};
 }
 
-/// Whether an engine with half the step goes the same way up to sample `k`. Precise chooses its own.
+/// Returns true if an engine's motion up to sample `k` stays within `kSteady` of the bound with half the
+/// step. Precise chooses its own.
 bool steady(const Case& one, const char* name, const Motion& motion, const std::vector<double>& bound,
             std::size_t k) {
   const Engine engine(reference::find_backend(name));
@@ -102,7 +105,7 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
   const std::vector<double> bound = bounds(one, *precise);
   const auto k = parting(one, motion, *precise, bound);
   if (!k) return {};
-  // Where the motion forks within what a step may be off by, both ways are right.
+  // If a perturbation within a step's error leads to a different motion, both are right.
   const std::vector<double> calm = growth(one, engine, motion);
   const std::vector<double> own = growth(one, Engine(reference::find_backend("plumb-precise")), *precise);
   if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k])

@@ -8,17 +8,17 @@
 
 namespace plumb::harness::hunt {
 
-/// A finding and the scene that showed it.
+/// A finding with the number of its scene.
 struct Found {
   std::uint64_t scene = 0;
   Finding finding{};
 };
 
-/// Judge, engine and structure: what is known before a finding is made smaller.
+/// Returns judge, engine and structure: the key known before a finding is shrunk.
 std::string coarse_key(const Finding& finding);
 
-/// Groups findings by what their smallest scenes have in common; those that were not made smaller count for
-/// the first kind of their judge, engine and structure.
+/// Groups findings by the common parts of their smallest scenes. Those that were not shrunk count for the
+/// first kind of their judge, engine and structure.
 std::vector<Kind> kinds_of(const std::vector<Found>& findings);
 
 }  // namespace plumb::harness::hunt

@@ -12,16 +12,17 @@ namespace {
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
-// Steps of semi-implicit Euler keep an energy that differs from the true one by a share of w h / 2.
+// Semi-implicit Euler conserves an energy that differs from the true one by a fraction of w h / 2.
 constexpr double kEnergyShare = 0.02, kMostShare = 0.3;
 constexpr double kPreciseShare = 1e-5;
 
-/// What a motion may have of energy, and has.
+/// Energies that bound a motion's energy.
 struct Budget {
   double start = 0, kinetic = 0, fall = 0, fastest_turn = 0;
 };
 
-// What a step and the gap of contacts may add: each body falls a step's way, or its own hundredth, late.
+// Returns the energy due to position errors: half a step's displacement and a hundredth of the reach of each
+// body, in its gravity.
 double slack_of_places(const Case& one, const Sample& sample, const std::vector<double>& reach) {
   double sum = 0;
   const double g = length(one.scene.gravity);
@@ -35,8 +36,8 @@ double slack_of_places(const Case& one, const Sample& sample, const std::vector<
   return sum;
 }
 
-// What a tolerance of 1e-9 of a motion that is none may add: each body is off by 1e-6 of its reach, and a
-// second later there.
+// Returns the energy error due to a tolerance of 1e-9 for bodies at rest: each is displaced by 1e-6 of its
+// reach, at a speed of as much per second.
 double slack_of_rounding(const Case& one, const std::vector<double>& reach) {
   double sum = 0;
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
@@ -160,13 +161,12 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     if (body.type == BodyType::Dynamic) weight += body.mass * body.gravity_scale * one.scene.gravity;
   const Sizes sizes = sizes_of(one.scene);
   const double duration = one.steps * one.dt;
-  // What is at rest is moved by roundings all the same: of its own size in the time of the run.
+  // Rounding moves bodies even at rest: allow a displacement of their reach over the whole run.
   double most = std::max(first.sum_of_momenta, sizes.mass_times_reach / duration);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const double time = static_cast<double>(k) * one.dt;
     const Mechanics now = mechanics(one.scene, motion.samples[k].states);
-    // sum |m v| <= sqrt(2 sum m sum m v^2 / 2) (Cauchy, Schwarz): no more than the energy that there is
-    // allows.
+    // By Cauchy-Schwarz sum |m v| <= sqrt(2 sum m sum m v^2 / 2), so the available energy limits it.
     const double allowed = std::sqrt(2 * sizes.mass * (first.kinetic + stored(one.scene, time)));
     most = std::max(most, std::min(now.sum_of_momenta, allowed + length(weight) * time));
     const double off = length(now.momentum - first.momentum - time * weight);
@@ -211,7 +211,8 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
     const double time = static_cast<double>(k) * one.dt;
     const double energy = first.kinetic + stored(one.scene, time);
     most = std::max(most, std::min(now.sum_of_angular_momenta, 4 * most));
-    // An impulse J on bodies that pass each other at v acts a step's way v dt beside its line at most.
+    // An impulse J on bodies that pass each other at v acts at most a step's displacement v dt beside its
+    // line.
     impulse = std::max(impulse, 2 * energy * one.dt);
     const double off = std::abs(now.angular_momentum - first.angular_momentum);
     const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;

@@ -11,7 +11,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// s for which shapes have to lie in each other: blows press them together for a moment.
+// s: overlaps that end sooner are tolerated, because impacts press shapes together for a moment.
 constexpr double kLasting = 0.5;
 constexpr double kWidthShare = 0.15, kReachShare = 0.02;
 
@@ -87,7 +87,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     }
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
-  std::vector<bool> given(pairs.size(), false);  // in each other from the start: joints may keep them there
+  std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
   const bool intruded = std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
     return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
            action.kind == ActionKind::SetType;
@@ -108,16 +108,16 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
           std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
                     2 * length(one.scene.gravity) * one.dt * one.dt});
       if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
-      // Precise refuses what it has no law for.
+      // For Precise no initial overlap is tolerated, because it must refuse such scenes.
       if (k == 0 && depth > bound) given[n] = engine.kind != Engine::Kind::Precise;
-      // A body that was put where another is may leave it no way out; it has to be awake then.
+      // A body that was put onto another may be unable to escape; it must be awake then.
       const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
       if (depth <= bound || given[n] || (intruded && !asleep)) {
         in[n] = 0, least[n] = INFINITY;
         continue;
       }
       ++in[n];
-      // What was there at the start, or was put there, may go slowly, as long as it goes.
+      // An overlap from the start or from an action may take longer, if it keeps shrinking.
       if (in[n] == lasting / 2) least[n] = depth;
       if (in[n] < lasting || depth < 0.7 * least[n]) {
         if (in[n] >= lasting) in[n] = 0, least[n] = INFINITY;
@@ -138,7 +138,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
 }
 
 Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) {
-  // Sensors do not see static bodies, which a visitor may become.
+  // Sensors do not detect static bodies, and a visitor may become static.
   if (!engine.is_world() || one.sensors.empty() || filters_change(one) || types_change(one)) return {};
   const std::vector<Part> parts = parts_of(one);
   const double margin = 0.05 * typical_size(one.scene);
@@ -203,7 +203,7 @@ Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
       for (const Joint& joint : one.scene.joints)
         std::visit([&](const auto& j) { bad = bad && j.body_a != body.name && j.body_b != body.name; },
                    joint);
-      // The least distance to anything is long in coming: asked for once it sleeps for a while.
+      // The distance to the nearest shape is expensive, so compute it only after 10 samples asleep.
       hanging[i] = bad ? hanging[i] + 1 : 0;
       if (hanging[i] < 10 || hanging[i] % 10 != 0) continue;
       double least = INFINITY;

@@ -11,9 +11,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Samples for which a joint has to be open: blows open joints for a moment.
+// Samples after which an open joint is a violation: impacts open joints for a moment.
 constexpr int kLasting = 6;
-constexpr double kGapShare = 0.05;   // of the lengths that the joint turns
+constexpr double kGapShare = 0.05;   // of the arms and reaches of the joint's bodies
 constexpr double kAngleBound = 0.2;  // rad
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
@@ -26,7 +26,8 @@ bool may_break(const Joint& joint) {
   return std::visit([](const auto& j) { return j.break_force > 0 || j.break_torque > 0; }, joint);
 }
 
-// Where a rope's end comes to its pulley the rope has no direction: no law says how it goes on.
+// Returns true if a rope's end comes to its pulley. The rope then has no direction, so the motion is not
+// determined.
 bool at_its_pulley(const Case& one, const Joint& joint, const std::vector<BodyState>& states) {
   const auto* rope = std::get_if<PulleyJoint>(&joint);
   if (rope == nullptr) return false;
@@ -46,7 +47,7 @@ bool judged(const Case& one) {
   return one.actions.empty() && !one.scene.joints.empty() && starts_closed(one.scene);
 }
 
-/// An angle of b relative to a that is held within a range.
+/// An angle of b relative to a that a joint keeps within a range.
 struct Hold {
   double angle = 0;  // rad, relative to the reference
   double lower = 0, upper = 0;
@@ -96,7 +97,7 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
         const BodyState& s = states[*end.body];
         const double arm = length(end.anchor);
         size += std::max(arm, reach[*end.body]);
-        // The way that the bend of its path is off its tangent in a substep.
+        // Displacement error of a tangent step along a curved path, per substep.
         speed += std::abs(s.angular_velocity) * arm * std::min(1.0, std::abs(s.angular_velocity) * step);
       }
       const double gap = gaps.gap(i, states);

@@ -17,7 +17,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-constexpr double kPatience = 20;  // times the processor time, of a machine that others use
+constexpr double kPatience = 20;  // wall time over processor time, on a shared machine
 
 bool finite(const BodyState& s) {
   return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
@@ -56,7 +56,7 @@ Motion run_backend(const Engine& engine, const Case& one, const RunOptions& opti
   return out;
 }
 
-// The texts, each behind its length, then the states.
+// Writes the texts, each preceded by its length, then the states.
 std::string as_bytes(const Motion& motion) {
   std::string out;
   for (const std::string& text : {motion.failure, motion.stopped}) {

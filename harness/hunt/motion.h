@@ -9,14 +9,14 @@
 
 namespace plumb::harness::hunt {
 
-/// Every body after a step, in the scene's order.
+/// State of every body after a step, in the scene's order.
 struct Sample {
   std::vector<BodyState> states{};
-  std::vector<bool> present{};  ///< whether the body is there
+  std::vector<bool> present{};  ///< true if the body exists
   std::vector<bool> asleep{};
 };
 
-/// A pair of bodies that a sensor says overlap: the sensor's and the visitor's index.
+/// A sensor overlap reported by the engine: the sensor's and the visitor's body index.
 struct Visit {
   std::size_t sensor = 0, visitor = 0;
   friend auto operator<=>(const Visit&, const Visit&) = default;
@@ -26,18 +26,18 @@ struct Visit {
 struct Motion {
   double dt = 0;  ///< s, from sample to sample
   std::vector<Sample> samples{};
-  std::string failure{};  ///< empty, or why it ended before its time
-  std::string stopped{};  ///< empty, or why the engine itself says that it ends before its time
-  /// Events that do not pair up: what and when.
+  std::string failure{};  ///< reason for a premature end; empty if there is none
+  std::string stopped{};  ///< the engine's own reason for ending prematurely; empty if there is none
+  /// Begin and end events that do not match, with their time.
   struct EventFault {
     double time = 0;
     std::string what;
   };
   std::vector<EventFault> event_faults{};
-  std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty where nothing senses
+  std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
 };
 
-/// An engine as the hunt sees it.
+/// An engine with its kind and precision.
 struct Engine {
   const reference::Backend* backend = nullptr;
   enum class Kind { World, DoubleWorld, Precise, Other } kind = Kind::Other;
@@ -49,18 +49,18 @@ struct Engine {
 };
 
 struct RunOptions {
-  int refine = 1;           ///< each step in so many
-  int restore_at = -1;      ///< step after which a World is saved and goes on as another
-  bool flip_sleep = false;  ///< sleep on where it is off, and the other way around
-  double seconds = 5;       ///< of processor time, after which the run is given up
+  int refine = 1;           ///< steps per step of the case
+  int restore_at = -1;      ///< step after which a World is saved, and restored into another
+  bool flip_sleep = false;  ///< turns sleep on if it is off, and off if it is on
+  double seconds = 5;       ///< limit of processor time
 };
 
-/// Empty, or why `engine` does not take `one`.
+/// Returns why `engine` does not support `one`; empty if it does.
 std::string unsupported(const Engine& engine, const Case& one);
 
-/// Runs it. What the engine throws is the motion's failure, but where one in this process says why it goes no
-/// further. Precise, whose steps may take any time, runs in a process of its own; it has no samples where it
-/// did not come to a sample in time.
+/// Runs the case. Exceptions of the engine become the motion's failure, or `stopped` if the engine itself
+/// gives up with a reason. Precise may take arbitrarily long, so it runs in a process of its own; its motion
+/// is empty if that process exceeds the limit.
 Motion run(const Engine& engine, const Case& one, const RunOptions& options = {});
 
 }  // namespace plumb::harness::hunt

@@ -9,30 +9,30 @@
 
 namespace plumb::harness::hunt {
 
-/// A judge's sentence about a run.
+/// Objection of a judge to a run.
 struct Objection {
-  std::string law{};    ///< that was broken: one of `laws()`, or the symmetries
-  std::string judge{};  ///< the same, but for an expectation its name
-  std::string what{};   ///< one line that says what is wrong: "energy has grown"
-  std::string right{};  ///< one line that says what is right
+  std::string law{};    ///< the law or relation that was broken
+  std::string judge{};  ///< the same; for an expectation, its name
+  std::string what{};   ///< the violation, in one line: "energy has grown"
+  std::string right{};  ///< the correct behaviour, in one line
   double figure = 0, bound = 0;
   std::string unit{};
-  double time = 0;        ///< s, when it was first seen
+  double time = 0;        ///< s, of its first detection
   std::string subject{};  ///< a body, joint or pair; may be empty
 };
 
 using Verdict = std::optional<Objection>;
 
-/// A law that a motion is held against, alone.
+/// A law that a motion alone is checked against.
 struct Law {
   std::string name{};
   Verdict (*judge)(const Case& one, const Engine& engine, const Motion& motion);
 };
 
-/// In the order in which they are asked: the first that objects speaks for the run.
+/// Returns the laws in the order of evaluation: the first that objects speaks for the run.
 const std::vector<Law>& laws();
 
-// The laws. docs/hunting.md says where each bound comes from.
+// The laws. docs/hunting.md gives the source of each bound.
 Verdict finite_law(const Case& one, const Engine& engine, const Motion& motion);
 Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion);
 Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion);

@@ -38,7 +38,7 @@ double to_edge(Vec2d p, Vec2d a, Vec2d b) {
   return length(p - (a + t * along));
 }
 
-// The largest gap along the normals of a's edges; negative: the overlap.
+// Returns the largest gap along the normals of a's edges; negative: the overlap.
 double gap_along_normals(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b) {
   double most = -kInfinity;
   for (std::size_t i = 0; i < a.size() && a.size() > 1; ++i) {
@@ -89,8 +89,8 @@ Outline placed(const Outline& outline, const BodyState& state) {
 
 double separation(const Outline& a, const Outline& b) {
   const double apart = std::max(gap_along_normals(a.core, b.core), gap_along_normals(b.core, a.core));
-  // Points have no normals, and lines in a row none along which they are apart: rounding alone says that such
-  // cores overlap.
+  // Points have no normals, and collinear segments none that separates them: the sign of the gap is mere
+  // rounding there.
   const double rounding = 1e-13 * (length(a.high - a.low) + length(b.high - b.low) + length(a.low));
   const bool overlap = apart < -rounding && apart > -kInfinity;
   const double cores = overlap ? apart : std::min(nearest(a.core, b.core), nearest(b.core, a.core));

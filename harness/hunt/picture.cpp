@@ -22,7 +22,8 @@ struct Window {
   double scale() const { return kSide / std::max(high.x - low.x, high.y - low.y); }
 };
 
-// What moves at the start, with room around it: what explodes leaves the picture.
+// Returns the bounds of the dynamic bodies at the start, with a margin: bodies that fly off leave the
+// picture.
 Window window_of(const Case& one) {
   Vec2d low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
   for (const Body& body : one.scene.bodies) {

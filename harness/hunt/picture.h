@@ -7,13 +7,13 @@
 
 namespace plumb::harness::hunt {
 
-/// A motion as it goes into a picture.
+/// A motion to be drawn.
 struct Shown {
   std::string title;
   Motion motion{};
 };
 
-/// The motions side by side as SVG: where the bodies start (grey), the paths of their centres, and where they
+/// Draws the motions side by side as SVG: the bodies' start (grey), the paths of their centres, and their
 /// end.
 std::string picture(const Case& one, const std::vector<Shown>& motions, const std::string& caption);
 

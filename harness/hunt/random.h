@@ -7,8 +7,8 @@
 
 namespace plumb::harness::hunt {
 
-/// Draws numbers that are the same on every machine: no distribution of the standard library and no function
-/// of libm takes part.
+/// Draws numbers that are the same on every machine: it uses no distribution of the standard library and no
+/// function of libm.
 class Random {
  public:
   /// Starts the stream of one scene: `seed` of the hunt, `index` of the scene.
@@ -19,7 +19,8 @@ class Random {
   int whole(int low, int high);            ///< both included
   bool chance(double probability);
 
-  /// Draws from 1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8 and their multiples by powers of ten, each as likely.
+  /// Draws from 1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8 and their multiples by powers of ten, all equally
+  /// likely.
   double ladder(double low, double high);
 
   template <class T>

@@ -12,12 +12,13 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr double kPerturbation = 1e-6;
-// Of the largest body: what differs by more is another motion. A perturbation has to stay far below it.
+// Largest distance between equal motions, as a fraction of the largest body; perturbations must stay below
+// kCalm of that.
 constexpr double kShare = 0.1, kCalm = 0.01;
-// Of the largest body, for an engine with a tolerance of 1e-9; and how far perturbations may have grown,
-// which leaves those of the tolerance a hundredth of that.
+// kSampled: the same, for an engine with a tolerance of 1e-9. kGrown: largest growth of perturbations; errors
+// of the tolerance then stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
-constexpr double kShift = 64;  // m, so that no place is rounded
+constexpr double kShift = 64;  // m, a power of two
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
@@ -35,7 +36,7 @@ Motion reversed(Motion motion) {
   return motion;
 }
 
-/// Objects where the other run leaves the first though a perturbation of the first does not.
+/// Objects if the other run deviates from the first though a perturbation of the first does not.
 Verdict compare(const Case& one, const Engine& engine, const Motion& motion, const Motion& other,
                 const std::string& name, const std::string& right, double share = kShare) {
   if (!motion.failure.empty()) return {};
@@ -84,7 +85,7 @@ Verdict relabel(const Case& one, const Engine& engine, const Motion& motion) {
                  "it does not matter in which order bodies and joints are added", 2 * kShare);
 }
 
-// Masses by sixteen, lengths by two and times by two: speeds and forces change with them.
+// Scales masses by sixteen, lengths by two and times by two: speeds and forces change with them.
 Verdict units(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = mapped(run(engine, rescaled(one, 2, 2, 16)), [](BodyState s) {
     s.position = 0.5 * s.position;
@@ -116,7 +117,8 @@ Verdict restored(const Case& one, const Engine& engine, const Motion& motion) {
   return {};
 }
 
-// An engine that chooses its steps looks at what happens between samples too.
+// Compares with a run that is sampled only at its end. An engine that chooses its steps must also handle
+// everything between samples.
 Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
   if (!motion.failure.empty() || motion.samples.size() != static_cast<std::size_t>(one.steps) + 1) return {};
   Case coarse = one;
@@ -127,7 +129,7 @@ Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
   ends.samples = {motion.samples.front(), motion.samples.back()};
   const double off = apart(one, ends, other).back(), bound = kSampled * largest_size(one.scene);
   if (off <= bound) return {};
-  // A perturbation that grows a thousandfold and more is chaos: that of a tolerance may then show.
+  // A perturbation that grows more than a thousandfold is chaos: errors of the tolerance may then show.
   const std::vector<double> calm = growth(one, engine, motion);
   if (calm.size() != motion.samples.size() ||
       calm.back() > kGrown * 30 * kPerturbation * largest_size(one.scene))

@@ -22,7 +22,7 @@ bool names(const Joint& joint, const std::string& body) {
   return std::visit([&](const auto& j) { return j.body_a == body || j.body_b == body; }, joint);
 }
 
-// Takes out what names something that is gone, and what is no longer owed without it.
+// Removes everything that names a removed body or joint, and the expectations that need it.
 void forget(Case& one, const std::string& gone) {
   std::erase_if(one.actions, [&](const Action& action) { return action.target == gone; });
   std::erase(one.sensors, gone);
@@ -110,7 +110,7 @@ class Shrinker {
     return true;
   }
 
-  // Halves, quarters ... and single ones, as delta debugging does (Zeller 2002).
+  // Removes halves, quarters ... and single ones, as delta debugging does (Zeller 2002).
   bool bodies() {
     bool any = false;
     for (std::size_t part = best_.scene.bodies.size() / 2; part >= 1; part /= 2) {
@@ -136,7 +136,7 @@ class Shrinker {
 
   bool shapes() {
     bool any = false;
-    // What is expected rests on the shapes of those that it names.
+    // Expectations depend on the shapes of the bodies that they need.
     for (std::size_t i = 0; i < best_.scene.bodies.size() && best_.expectations.empty(); ++i) {
       for (std::size_t k = best_.scene.bodies[i].shapes.size(); k-- > 0;) {
         any = try_change([&](Case& one) {
@@ -171,20 +171,20 @@ class Shrinker {
     return any;
   }
 
-  // Sets numbers and options to what is plainest, one at a time.
+  // Sets numbers and options to the simplest value, one at a time.
   bool features() {
     bool any = false;
     const auto set = [&](auto reach, auto value) {
       if (reach(best_) == value) return;
       any = try_change([&](Case& one) { reach(one) = value; }) || any;
     };
-    // What is owed with its masses stands in figures of the weights and of the step.
+    // The figures of expectations that need the masses depend on the weights and the step.
     const bool bare = !needs_masses(best_);
     if (bare) set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
     if (bare) set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
-    // Not back and forth between the two.
+    // A scene without gravity stays so, or the two would alternate.
     if (bare && !(best_.scene.gravity == Vec2d{0, 0}))
       set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
@@ -222,14 +222,15 @@ class Shrinker {
     return any;
   }
 
-  // Numbers with few digits, all at once or body by body. Joints keep theirs, so that anchors fit.
+  // Rounds to few digits, all bodies at once or one by one. With joints nothing is rounded, so that anchors
+  // fit.
   void round_all(int digits) {
     const auto round = [&](Body& body) {
       for (double* value : {&body.position.x, &body.position.y, &body.angle, &body.velocity.x,
                             &body.velocity.y, &body.angular_velocity, &body.mass})
         *value = with_digits(*value, digits);
     };
-    // What is expected stands in figures of the places.
+    // The figures of expectations depend on the positions.
     if (!best_.scene.joints.empty() || !best_.expectations.empty()) return;
     if (try_change(
             [&](Case& one) { std::for_each(one.scene.bodies.begin(), one.scene.bodies.end(), round); }))

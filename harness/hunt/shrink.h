@@ -6,11 +6,11 @@
 
 namespace plumb::harness::hunt {
 
-/// Whether a case still fails as the one that is being made smaller.
+/// Returns true if a candidate still fails as the original case does.
 using StillFails = std::function<bool(const Case& candidate)>;
 
-/// The smallest case that was found to fail: without bodies, shapes, joints, actions, features and digits
-/// that it can do without. Asks at most `most` times, and no longer than `seconds`.
+/// Returns the smallest failing case that was found: without any bodies, shapes, joints, actions, features
+/// and digits that are not needed. Tests at most `most` candidates, for at most `seconds`.
 Case shrink(Case one, const StillFails& still_fails, int most = 600, double seconds = 20);
 
 }  // namespace plumb::harness::hunt

@@ -12,7 +12,7 @@ namespace {
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
-/// An end of a joint as it is at the start.
+/// Initial state of one end of a joint.
 struct End {
   const Body* body = nullptr;  // none: the fixed frame
   Vec2d anchor{};              // m, in the body's frame
@@ -45,7 +45,8 @@ Held held(const Scene& scene, const Kind& joint) {
   return out;
 }
 
-// Of a mass, or inertia, no larger than the lighter end's. One more for both ends at infinity.
+// Returns the largest energy of a spring: its effective mass, or inertia, is at most the lighter end's.
+// Returns 0 if both are infinite.
 double spring_energy(const Spring& spring, double mass_a, double mass_b, double away) {
   const double mass = std::min(mass_a, mass_b), w = 2 * M_PI * spring.hertz;
   return std::isfinite(mass) ? 0.5 * mass * w * w * away * away : 0;

@@ -13,7 +13,7 @@ constexpr double kQuarter = 1.5707963267948966;
 Vec2d mirror(Vec2d v) { return {-v.x, v.y}; }
 Vec2d turn(Vec2d v) { return {-v.y, v.x}; }
 
-/// Applies `vector` to what has a direction and `point` to what has a place in the world.
+/// Applies `vector` to all directions and `point` to all positions in the world.
 template <class Vector, class Point>
 void change(Scene& scene, const Vector& vector, const Point& point) {
   scene.gravity = vector(scene.gravity);
@@ -45,7 +45,7 @@ void change(Scene& scene, const Vector& vector, const Point& point) {
   }
 }
 
-/// Applies `vector` to what stands in the bodies' own frames.
+/// Applies `vector` to all vectors in the bodies' own frames.
 template <class Vector>
 void change_inside(Scene& scene, const Vector& vector) {
   for (Body& body : scene.bodies) {
@@ -97,7 +97,7 @@ Case mirrored(Case one) {
     body.angle = -body.angle, body.angular_velocity = -body.angular_velocity;
     for (Shape& shape : body.shapes) {
       shape.angle = -shape.angle, shape.surface_speed = -shape.surface_speed;
-      // The front of a chain is to the right of its way.
+      // The front of a chain is to the right of its direction.
       if (auto* chain = std::get_if<Chain>(&shape.geometry))
         std::reverse(chain->points.begin(), chain->points.end());
     }
@@ -119,7 +119,7 @@ Case mirrored(Case one) {
   return one;
 }
 
-// The frames of bodies turn with them, so that nothing inside changes.
+// The bodies' frames turn too, so that nothing in them changes.
 Case turned(Case one) {
   change(one.scene, turn, turn);
   for (Body& body : one.scene.bodies) body.angle += kQuarter;
@@ -188,7 +188,7 @@ Case rescaled(Case one, double length, double time, double mass) {
           using Kind = std::decay_t<decltype(j)>;
           constexpr bool kSlides =
               std::is_same_v<Kind, PrismaticJoint> || std::is_same_v<Kind, DistanceJoint>;
-          // The axis has no length of its own.
+          // The axis is a unit vector.
           if constexpr (requires { j.axis; }) j.axis = (1 / length) * j.axis;
           if constexpr (requires { j.spring.hertz; }) ticks(j.spring);
           if constexpr (requires { j.spring.reset(); })

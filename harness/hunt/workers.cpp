@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience = 20;  // times the processor time, of a machine that others use
+constexpr double kPatience = 20;  // wall time over processor time, on a shared machine
 
 bool write_all(int file, const char* data, std::size_t size) {
   while (size > 0) {
@@ -43,7 +43,7 @@ bool read_all(int file, char* data, std::size_t size) {
   return true;
 }
 
-// Reads tasks and writes answers, each behind its length, until the other end is closed.
+// Reads tasks and writes answers, each preceded by its length, until the other end is closed.
 [[noreturn]] void serve(int tasks, int answers, const Workers::Work& work) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -66,7 +66,7 @@ bool read_all(int file, char* data, std::size_t size) {
   _exit(0);
 }
 
-// Processor time of another process, s; 0 where it is gone.
+// Returns the processor time of another process, s; 0 if it has ended.
 double processor_seconds_of(pid_t process) {
   clockid_t clock{};
   timespec now{};
@@ -143,7 +143,7 @@ void Workers::start(std::uint64_t task) {
     worker->began = processor_seconds_of(worker->process);
     worker->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(kPatience * seconds_));
-    // Where this fails the worker has died, which `wait` finds out.
+    // If this fails the worker has died, which `wait` detects.
     write_all(worker->tasks, reinterpret_cast<const char*>(&task), sizeof task);
     return;
   }

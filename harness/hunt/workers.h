@@ -9,20 +9,20 @@
 
 namespace plumb::harness::hunt {
 
-/// How a piece of work ended.
+/// Outcome of a task.
 struct Answer {
   std::uint64_t task = 0;
   enum class Kind { Done, Died, Hung } kind = Kind::Done;
-  std::string text;  ///< what the work returned, or how its process died
+  std::string text;  ///< the returned text, or how the process died
 };
 
-/// Forked processes that do one piece of work after the other, each as fast as a call. One that dies or takes
-/// longer than its time is replaced. Call without threads running.
+/// Forked processes that execute one task after the other, without forking for each. One that dies or exceeds
+/// its time limit is replaced. Call without threads running.
 class Workers {
  public:
   using Work = std::function<std::string(std::uint64_t task)>;
 
-  /// `seconds`: of processor time that a piece may take, and a twentieth of the wall time.
+  /// `seconds`: processor time limit of a task; the limit of wall time is 20 times that.
   Workers(int count, double seconds, Work work);
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -32,7 +32,7 @@ class Workers {
   bool busy() const;
   /// Gives `task` to an idle worker.
   void start(std::uint64_t task);
-  /// Waits for at most 0.1 s and returns what has ended.
+  /// Waits for at most 0.1 s and returns the tasks that have ended.
   std::vector<Answer> wait();
 
  private:

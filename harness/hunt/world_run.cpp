@@ -34,7 +34,7 @@ const std::string& name_of(const Joint& joint) {
   return std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
 }
 
-/// Holds begin events against end events. Shapes are named by the bodies that they belonged to.
+/// Matches begin events with end events. Shapes are identified by the bodies that they belonged to.
 class EventBook {
   using Pairs = std::set<std::pair<Key, Key>>;
   using Changes = std::map<std::pair<Key, Key>, int>;
@@ -55,7 +55,7 @@ class EventBook {
     apply("visit to a sensor", visits, visits_, time, faults);
   }
 
-  /// Objects to what began and has not ended though one of its shapes is gone for a step.
+  /// Reports events that began and have not ended although one of the shapes was destroyed.
   template <class Real>
   void look(const BasicWorld<Real>& world, double time, std::vector<Motion::EventFault>& faults) {
     const auto gone = [&](Key key) { return !world.valid(ShapeId{key.first, key.second}); };
@@ -89,7 +89,7 @@ class EventBook {
   static std::pair<Key, Key> pair(const TouchEvent& event) {
     return std::minmax(key_of(event.shape_a), key_of(event.shape_b));
   }
-  // What begins and ends in one step leaves nothing.
+  // A begin and an end in one step cancel.
   static void apply(const char* what, const Changes& changes, Pairs& pairs, double time,
                     std::vector<Motion::EventFault>& faults) {
     for (const auto& [pair, change] : changes) {

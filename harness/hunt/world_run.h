@@ -4,7 +4,7 @@
 
 namespace plumb::harness::hunt {
 
-/// `run` in a World of either precision, with the case's actions.
+/// Runs the case in a World of either precision, with its actions.
 template <class Real>
 Motion run_world(const Case& one, const RunOptions& options);
 

@@ -10,8 +10,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// The engine that shows how it should have been: Precise where it takes the scene, else another precision or
-// Box2D.
+// Returns an engine to compare with: Precise if it supports the scene, else Box2D or another precision.
 std::string second_engine(const Finding& finding) {
   for (const char* name : {"plumb-precise", "box2d", "plumb-world-double", "plumb-world"}) {
     if (name == finding.engine) continue;
@@ -28,7 +27,7 @@ void write_finding(const Finding& finding, const std::string& folder, const std:
   std::filesystem::create_directories(folder, code);
   const std::string path = folder + "/" + name;
   write_whole(path + ".json", to_json(finding) + "\n");
-  // The run of one that crashes is no picture.
+  // A crash has no motion to draw.
   if (finding.objection.law == "crash") return;
   std::vector<Shown> shown;
   for (const std::string& engine : {finding.engine, second_engine(finding)}) {
@@ -36,7 +35,7 @@ void write_finding(const Finding& finding, const std::string& folder, const std:
     try {
       shown.push_back(
           {engine, run(Engine(reference::find_backend(engine)), finding.smallest, {.seconds = 2})});
-    } catch (const Error&) {  // an engine that was given by a command
+    } catch (const Error&) {  // an engine given by a command
     }
   }
   const std::string caption = fmt::format("{} | right: {} | plumb hunt --replay {}.json",

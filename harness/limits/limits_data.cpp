@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A cell's line of stress.jsonl, as far as the page needs it.
+/// Facts of a cell's line in stress.jsonl that the page needs.
 struct CellFacts {
   double value;
   std::string outcome, reason;
@@ -44,7 +44,7 @@ FamilyRow row_from(const FamilyRow& head, std::vector<CellFacts> cells) {
     row.outcomes.push_back(std::move(cell.outcome));
     row.reasons.push_back(std::move(cell.reason));
   }
-  // Reasons are told where what survives ends; where nothing does, of the first.
+  // Keep the reasons beside the surviving range; if nothing survives, only the first.
   const auto [first, last] = row.survived_range();
   for (std::size_t i = 0; i < row.reasons.size(); ++i) {
     const bool told = first == last ? i == 0 : i + 1 == first || i == last;
@@ -74,7 +74,7 @@ std::vector<FamilyRow> rows_of(const std::vector<stress::Cell>& cells) {
   return out;
 }
 
-// Searches end in any order; the page tells them as `plumb thresholds --list` does.
+// Returns the place in the order of `plumb thresholds --list`, because searches end in any order.
 std::ptrdiff_t place_of(const thresholds::Finding& finding) {
   const auto& all = thresholds::all();
   return std::ranges::find(all, finding.name, &thresholds::Threshold::name) - all.begin();

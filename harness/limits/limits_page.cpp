@@ -17,7 +17,7 @@ namespace {
 
 using thresholds::Finding;
 
-// Text in a cell of a table.
+// Escapes text for a cell of a table.
 std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
@@ -33,7 +33,7 @@ std::string who(std::string_view engine, std::string_view setting) {
   return setting == "default" ? fmt::format("`{}`", engine) : fmt::format("`{}` {}", engine, setting);
 }
 
-/// Families in the order in which they come, each with its rows.
+/// Groups the rows by family, families in the order of their first appearance.
 std::vector<std::vector<const FamilyRow*>> by_family(const std::vector<FamilyRow>& rows) {
   std::vector<std::vector<const FamilyRow*>> out;
   std::map<std::string, std::size_t> places;
@@ -45,7 +45,7 @@ std::vector<std::vector<const FamilyRow*>> by_family(const std::vector<FamilyRow
   return out;
 }
 
-// Of all families together.
+// Counts over all families together.
 std::string counts(const std::vector<FamilyRow>& rows) {
   struct Count {
     std::size_t survived = 0, total = 0;
@@ -82,8 +82,7 @@ std::string counts(const std::vector<FamilyRow>& rows) {
 
 bool whole(const FamilyRow& row) { return !row.skipped() && row.survived() == row.outcomes.size(); }
 
-// What plumb is to be run with where: its settings that survive a whole family, or the one that goes
-// farthest.
+// Lists for each family the settings of plumb that survive all of it, or else the one that gets farthest.
 std::string advice(const std::vector<std::vector<const FamilyRow*>>& families) {
   std::string out =
       "### Which setting for which extreme\n\n| extreme | values | survived as a whole by |\n|---|---|---|\n";
@@ -106,7 +105,7 @@ std::string advice(const std::vector<std::vector<const FamilyRow*>>& families) {
   return out;
 }
 
-// "sinks at 1000: by 3 mm".
+// Formats "sinks at 1000: by 3 mm".
 std::string end_of(const FamilyRow& row, std::size_t i) {
   const std::string reason = row.reasons[i].empty() ? "" : ": " + row.reasons[i];
   return cell(fmt::format("{} at {}{}", row.outcomes[i], number(row.values[i], row.unit), reason));
@@ -151,7 +150,7 @@ std::string found_cell(const Finding& finding) {
   return text;
 }
 
-// A row a threshold, an engine a column.
+// One row per threshold, one column per engine.
 std::string thresholds_table(const std::vector<Finding>& findings) {
   std::vector<std::string> names, engines;
   for (const Finding& finding : findings) {
@@ -189,7 +188,7 @@ std::string thresholds_table(const std::vector<Finding>& findings) {
   return out + "\n";
 }
 
-/// Where the markers are: the first character after `kBegin`, and that of `kEnd`.
+/// Returns the positions of the markers: the first character after `kBegin`, and that of `kEnd`.
 std::pair<std::size_t, std::size_t> between(std::string_view page) {
   const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
   const bool once = begin != page.npos && end != page.npos && begin < end &&

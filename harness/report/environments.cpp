@@ -41,7 +41,7 @@ Environment environment_from(const nlohmann::json& json) {
           .date = text("date")};
 }
 
-/// A line of results has its environment with it; other logs have it on a line of its own, before the runs.
+/// A line of results contains its environment; other logs have it on a line of its own, before the runs.
 void read_log(const std::filesystem::path& path, std::vector<EnvironmentUse>& out) {
   std::ifstream file(path, std::ios::binary);
   Environment before;

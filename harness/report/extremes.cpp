@@ -21,7 +21,7 @@ namespace {
 using stress::Cell;
 using Json = nlohmann::ordered_json;
 
-/// Every line of a file whose "kind" is `kind`.
+/// Calls `take` for every line of a file whose "kind" is `kind`.
 void for_each_line(const std::filesystem::path& path, std::string_view kind,
                    const std::function<void(const Json&)>& take) {
   std::error_code code;
@@ -36,7 +36,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
       const Json json = Json::parse(line);
       if (json.at("kind") == kind) take(json);
     } catch (const std::exception& error) {
-      if (file.eof()) break;  // no line end: the writer was stopped in the middle of it
+      if (file.eof()) break;  // no line end: the writer was stopped within the line
       throw Error(Error::Kind::Syntax, subject, fmt::format("line {}", number), "",
                   fmt::format("is not a line of results: {}", error.what()));
     }
@@ -45,7 +45,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
 
 std::string text_of(const Json& json, const char* name) { return json.at(name).get<std::string>(); }
 
-/// Keeps of what has the same key the last, in the first one's place.
+/// Keeps the last item of each key, at the place of the first.
 template <class Item>
 class Latest {
  public:
@@ -66,8 +66,8 @@ class Latest {
 
 const std::string kAnyPlumb = "any of plumb's", kAnySetting = "any setting";
 
-/// Of the cells of one scene whose `group` is the same, the best, called by the group and "any setting";
-/// where the group has several engines or settings. An empty name is no group.
+/// Returns the best cell of each scene among the engines and settings of a group, named by the group and "any
+/// setting". Groups with one engine and setting are left out; an empty name is no group.
 std::vector<Cell> best_of(const std::vector<Cell>& cells,
                           const std::function<std::string(const Cell&)>& group) {
   std::map<std::string, std::set<std::string>> members;

@@ -6,14 +6,14 @@
 
 #include "harness/stress/cell.h"
 
-/// What `plumb stress` and `plumb thresholds` found, for the report.
+/// Results of `plumb stress` and `plumb thresholds`, for the report.
 namespace plumb::harness::report {
 
 struct Count {
   int survived = 0, total = 0;
 };
 
-/// How an engine with one setting fares.
+/// Counts of the cells that an engine survives with one setting.
 struct Endurance {
   std::string engine, setting;
   Count all{};
@@ -22,27 +22,27 @@ struct Endurance {
 };
 
 struct Extremes {
-  std::vector<stress::Cell> cells;      ///< by engine, setting, family and value the last
-  std::vector<std::string> thresholds;  ///< lines of thresholds.jsonl, by engine, setting and name the last
+  std::vector<stress::Cell> cells;      ///< the last of each engine, setting, family and value
+  std::vector<std::string> thresholds;  ///< last line in thresholds.jsonl by engine, setting, name
   bool empty() const { return cells.empty() && thresholds.empty(); }
 };
 
-/// The folder's stress.jsonl and thresholds.jsonl where they are; a last line that was cut short is passed
-/// over. Throws `Error` (Io, Syntax) that names file and line.
+/// Reads the folder's stress.jsonl and thresholds.jsonl, if there. Ignores a truncated last line. Throws
+/// `Error` (Io, Syntax) that names file and line.
 Extremes read_extremes(const std::string& folder);
 
-/// A row an engine and setting: plumb's engines first, of these the one first that survives least with one of
-/// its settings; then the others, likewise. Before them all what any of plumb's engines survives with any
-/// setting; engines with several settings have a row of what any of these survives.
+/// Returns one row per engine and setting. plumb's engines come first; within each group engines are sorted
+/// by their worst setting, ascending. Engines with several settings have one more row, for cells that survive
+/// with any of them. The first row is that of any of plumb's engines with any setting.
 std::vector<Endurance> endurances(const std::vector<stress::Cell>& cells);
 
-/// The families' names in the order in which they first appear.
+/// Returns the families' names in the order of their first appearance.
 std::vector<std::string> families_of(const std::vector<stress::Cell>& cells);
 
-/// The page's part of the data, as JSON.
+/// Returns the page's part of the data, as JSON.
 std::string extremes_data(const Extremes& extremes);
 
-/// A picture of all families, a row an engine and setting: SVG, readable without colour, in light and dark.
+/// Draws all families, one row per engine and setting: SVG, readable without colour, in light and dark.
 std::string extremes_picture(const std::vector<stress::Cell>& cells);
 
 }  // namespace plumb::harness::report

@@ -11,8 +11,8 @@ namespace {
 // px
 constexpr int kLeft = 250, kTop = 150, kWide = 58, kHigh = 22, kGap = 2, kBottom = 30;
 
-// Colours by share, as in the page's maps; what is told by a number in every cell is not told by colour
-// alone.
+// Colours by fraction survived, as in the page's maps. Every cell also has a number, so that nothing is shown
+// by colour alone.
 constexpr const char* kStyle = R"(
   text { font: 12px system-ui, sans-serif; fill: #1c1c1a; }
   .all { fill: #bfe3d0; } .most { fill: #f3e3a1; } .some { fill: #f0b48a; } .few { fill: #8c2d19; } .none { fill: #e3e3de; }
@@ -51,7 +51,7 @@ std::string in_words(std::string name) {
 std::string extremes_picture(const std::vector<stress::Cell>& cells) {
   const auto families = families_of(cells);
   const std::vector<Endurance> rows = endurances(cells);
-  // Slanted headings lean out to the right.
+  // Leave room on the right for the slanted headings.
   const int width = kLeft + kWide * (static_cast<int>(families.size()) + 1) + 130;
   const int height = kTop + kHigh * static_cast<int>(rows.size()) + kBottom;
   std::string out = fmt::format(

@@ -5,7 +5,7 @@
 
 namespace plumb::harness::report {
 
-/// Text as HTML and SVG take it between tags.
+/// Escapes text for HTML and SVG, between tags.
 inline std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -26,12 +26,12 @@ using Json = nlohmann::ordered_json;
 constexpr int kSamples = 240;          // of a replay
 constexpr std::size_t kPoses = 10000;  // of a replay: a hundred bodies are shown at a hundred times
 
-// For drawing: six digits; null for what is not finite.
+// Formats a number for drawing: six digits; null if non-finite.
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null"; }
 
 std::string list(const std::vector<std::string>& parts) { return fmt::format("[{}]", fmt::join(parts, ",")); }
 
-// Takes a run down: every `stride`-th sample's poses, and the largest error and drift since the one before.
+// Records a run: every `stride`-th sample's poses, and the largest error and drift since the one before.
 class Recorder {
  public:
   explicit Recorder(const Case& scene_case)
@@ -99,7 +99,7 @@ std::string record(const Case& scene_case, const reference::Backend& backend,
 
 double octaves_off(const Result& row) { return std::abs(std::log2(row.asked.dt * 60)); }
 
-// Of each engine the run with the step nearest to 1/60 s; of these the first.
+// Returns each engine's run with the step nearest to 1/60 s; if several, the first.
 std::vector<const Result*> replayed(std::span<const Result> scene) {
   std::vector<const Result*> out;
   for (const std::string& engine : sweep::engines_of(scene)) {
@@ -112,7 +112,7 @@ std::vector<const Result*> replayed(std::span<const Result> scene) {
   return out;
 }
 
-// What tells that a run is not the one that was replayed before: another build moves the figures.
+// Returns figures that identify a run: another build changes them.
 std::string figures_of(const Result& row) {
   std::string out = row.engine_version;
   for (const MetricField& field : kMetricFields)
@@ -171,7 +171,7 @@ class Replays {
       if (found.size() != 1 || found.front().label() != row.label) return {};
       if (!scene_case) scene_case = std::make_unique<Case>(found.front(), row.asked.dt);
     } catch (const Error&) {
-      return {};  // a scene of the user's own, or an answer that does not come
+      return {};  // a scene of the user's own, or the answer cannot be computed
     }
     const Outcome outcome = isolate([&] { return record(*scene_case, **engine, row.asked); }, seconds_);
     if (outcome.kind != Outcome::Kind::Done || !Json::accept(outcome.text)) return {};

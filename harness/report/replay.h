@@ -10,11 +10,10 @@
 
 namespace plumb::harness::report {
 
-/// Runs again what `rows` say, one run an engine of each scene: the one whose step is nearest to 1/60 s. Each
-/// run has a process of its own and at most `seconds`. Gives JSON by `sweep::key_of`: times, poses, and the
-/// errors and energy drifts since the time before, as docs/formats.md has them. Kept in
-/// `folder`/replays.jsonl, and taken from there where the run is the same. `engines` are those that can be
-/// started; others have no replay.
+/// Repeats for each scene and engine the run in `rows` with the step nearest to 1/60 s. Each has a process of
+/// its own and at most `seconds`. Returns JSON by `sweep::key_of`: times, poses, and the errors and energy
+/// drifts since the time before (docs/formats.md). Replays are cached in `folder`/replays.jsonl and reused
+/// while the run is the same. `engines` are those that can be started; others have no replay.
 std::map<std::string, std::string> replays_of(std::span<const Result> rows,
                                               std::span<const reference::Backend* const> engines,
                                               const std::string& folder, double seconds = 20);

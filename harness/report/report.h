@@ -7,18 +7,17 @@
 
 namespace plumb::harness::report {
 
-/// Writes the report of a folder's results.jsonl, stress.jsonl and thresholds.jsonl, those of them that are
-/// there, or of one file of results, to `out`, one HTML file; whole or not at all. What it takes to replay
-/// them is run with `engines` and kept in the folder. False, and nothing is written, after an interrupt.
-/// Throws `Error` (Io; Syntax; Value where there is no result).
+/// Writes the report to `out`, one HTML file, whole or not at all. It is of a folder's results.jsonl,
+/// stress.jsonl and thresholds.jsonl, as far as they exist, or of one file of results. Replays are run with
+/// `engines` and kept in the folder. Returns false, and writes nothing, after an interrupt. Throws `Error`
+/// (Io; Syntax; Value if there is no result).
 bool write_report(const std::string& folder_or_file, const std::string& out,
                   std::span<const reference::Backend* const> engines);
 
-/// Writes the picture of a folder's stress.jsonl, SVG. Throws `Error` (Io; Syntax; Value where there is
-/// none).
+/// Draws a folder's stress.jsonl as SVG. Throws `Error` (Io; Syntax; Value if there is none).
 void write_extremes_picture(const std::string& folder, const std::string& out);
 
-/// report.html in the folder, or beside the file.
+/// Returns report.html in the folder, or beside the file.
 std::string default_report_path(const std::string& folder_or_file);
 
 }  // namespace plumb::harness::report

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFrames = 241;                   // of the truth's motion
-constexpr std::size_t kLargestMotion = 40000;  // poses a scene: a hundred bodies move in fewer frames
+constexpr std::size_t kLargestMotion = 40000;  // poses per scene: scenes of many bodies have fewer frames
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -97,7 +97,7 @@ Json row_json(const Result& row) {
   return json;
 }
 
-// Numbers of a replay are for drawing: six digits.
+// Rounds a number of a replay for drawing, to 7 digits.
 double drawn(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 6);
@@ -162,7 +162,7 @@ std::string report_data(const std::string& title, std::span<const Result> rows,
   for (const std::vector<Result>& scene : sweep::by_label(rows))
     json["scenes"].push_back(scene_json(scene, replays));
   json["extremes"] = Json::parse(extremes_data(extremes));
-  // A "<" stands only within strings, where this means the same.
+  // A "<" occurs only in strings, where \u003c means the same.
   std::string out;
   for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
     c == '<' ? out.append("\\u003c") : out.append(1, c);

@@ -15,7 +15,7 @@ std::optional<double> median(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
-  // Ratios: the middle of two is their geometric mean.
+  // Values are ratios, so the middle of two is their geometric mean.
   return values.size() % 2 == 1 ? values[middle] : std::sqrt(values[middle - 1] * values[middle]);
 }
 
@@ -28,14 +28,14 @@ std::string why_none(std::span<const Result> scene, const std::string& rival) {
   return "no figure of this scene is known";
 }
 
-// What the cheapest point that is at least as accurate costs. A front stands in the order of cost.
+// Returns the cost of the cheapest point that is at least as accurate. A front is sorted by cost.
 std::optional<double> cost_for(std::span<const sweep::Point> front, double error) {
   for (const sweep::Point& point : front)
     if (point.error <= error) return point.cost;
   return {};
 }
 
-// The error of the most accurate point that is at least as cheap.
+// Returns the error of the most accurate point that is at least as cheap.
 std::optional<double> error_for(std::span<const sweep::Point> front, double cost) {
   std::optional<double> out;
   for (const sweep::Point& point : front)
@@ -71,7 +71,7 @@ Standing standing_of(std::span<const Result> scene, const std::string& rival, co
 
 double share(int count, int of) { return of == 0 ? 0 : static_cast<double>(count) / of; }
 
-// Larger is worse.
+// Returns the sort key; larger is worse.
 auto badness(const Standing& row) {
   const int points = row.dominance.points;
   return std::tuple(share(row.clearly_worse, points), share(row.worse, points), points > 0 ? 1 : 0,

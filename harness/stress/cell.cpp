@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no word for what is not finite.
+// Returns null for a non-finite value, which JSON cannot hold.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 double number_from(const Json& json) { return json.is_null() ? INFINITY : json.get<double>(); }
@@ -55,7 +55,7 @@ std::string to_json(const Cell& cell) {
                   {"seconds", cell.seconds},
                   {"engine_seconds", cell.engine_seconds},
                   {"memory", cell.memory}};
-  // What engines say need not be UTF-8.
+  // Engines' messages need not be UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -15,26 +15,26 @@ struct Cell {
   double value = 0;  ///< on the axis
   std::string engine{}, setting{};
   double dt = 0;                   ///< s
-  reference::Settings settings{};  ///< effective; what was asked for where the engine did not get to say
+  reference::Settings settings{};  ///< effective; the requested ones if the engine did not start
   Finding finding{};
-  long steps = 0;             ///< that were made
+  long steps = 0;             ///< steps that were made
   double seconds = 0;         ///< wall time of the cell
-  double engine_seconds = 0;  ///< of these the engine's own, for the steps
+  double engine_seconds = 0;  ///< part of it that the engine took for the steps
   std::size_t memory = 0;     ///< bytes, at the peak, of its process
 
   bool counted() const { return finding.verdict != Verdict::Skipped; }
   bool survived() const { return finding.verdict == Verdict::Ok; }
 };
 
-/// What a cell is known by, in a folder.
+/// Returns the key of a cell in a folder.
 std::string key_of(std::string_view family, double value, std::string_view engine, std::string_view setting);
 std::string key_of(const Cell& cell);
 
-/// As one line of JSON. `cell_from_json` throws `Error` (Syntax).
+/// Converts to one line of JSON. `cell_from_json` throws `Error` (Syntax).
 std::string to_json(const Cell& cell);
 Cell cell_from_json(std::string_view text);
 
-/// As one line of CSV, after `csv_columns`.
+/// Returns one line of CSV, after `csv_columns`.
 std::string_view csv_columns();
 std::string to_csv(const Cell& cell);
 

@@ -10,29 +10,29 @@
 #include "engine/scene/scene.h"
 #include "harness/stress/verdict.h"
 
-/// Families of scenes along an axis into the extreme: where does an engine break?
+/// Families of scenes along an axis into the extreme, which show where an engine breaks.
 namespace plumb::harness::stress {
 
-/// What a run did, at its worst.
+/// Worst deviation of a run.
 struct Finding {
   Verdict verdict = Verdict::Ok;
   std::string measure{};  ///< "deepest overlap"
   double figure = 0;
   std::string unit{};
-  double bound = 0;      ///< of the figure, of the same unit
-  std::string reason{};  ///< one sentence; empty where it is ok
+  double bound = 0;      ///< of the figure, in the same unit
+  std::string reason{};  ///< one sentence; empty if it is ok
 };
 
-/// Watches one run and says whether it was right enough to use.
+/// Watches one run and decides if it was accurate enough to use.
 class Judge {
  public:
   virtual ~Judge() = default;
-  /// False where it has seen enough. States are finite. `time` in s since the start.
+  /// Returns false when it needs no further samples. States are finite. `time` in s since the start.
   virtual bool see(double time, std::span<const BodyState> states) = 0;
   virtual Finding finding() const = 0;
 };
 
-/// The state of every body at a time, s.
+/// Computes the state of every body at a time, s.
 using Motion = std::function<void(double time, std::span<BodyState> out)>;
 
 /// A part of a run that is sampled evenly.
@@ -47,27 +47,27 @@ struct Trial {
   double dt = 1.0 / 60;  ///< s
   std::vector<Stretch> stretches{};
   std::function<std::unique_ptr<Judge>(const Scene& scene)> judge{};
-  /// The motion that no engine computed; empty where there is none.
+  /// Exact motion, which no engine computed; empty if there is none.
   Motion exact{};
 };
 
-/// One file in extremes/, no registration elsewhere.
+/// One file in extremes/, registered nowhere else.
 struct Family {
   std::string name{};
   std::string title{};  ///< "a heavy box on a light one"
   std::string axis{};   ///< "mass ratio"
   std::string unit{};   ///< of the axis; empty for numbers
   std::vector<double> values{};
-  double usual = 1;     ///< the one of `values` that any engine with the features should do
-  std::string rule{};   ///< the bounds, and why these, in one line
-  double patience = 1;  ///< times the time that a cell may take
+  double usual = 1;     ///< the value of `values` that any engine with the features should survive
+  std::string rule{};   ///< the bounds and their reasons, in one line
+  double patience = 1;  ///< factor on the time limit of a cell
   std::function<Trial(double value)> build{};
 };
 
-/// Every family, by name.
+/// Returns every family, sorted by name.
 const std::vector<Family>& all();
 
-/// Throws `Error` (Name) that suggests the nearest.
+/// Throws `Error` (Name) that suggests the nearest name.
 const Family& find_family(std::string_view name);
 
 /// Adds a family: `static const Register r{{.name = ..., .build = ...}};`
@@ -75,7 +75,7 @@ struct Register {
   explicit Register(Family family);
 };
 
-/// `steps` steps in at most `samples` samples, evenly.
+/// Spreads `steps` steps evenly over at most `samples` samples.
 std::vector<Stretch> evenly(long steps, int samples);
 
 }  // namespace plumb::harness::stress

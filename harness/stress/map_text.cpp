@@ -39,7 +39,7 @@ int name_width(std::span<const Cell> cells) {
   return static_cast<int>(width);
 }
 
-/// Which scenes somebody survived, in any way that was tried.
+/// Scenes that survived with at least one of the cells added.
 class Tally {
  public:
   void add(const Cell& cell) {
@@ -61,7 +61,7 @@ class Tally {
   std::map<std::pair<std::string, double>, bool> scenes_;
 };
 
-/// An engine's settings, in their order, and all of them together.
+/// Tallies of an engine: each setting in order, and all of them together.
 struct EngineTally {
   std::string engine;
   std::vector<std::pair<std::string, Tally>> settings{};

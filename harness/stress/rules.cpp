@@ -14,7 +14,7 @@
 namespace plumb::harness::stress {
 namespace {
 
-constexpr double kSane = 10;  // times the bound: sane, if inaccurate
+constexpr double kSane = 10;  // limit of Inaccurate, in units of the bound
 
 double norm(Vec2d v) { return std::hypot(v.x, v.y); }
 
@@ -70,7 +70,7 @@ class RuleJudge final : public Judge {
 }  // namespace
 
 Verdict grade(const Rule& rule, double figure) {
-  if (std::isnan(figure)) return Verdict::Explodes;  // finite states whose squares are not
+  if (std::isnan(figure)) return Verdict::Explodes;  // finite states whose squares overflow
   if (figure <= rule.bound) return Verdict::Ok;
   if (figure >= rule.explodes) return Verdict::Explodes;
   return figure <= (std::isnan(rule.sane) ? kSane * rule.bound : rule.sane) ? Verdict::Inaccurate

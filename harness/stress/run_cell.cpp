@@ -18,7 +18,7 @@ namespace {
 
 using reference::ProcessError;
 
-// Thrown out of a run that need not go on.
+// Thrown to end a run that needs no further samples.
 struct Enough {};
 
 Finding plain(Verdict verdict, std::string reason) {
@@ -48,8 +48,8 @@ bool is_finite(const BodyState& state) {
          std::isfinite(state.angular_velocity);
 }
 
-// Empty, or why the engine does not take the scene: a limit that it has reached is one thing, a feature that
-// it does not have at all another.
+// Returns why the engine rejects the scene, or an empty finding. A limit that it has reached is Refused, a
+// feature that it lacks altogether is Skipped.
 Finding turned_away(const Task& task, const Trial& trial, const reference::StepSettings& settings) {
   const std::string why = task.backend->unsupported(trial.scene, settings);
   if (why.empty()) return {};
@@ -58,7 +58,7 @@ Finding turned_away(const Task& task, const Trial& trial, const reference::StepS
   return plain(ever ? Verdict::Refused : Verdict::Skipped, why);
 }
 
-/// Hands the samples of a run to its judge.
+/// Passes the samples of a run to its judge.
 class Watch {
  public:
   Watch(const Scene& scene, Judge& judge, Cell& cell, const Witness& witness)
@@ -113,7 +113,7 @@ void run(const Task& task, const Witness& witness, Cell& cell) {
   validate(trial.scene);
   cell.dt = trial.dt;
   const reference::StepSettings settings = task.setting.with(trial.dt);
-  task.backend->method(settings);  // throws for what the engine cannot take
+  task.backend->method(settings);  // throws for settings that the engine rejects
   cell.finding = turned_away(task, trial, settings);
   if (cell.finding.verdict != Verdict::Ok) return;
   cell.settings = task.backend->effective_settings(trial.scene, settings);
@@ -121,7 +121,7 @@ void run(const Task& task, const Witness& witness, Cell& cell) {
   play(task, trial, settings, witness, cell);
 }
 
-/// Memory that a child and its parent share: what is known of a cell whose process died.
+/// Memory shared by a child and its parent, with the facts of a cell whose process died.
 class Notes {
  public:
   explicit Notes(std::size_t count) : bytes_(std::max<std::size_t>(1, count) * kBytes) {
@@ -143,7 +143,7 @@ class Notes {
       std::memcpy(note + sizeof cell.steps, text.data(), text.size());
   }
 
-  /// `cell` with what was noted of it.
+  /// Copies the noted facts into `cell`.
   void read(std::size_t index, Cell& cell) const {
     const char* const note = first_ + index * kBytes;
     if (note[sizeof cell.steps] == 0) return;

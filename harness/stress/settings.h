@@ -9,7 +9,7 @@
 
 namespace plumb::harness::stress {
 
-/// A way to run an engine that its users are told of: "default", or one for extremes.
+/// A documented way to run an engine: "default", or one for extremes.
 struct Setting {
   std::string name{};
   std::string summary{};
@@ -20,8 +20,8 @@ struct Setting {
   reference::StepSettings with(double dt) const;
 };
 
-/// "default" first, then those for extremes: of plumb's engines as docs/stress.md advises, of the others a
-/// quarter of the step with four times the sweeps. What an engine does not know is not among them.
+/// Returns "default" first, then those for extremes: of plumb's engines as docs/stress.md advises, of the
+/// others a quarter of the step with four times the iterations. Options that an engine lacks are left out.
 std::vector<Setting> settings_of(const reference::Backend& backend);
 
 }  // namespace plumb::harness::stress

@@ -34,7 +34,7 @@ Json environment_json(const StressOptions& options) {
           {"cell_memory", options.cell_memory}};
 }
 
-/// stress.jsonl: the environment, then a line a cell.
+/// Writes stress.jsonl: the environment, then one line per cell.
 class Record {
  public:
   explicit Record(const StressOptions& options) : journal_(options.folder + "/stress.jsonl") {
@@ -101,7 +101,7 @@ std::string key_of(const Task& task) {
   return stress::key_of(task.family->name, task.value, task.backend->name(), task.setting.name);
 }
 
-/// The cells of one family that are still to come, of all that are to be there.
+/// The missing cells of one family.
 struct Part {
   const Family* family;
   std::vector<Task> tasks;
@@ -147,7 +147,7 @@ class Run {
     tell_finished();
   }
 
-  // In the families' order.
+  // Reports finished families in their order.
   void tell_finished() {
     for (; told_ < parts_.size() && parts_[told_].missing == 0; ++told_) {
       std::vector<Cell> cells;
@@ -162,7 +162,7 @@ class Run {
   std::vector<Part> parts_;
   std::vector<Task> missing_;
   std::vector<std::size_t> part_of_;  // of each missing task
-  std::size_t told_ = 0;              // parts
+  std::size_t told_ = 0;              // number of parts reported so far
   Progress progress_;
 };
 

@@ -11,22 +11,22 @@
 
 namespace plumb::harness::sweep {
 
-/// What the runs of one instance are held against, made as it is needed: the scenario's truth, shared by all
-/// engines; or each engine's own limit where the scenario has none.
+/// References that the runs of one instance are compared with, made when first needed. It is the scenario's
+/// truth, shared by all engines, or each engine's own limit if the scenario has no truth.
 class Cases {
  public:
-  /// `seconds`: how long the last run for an engine's own limit may take.
+  /// `seconds`: time limit of the last run for an engine's own limit.
   Cases(scenarios::Instance instance, Ladder ladder, double seconds);
   Cases(const Cases&) = delete;
   Cases& operator=(const Cases&) = delete;
 
-  /// Whether there is an answer that no engine computed.
+  /// Returns true if there is an answer that no engine computed.
   bool has_truth() const { return has_truth_; }
 
-  /// For a run with steps of `dt`. Throws `Error` (Run) where the engine has no limit.
+  /// Returns the reference for a run with steps of `dt`. Throws `Error` (Run) if the engine has no limit.
   const Case& at(const reference::Backend& backend, double dt);
 
-  /// The engine's own limit, where `has_truth` is false.
+  /// Returns the engine's own limit; only used if `has_truth` is false.
   const OwnLimit& limit(const reference::Backend& backend);
 
  private:

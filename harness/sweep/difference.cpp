@@ -47,7 +47,7 @@ Difference difference(const Result& before, const Result& after) {
   return out;
 }
 
-// Holm's procedure: the least likely first, each against what is left of the chance.
+// Applies Holm's procedure: the smallest p-value first, each compared with the remaining chance.
 void judge_costs(std::vector<Difference>& rows) {
   std::vector<Difference*> tested;
   for (Difference& row : rows)

@@ -26,7 +26,7 @@ struct Line {
   std::string text;
 };
 
-// What changed in one run, a line each.
+// Appends the changes of one run, one per line.
 void describe(const Difference& row, std::vector<Line>& out) {
   const std::string where = fmt::format("{} {}, {}", row.label, row.engine, row.settings);
   if (row.before != row.after && row.before && row.after)

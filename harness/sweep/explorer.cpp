@@ -9,13 +9,14 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// Half a step of a first-order method twice: what the ends of a front are worth, in powers of two.
+// Width assigned to the ends of a front, in powers of two: that of about two halvings of a first-order
+// method's step.
 constexpr double kEnd = 3;
-// An axis whose changes did nothing as often as this, and never anything, is left alone.
+// Tries without effect after which an axis that never had one is left alone.
 constexpr int kIdle = 2;
-// What is expected to cost this much more than the best may still turn out to cost less.
+// Factor on the best cost up to which settings are tried, because expected costs are uncertain.
 constexpr double kMargin = 1.1;
-// A goal is approached from as many points that do not meet it: from the nearest alone a hollow is not left.
+// Points below a goal whose neighbours are tried: the neighbours of the nearest alone may all be worse.
 constexpr std::size_t kLefts = 3;
 
 }  // namespace
@@ -58,7 +59,7 @@ std::optional<Space::Place> Explorer::next(double dearest) {
   const std::vector<Point> known = front();
   for (const std::vector<Space::Place> seeds = space_.seeds(); seed_ < seeds.size();) {
     const Space::Place& place = seeds[seed_++];
-    // Seeds get finer; a finer step than that of a point at the floor has nothing to add.
+    // Seeds get finer; steps finer than those of a point at the error floor are useless.
     const bool exact =
         !known.empty() && known.back().error <= kErrorFloor && place[0] > known.back().place[0];
     const double steps =
@@ -91,7 +92,7 @@ std::optional<Space::Place> Explorer::next(double dearest) {
   return chosen;
 }
 
-// An unknown neighbour of `point`, the cheapest first.
+// Takes the cheapest untried neighbour of `point`.
 std::optional<Space::Place> Explorer::step_from(const Point& point, double least_factor, double most_cost) {
   std::optional<Space::Neighbour> best;
   for (Space::Neighbour& neighbour : space_.neighbours(point.place)) {
@@ -106,14 +107,15 @@ std::optional<Space::Place> Explorer::step_from(const Point& point, double least
 }
 
 std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dearest) {
-  // Seeds that differ in more than the step are few, and lead away from hollows near the start.
+  // Seeds that differ in more than the step are few, and lead out of local optima near the start.
   for (const Space::Place& seed : space_.seeds()) {
     if (seed[0] != space_.start()[0] || points_.contains(seed)) continue;
     points_[seed] = {};
     return seed;
   }
   const std::vector<Point> known = front();
-  // The first that meets an error; the last that keeps a cost is the one before the first that does not.
+  // The first point that meets an error goal; for a cost goal the first that exceeds it, after the last that
+  // keeps it.
   const auto met = std::find_if(known.begin(), known.end(), [&](const Point& point) {
     return goal.error ? point.error <= *goal.error : point.cost > *goal.cost;
   });
@@ -121,7 +123,7 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
   const std::span<const Point> before(known.data(), static_cast<std::size_t>(met - known.begin()));
   const std::span<const Point> lefts = before.last(std::min(before.size(), kLefts));
   if (known.empty()) {
-    // Nothing ran: finer steps may.
+    // Nothing ran, but finer steps may.
     for (const Space::Place& seed : space_.seeds()) {
       if (points_.contains(seed)) continue;
       points_[seed] = {};
@@ -130,7 +132,8 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
     return {};
   }
   if (goal.error) {
-    // Beyond the most accurate there may be a finer one; what costs more than what meets it is of no use.
+    // A finer point may exist beyond the most accurate one; any costlier than one that meets the goal is
+    // useless.
     const double most = right != nullptr ? right->cost * kMargin : dearest;
     if (right != nullptr)
       if (auto place = step_from(*right, 0, most)) return place;

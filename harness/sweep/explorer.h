@@ -8,31 +8,31 @@
 
 namespace plumb::harness::sweep {
 
-/// Chooses which settings of one engine are worth running next: the seeds, and then neighbours of the front,
-/// where it is widest first. Pure bookkeeping: it runs nothing.
+/// Chooses the settings of one engine that are worth running next: the seeds, then neighbours of the Pareto
+/// front, where its gaps are widest first. Pure bookkeeping: it runs nothing.
 class Explorer {
  public:
   explicit Explorer(Space space) : space_(std::move(space)) {}
 
   const Space& space() const { return space_; }
 
-  /// The next place, which counts as taken from now on; nothing when no neighbour of the front is left.
-  /// Places that should cost more than `dearest` are passed over; costs are in the unit of `tell`.
+  /// Returns the next setting to try and marks it as tried, or nothing if the front has no untried neighbour.
+  /// Settings with an expected cost above `dearest` are skipped; costs are in the unit of `tell`.
   std::optional<Space::Place> next(double dearest);
 
-  /// What is searched for, in the units of `tell`: the cheapest with at most this error, or else the most
-  /// accurate of at most this cost.
+  /// Target of a search, in the units of `tell`: the cheapest setting with at most this error, or else the
+  /// most accurate of at most this cost.
   struct Goal {
     std::optional<double> error, cost;
   };
-  /// The next place that may be nearer to the goal than the best so far: neighbours of the points of the
-  /// front on both sides of it. Nothing when none is left: the goal is met as well as this search can, or
-  /// out of reach below `dearest`.
+  /// Returns the next setting that may be nearer to the goal: neighbours of the front's points on both sides
+  /// of it. Returns nothing if none is left: the search cannot improve, or the goal is out of reach below
+  /// `dearest`.
   std::optional<Space::Place> next_towards(const Goal& goal, double dearest);
 
-  /// What a run gave. `error` below `kErrorFloor` counts as that.
+  /// Records the outcome of a run. An `error` below `kErrorFloor` counts as that.
   void tell(const Space::Place& place, double error, double cost);
-  /// It gave nothing: it crashed, diverged or was refused.
+  /// Records a run without an outcome: it crashed, diverged or was refused.
   void fail(const Space::Place& place) { points_[place] = {}; }
 
   std::size_t tried() const { return points_.size(); }
@@ -41,7 +41,7 @@ class Explorer {
     Space::Place place;
     double error = 0, cost = 0;
   };
-  /// Those that no other is at least as good as in both, from cheap to accurate.
+  /// Returns the Pareto front, from cheap to accurate.
   std::vector<Point> front() const;
 
  private:

@@ -16,7 +16,7 @@ const MetricField& field(std::string_view name) {
                        [&](const MetricField& metric) { return metric.name == name; });
 }
 
-// Where the line through (a, fa) and (b, fb) is at x, all in logarithms.
+// Returns the value at x of the line through (a, fa) and (b, fb), all in logarithms.
 double log_interpolate(double a, double fa, double b, double fb, double x) {
   const double share = std::log(x / a) / std::log(b / a);
   return std::exp(std::log(fa) + share * std::log(fb / fa));
@@ -28,7 +28,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-// The cheapest point that is at least as accurate: the points of a front stand in the order of cost.
+// Returns the cheapest point that is at least as accurate: a front is sorted by cost.
 const Point* cheapest_with(std::span<const Point> front, double error) {
   for (const Point& point : front)
     if (point.error <= error) return &point;
@@ -138,7 +138,7 @@ std::optional<Order> observed_order(std::span<const Point> points) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Point& a, const Point& b) { return a.row->dt > b.row->dt; });
   if (sorted.empty()) return {};
-  // Beyond the smallest error, finer steps only gather rounding.
+  // Beyond the smallest error, finer steps only accumulate rounding.
   const auto smallest = std::min_element(sorted.begin(), sorted.end(),
                                          [](const Point& a, const Point& b) { return a.error < b.error; });
   const double least = smallest->error;
@@ -146,7 +146,7 @@ std::optional<Order> observed_order(std::span<const Point> points) {
   std::vector<double> slopes;
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
     const Point &coarse = sorted[i], &fine = sorted[i + 1];
-    // The finest of all may be as small as it likes if it still falls.
+    // The finest pair may be below the plateau if its error still falls.
     const bool last =
         i + 2 == sorted.size() && fine.error <= coarse.error / 2 && fine.error > 2 * kErrorFloor;
     if (fine.row->dt == coarse.row->dt || (fine.error < kPlateau * least && !last)) continue;

@@ -9,10 +9,11 @@
 #include "harness/result.h"
 #include "harness/summary.h"
 
-/// What results say about the trade of accuracy for cost. Pure functions over rows; nothing here runs.
+/// Analysis of the trade-off between accuracy and cost in results. Pure functions over rows; nothing here
+/// runs.
 namespace plumb::harness::sweep {
 
-/// Errors below count as this: what double rounding leaves. In the metric's unit.
+/// Floor of errors, in the metric's unit: smaller ones are rounding errors in double.
 inline constexpr double kErrorFloor = kRoundingFloor;
 
 /// A setting of an engine on one scene, as a point of the work-precision plane.
@@ -22,38 +23,38 @@ struct Point {
   double cost = 0;   ///< ns per simulated second
 };
 
-/// Rows that ran to their end, whose metric is known and whose cost was measured.
+/// Returns the rows that ran to their end with a known metric and a measured cost.
 std::vector<Point> points_of(std::span<const Result> rows, const MetricField& metric);
 
-/// The metric that a scene is judged by where nothing else is asked: `position_error`; `angle_error` where no
-/// run is off by more than rounding in position, as in pure spin; where there is no truth, the first drift
-/// that is known.
+/// Returns the default metric of a scene: `position_error`. It is `angle_error` if no position error exceeds
+/// rounding, as in pure spin; without a truth, the first known drift.
 const MetricField& headline_metric(std::span<const Result> rows);
 
-/// The points that no other is at least as good as in both, from cheap to accurate: costs rise, errors fall.
+/// Returns the Pareto front, from cheap to accurate: costs rise, errors fall.
 std::vector<Point> front_of(std::vector<Point> points);
 
-/// What the front pays for `error`, ns per simulated second; a point that is better at the same cost serves
-/// too. Straight lines in log-log between neighbours; nothing beyond the most accurate point. Errors larger
-/// than the cheapest point's cost what that costs.
+/// Returns the front's cost of `error`, ns per simulated second; a point that is better at the same cost
+/// counts too. Interpolates linearly in log-log between neighbours; nothing beyond the most accurate point.
+/// Larger errors than the cheapest point's cost as much as that point.
 std::optional<double> cost_at_error(std::span<const Point> front, double error);
 
-/// The error that the front reaches for `cost`, likewise; nothing below its cheapest point's cost.
+/// Returns the error that the front reaches for `cost`, interpolated alike; nothing below its cheapest
+/// point's cost.
 std::optional<double> error_at_cost(std::span<const Point> front, double cost);
 
-/// How fast errors fall with the step.
+/// Observed order of convergence in the step.
 struct Order {
   double order = 0;  ///< median slope of log error against log dt over neighbouring steps
-  int pairs = 0;     ///< that it is the median of
+  int pairs = 0;     ///< number of pairs in that median
 };
 
-/// From points that differ in dt alone. Pairs are left out whose finer error is within `kPlateau` of the
-/// smallest error of all: there rounding, not the step, makes the error.
+/// Computes the order from points that differ in dt alone. Leaves out pairs whose finer error is within
+/// `kPlateau` of the smallest error of all, because rounding dominates there.
 std::optional<Order> observed_order(std::span<const Point> points);
 
 inline constexpr double kPlateau = 4;
 
-/// How the points of plumb stand to those of one rival on one scene.
+/// Comparison of plumb's points with those of one rival on one scene.
 struct Dominance {
   std::string label, rival;
   int points = 0;           ///< the rival's
@@ -66,17 +67,18 @@ struct Dominance {
     std::string metric;      ///< that the scene is judged by
     double error = 0;        ///< in the metric's unit
     double cost = 0;         ///< ns per simulated second
-    double cost_ratio = 0;   ///< what plumb pays for this error over what the rival pays; 0: never reached
+    double cost_ratio = 0;   ///< plumb's cost of this error over the rival's; 0: never reached
     double error_ratio = 0;  ///< plumb's error at this cost over the rival's; 0: nothing is as cheap
-    bool noise = false;      ///< the two costs cannot be told apart
+    bool noise = false;      ///< the two costs do not differ significantly
   };
   std::vector<Exception> exceptions{};  ///< the rival's points that are not dominated
 };
 
-/// Whether an engine is one of plumb's own: "plumb" or "plumb-...".
+/// Returns true for plumb's own engines: "plumb" or "plumb-...".
 bool is_plumb(std::string_view engine);
 
-/// A row a scene and a rival, scenes in the order of the rows. `metric` null: each scene's headline.
+/// Returns one row per scene and rival, scenes in the order of the rows. `metric` null: each scene's
+/// headline.
 std::vector<Dominance> dominance(std::span<const Result> rows, const MetricField* metric = nullptr);
 
 }  // namespace plumb::harness::sweep

@@ -22,7 +22,7 @@ std::string unit_of(const MetricField& metric) {
   return metric.unit.empty() ? "" : fmt::format(", {}", metric.unit);
 }
 
-// What all points of a front share is said once.
+// Returns the settings without the options that all points of a front share; those go to `common`.
 reference::StepSettings without_common(const Point& point, std::span<const Point> front,
                                        reference::StepSettings& common) {
   reference::StepSettings out = point.row->asked;
@@ -66,7 +66,7 @@ std::string fronts(const SceneTrade& trade, const Style& style) {
   return out;
 }
 
-// A column a decade; the best of each painted.
+// Formats one column per decade, the best of each coloured.
 template <class Value, class Text>
 std::string decades(const SceneTrade& trade, const std::string& title, std::span<const double> columns,
                     const Style& style, Value value, Text heading, Text cell) {
@@ -91,7 +91,7 @@ std::string decades(const SceneTrade& trade, const std::string& title, std::span
   return out;
 }
 
-// At most seven of them, the coarser ones.
+// Thins the decades evenly to at most `most`.
 std::vector<double> columns_of(std::vector<double> decades_found, int most) {
   const auto count = static_cast<std::size_t>(most);
   if (decades_found.size() > count) {

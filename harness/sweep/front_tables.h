@@ -8,18 +8,20 @@
 
 namespace plumb::harness::sweep {
 
-/// One scene's rows for people: each engine's front with settings, error, cost and observed order; then what
-/// each engine pays for errors of a decade, and what it reaches for costs of a decade. `metric` null: the
-/// scene's headline.
+/// Formats one scene's rows: each engine's front with settings, error, cost and observed order. Then the cost
+/// of each engine for each decade of error, and its error for each decade of cost. `metric` null: the scene's
+/// headline.
 std::string front_table(std::span<const Result> rows, const MetricField* metric, const Style& style);
 
-/// A row a scene and a rival, an overall row, and below them the rival points that are not dominated.
+/// Formats one row per scene and rival, an overall row, and below them the rival points that are not
+/// dominated.
 std::string dominance_table(std::span<const Dominance> rows, const Style& style);
 
-/// The same as data, of all scenes: `format` "json" (one object) or "csv" (a line a point of a front).
+/// Returns the same as data, of all scenes: `format` "json" (one object) or "csv" (one line per point of a
+/// front).
 std::string trade_data(std::span<const Result> rows, const MetricField* metric, const std::string& format);
 
-/// The share of the rivals' points that plumb dominates, 0 to 1; NaN where there is none.
+/// Returns the fraction of the rivals' points that plumb dominates, 0 to 1; NaN if there are none.
 double overall_share(std::span<const Dominance> rows);
 
 }  // namespace plumb::harness::sweep

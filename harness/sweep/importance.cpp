@@ -6,7 +6,7 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// The middle of what is left first, so that the first few are spread over all.
+// Takes the middle of each remaining part in turn, so that the first few are spread over all.
 void spread(std::span<const Point> points, std::vector<Point>& out) {
   std::vector<std::span<const Point>> left{points};
   for (std::size_t i = 0; i < left.size(); ++i) {

@@ -6,8 +6,8 @@
 
 namespace plumb::harness::sweep {
 
-/// One engine's points in the order in which they are worth measuring: its front, ends first and then spread
-/// over it; then what is a front without that, and so on.
+/// Sorts one engine's points by the benefit of measuring them: its front, ends first and then spread over it.
+/// The front of the remaining points follows, and so on.
 std::vector<Point> by_importance(std::vector<Point> points);
 
 }  // namespace plumb::harness::sweep

@@ -6,17 +6,17 @@
 
 namespace plumb::harness::sweep {
 
-/// A file of lines that is appended to, a line at once, by one process at a time. Being killed at any instant
-/// loses at most the line under way: what is left of one is cut off when the file is opened again.
+/// Append-only file of lines, for one process at a time. Being killed at any instant loses at most the line
+/// under way: a partial line is cut off when the file is opened again.
 class Journal {
  public:
-  /// Opens or makes the file and its folders. Throws `Error` (Io), also where another process has it open.
+  /// Opens or creates the file and its folders. Throws `Error` (Io), also if another process has it open.
   explicit Journal(const std::string& path);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
   ~Journal();
 
-  /// The whole lines that were there when it was opened.
+  /// Returns the whole lines that were there when it was opened.
   const std::vector<std::string>& lines() const { return lines_; }
   const std::string& path() const { return path_; }
 

@@ -17,7 +17,7 @@ namespace plumb::harness::sweep {
 namespace {
 
 constexpr double kInterval = 1.0 / 240;  // s
-constexpr double kRounding = 1e-13;      // m: two runs that differ by less are one
+constexpr double kRounding = 1e-13;      // m: runs that differ by less count as equal
 
 using States = std::vector<BodyState>;
 
@@ -60,7 +60,7 @@ double distance(const States& a, const States& b) {
   return out;
 }
 
-// Finer and finer settings, the engine's defaults else.
+// Returns finer and finer settings, with the engine's defaults otherwise.
 std::vector<reference::StepSettings> refinements(const reference::Backend& backend, const Ladder& ladder) {
   std::vector<reference::StepSettings> out;
   if (backend.method({}).scheme == reference::Scheme::Adaptive) {

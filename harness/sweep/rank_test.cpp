@@ -7,7 +7,7 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// Twice the rank of each value among all, so that middle ranks are whole.
+// Returns twice the rank of each value among all, so that middle ranks are integers.
 std::vector<int> doubled_ranks(std::span<const double> a, std::span<const double> b) {
   std::vector<double> all(a.begin(), a.end());
   all.insert(all.end(), b.begin(), b.end());
@@ -33,7 +33,7 @@ double rank_test(std::span<const double> a, std::span<const double> b) {
     total += ranks[i];
     if (i < a.size()) observed += ranks[i];
   }
-  // ways[k][s]: choices of k of the values seen so far whose doubled ranks add up to s.
+  // ways[k][s]: number of choices of k of the values seen so far whose doubled ranks sum to s.
   const auto width = static_cast<std::size_t>(total) + 1;
   std::vector<double> ways((a.size() + 1) * width, 0.0);
   ways[0] = 1;
@@ -44,7 +44,7 @@ double rank_test(std::span<const double> a, std::span<const double> b) {
       for (std::size_t s = width - 1; s >= static_cast<std::size_t>(rank); --s)
         ways[k * width + s] += ways[(k - 1) * width + s - static_cast<std::size_t>(rank)];
   }
-  // Distances from the expected sum, times the number of values so that they are whole.
+  // Compare distances from the expected sum, times the number of values so that they are integers.
   const long count = static_cast<long>(ranks.size());
   const long expected = static_cast<long>(total) * static_cast<long>(a.size());
   const long distance = std::labs(static_cast<long>(observed) * count - expected);

@@ -23,7 +23,7 @@ CostSample sample_from(const Json& json) {
           json.at("steps").get<int>()};
 }
 
-// What must not change from one part of a sweep to the next.
+// Returns the facts that must not change from one part of a sweep to the next.
 Json start_json(const std::vector<std::string>& engines, const std::string& settings) {
   const Environment where = environment();
   return {{"kind", "start"},
@@ -102,7 +102,7 @@ void Record::read(const std::string& line) {
 }
 
 void Record::ran(const std::string& label, const Trial& trial) {
-  // The result's own JSON goes in as it is: read and written again it would be the same.
+  // Embed the result's own JSON: parsing and writing it again would give the same.
   journal_.append(fmt::format(R"({{"kind":"run","label":{},"rough":{},"result":{}}})", Json(label).dump(),
                               sample_json(trial.rough).dump(), to_json(trial.result)));
   of(label).add(trial);

@@ -10,29 +10,29 @@
 
 namespace plumb::harness::sweep {
 
-/// One setting of one engine on one instance, as far as it is known.
+/// Known data of one setting of one engine on one instance.
 struct Trial {
   Result result;
-  CostSample rough;                 ///< one repetition while other runs were under way
-  std::vector<CostSample> samples;  ///< repetitions in turns
+  CostSample rough;                 ///< one repetition, measured while other runs were in progress
+  std::vector<CostSample> samples;  ///< repetitions that took turns with the others'
 };
 
-/// What is known of an instance.
+/// Known data of an instance.
 struct InstanceRecord {
   std::vector<Trial> trials;
   std::map<std::string, std::size_t> places;  ///< by `key_of`
   bool explored = false;
-  std::vector<std::string> chosen;  ///< keys of those whose cost is measured
+  std::vector<std::string> chosen;  ///< keys of the trials whose cost is measured
   bool done = false;
 
   Trial* find(const std::string& key);
   void add(Trial trial);
 };
 
-/// `sweep.jsonl`: everything that a sweep has found out, in the order in which it did.
+/// Results of a sweep (`sweep.jsonl`), in the order in which they were found.
 class Record {
  public:
-  /// Reads what is there. Throws `Error` (Io; Syntax; Value where it is of other engines, another build or
+  /// Reads the existing file. Throws `Error` (Io; Syntax; Value if it is of other engines, another build or
   /// another machine).
   Record(const std::string& folder, const std::vector<std::string>& engines, const std::string& settings);
 

@@ -73,7 +73,7 @@ std::vector<Result> read_rows(const std::string& folder_or_file) {
     try {
       rows.push_back(result_from_json(line));
     } catch (const Error& error) {
-      if (file.eof()) break;  // no line end: the writer was stopped in the middle of it
+      if (file.eof()) break;  // no line end: the writer was stopped within the line
       throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
     }
   }

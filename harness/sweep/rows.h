@@ -8,24 +8,24 @@
 
 namespace plumb::harness::sweep {
 
-/// What a row is of: scene, engine and everything that was asked of it. Two rows with one key are the same
-/// run measured twice.
+/// Returns the key of a row: scene, engine and all requested settings. Two rows with one key are the same run
+/// measured twice.
 std::string key_of(const Result& row);
 
-/// The rows of one scene together, scenes in the order in which they first appear.
+/// Groups the rows by scene, scenes in the order of their first appearance.
 std::vector<std::vector<Result>> by_label(std::span<const Result> rows);
 
-/// The engines, in the order in which they first appear.
+/// Returns the engines in the order of their first appearance.
 std::vector<std::string> engines_of(std::span<const Result> rows);
 
-/// Of rows with the same key, the last.
+/// Keeps the last of the rows with the same key.
 std::vector<Result> latest(std::vector<Result> rows);
 
-/// The latest rows of a file of results, or of `results.jsonl` in a folder. A last line that was cut short is
-/// passed over. Throws `Error` (Io, Syntax) that names file and line.
+/// Reads the latest rows of a file of results, or of `results.jsonl` in a folder. Ignores a truncated last
+/// line. Throws `Error` (Io, Syntax) that names file and line.
 std::vector<Result> read_rows(const std::string& folder_or_file);
 
-/// Whether something that `read_rows` reads is there.
+/// Returns true if there is a file that `read_rows` would read.
 bool holds_rows(const std::string& folder_or_file);
 
 }  // namespace plumb::harness::sweep

@@ -35,7 +35,7 @@ bool has(const reference::StepSettings& settings, const std::string& name, const
   return found != settings.options.end() && found->second == value;
 }
 
-// The index of `value`; else the middle of the list.
+// Returns the index of `value`, or the middle of the list if it is missing.
 int index_of(const reference::Knob& knob, std::string_view value) {
   for (std::size_t i = 0; i < knob.values.size(); ++i)
     if (knob.values[i] == value) return static_cast<int>(i);

@@ -8,8 +8,8 @@
 
 namespace plumb::harness::sweep {
 
-/// The ladder of steps: 1/15 s, and each rung half of the one before. Samples of a coarser step lie on those
-/// of a finer one, so that errors are maxima over comparable instants.
+/// Ladder of steps: 1/15 s, and each rung half of the one before. Samples of a coarser step coincide with
+/// samples of a finer one, so that errors are maxima over comparable instants.
 struct Ladder {
   double coarsest = 1.0 / 15;  ///< s
   int rungs = 11;              ///< to 1/15360 s
@@ -17,34 +17,35 @@ struct Ladder {
   double dt(int rung) const;
 };
 
-/// Samples of a run of a sweep are a step apart, but not nearer than 1/240 s: finer steps are sampled every
-/// few steps. In s, for a step of `ladder`.
+/// Returns the distance between samples in s, for a step of `ladder`: the step, but at least 1/240 s. Finer
+/// steps are sampled every few steps.
 double sample_interval(double dt);
 
-/// All settings that a sweep may choose for an engine: a step of the ladder times the values of its knobs.
+/// Settings that a sweep may choose for an engine: a step of the ladder times the values of its knobs.
 /// Engines with a tolerance use the three coarsest steps, which are only their sampling grid.
 class Space {
  public:
-  /// An index an axis; the first axis is dt, then the engine's knobs.
+  /// One index per axis; the first axis is dt, then the engine's knobs.
   using Place = std::vector<int>;
 
   Space(const reference::Backend& backend, const Ladder& ladder);
 
   reference::StepSettings settings(const Place& place) const;
-  /// Where `settings` stand, if they are one of these.
+  /// Returns the place of `settings`, if they are in the space.
   std::optional<Place> find(const reference::StepSettings& settings) const;
 
-  /// The engine's defaults at the rung nearest to 1/60 s.
+  /// Returns the engine's defaults at the rung nearest to 1/60 s.
   Place start() const;
-  /// Places to begin from: the defaults at steps all over the ladder, `start` first.
+  /// Returns the places to begin from: the defaults at steps all over the ladder, `start` first.
   std::vector<Place> seeds() const;
 
   struct Neighbour {
     Place place;
     int axis;
-    double cost_factor;  ///< how many times as expensive it should be
+    double cost_factor;  ///< expected ratio of the costs
   };
-  /// One rung or one value up or down, or any other kind.
+  /// Returns the places that differ in one axis: one rung or numeric value up or down, or any other of
+  /// unordered values.
   std::vector<Neighbour> neighbours(const Place& place) const;
 
   int axes() const { return 1 + static_cast<int>(knobs_.size()); }
@@ -59,7 +60,7 @@ class Space {
   Place start_;
 };
 
-/// For people and as a name: "dt 1/240, substeps 4, integrator velocity_verlet".
+/// Formats settings for people and as a name: "dt 1/240, substeps 4, integrator velocity_verlet".
 std::string settings_text(const reference::StepSettings& settings);
 
 }  // namespace plumb::harness::sweep

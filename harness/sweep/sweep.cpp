@@ -25,13 +25,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of an instance's time, what is spent on finding the fronts; the rest is for measuring costs.
+// Fraction of an instance's time for finding the fronts; the rest is for measuring costs.
 constexpr double kExploring = 0.55;
-// One run may take this share of an instance's time.
+// Largest fraction of an instance's time for one run.
 constexpr double kDearest = 0.04;
 constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
-// What a repetition takes besides stepping: a process, its pages, its end.
+// Overhead of a repetition besides stepping: starting and ending a process, and its page faults.
 constexpr double kProcess = 4e6;  // ns
 
 double seconds_since(Clock::time_point start) {
@@ -84,7 +84,7 @@ class InstanceSweep {
   std::size_t turn_ = 0;
 };
 
-// Engines that cannot run the scene get one row that says so.
+// Engines that cannot run the scene get one row with the reason.
 void InstanceSweep::set_up() {
   for (const reference::Backend* backend : options_.engines) {
     const reference::Identity identity = backend->identity();
@@ -119,7 +119,7 @@ void InstanceSweep::set_up() {
   }
 }
 
-// Every explorer hears of every run, in the metric that the rows so far call for.
+// Passes every run to its explorer, in the headline metric of the rows so far.
 void InstanceSweep::tell_all() {
   std::vector<Result> rows;
   for (const Trial& trial : known_.trials) rows.push_back(trial.result);
@@ -142,7 +142,7 @@ void InstanceSweep::tell_all() {
 std::optional<RunRequest> InstanceSweep::request(Entrant& entrant, const Space::Place& place) {
   const reference::StepSettings settings = entrant.explorer.space().settings(place);
   const Case& scene_case = cases_.at(*entrant.backend, settings.dt);
-  // Settings that an engine refuses are no run.
+  // Settings that an engine refuses are not run.
   try {
     entrant.backend->method(settings);
     if (!entrant.backend->unsupported(scene_case.problem.scene, settings).empty()) {
@@ -156,7 +156,7 @@ std::optional<RunRequest> InstanceSweep::request(Entrant& entrant, const Space::
   return RunRequest{&scene_case, entrant.backend, settings, nullptr, kRough};
 }
 
-// A few runs, engines in turns.
+// Returns a few runs, engines taking turns.
 std::vector<RunRequest> InstanceSweep::next_runs() {
   std::vector<RunRequest> out;
   const double duration = instance_.build().duration;
@@ -211,14 +211,15 @@ bool InstanceSweep::explore(const std::function<void(double, const std::string&)
   return true;
 }
 
-// What one repetition of a cost is going to take, in ns.
+// Returns the expected time of one repetition of a cost, in ns.
 double InstanceSweep::repetition_ns(const Trial& trial) const {
   const double whole = trial.rough.ns_per_step * step_count(trial.result.duration, trial.result.dt);
   const double stepping = std::clamp(2 * whole, 2 * kMeasured.at_least_ns, 2 * kMeasured.at_most_ns);
   return kProcess + 2 * trial.rough.setup_ns + stepping;
 }
 
-// The points whose cost will be measured within `seconds`: every engine's in turns, so that none is left out.
+// Chooses the points whose cost will be measured within `seconds`: every engine's in turns, so that none is
+// left out.
 std::vector<std::string> InstanceSweep::choose(double seconds) const {
   std::vector<Result> rows;
   for (const Trial& trial : known_.trials) {
@@ -248,7 +249,7 @@ std::vector<std::string> InstanceSweep::choose(double seconds) const {
   return out;
 }
 
-// One repetition of one setting; false after an interrupt.
+// Runs one repetition of one setting; false after an interrupt.
 bool InstanceSweep::repeat(const std::string& key, int round) {
   const Trial* trial = known_.find(key);
   if (trial == nullptr || static_cast<int>(trial->samples.size()) > round) return true;
@@ -268,7 +269,7 @@ bool InstanceSweep::measure(const std::function<void(double, const std::string&)
   const Clock::time_point start = Clock::now();
   const double allowed = std::max(seconds_ - explored_, 0.3 * seconds_);
   for (int round = 0; round < options_.repetitions; ++round) {
-    // A copy: what does not fit is taken off below.
+    // A copy, because points without time left are removed below.
     const std::vector<std::string> chosen = known_.chosen;
     const double each = (1 - kExploring) / options_.repetitions;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -279,7 +280,7 @@ bool InstanceSweep::measure(const std::function<void(double, const std::string&)
     const double needed = seconds_since(start) * (options_.repetitions - round) / (round + 1.0);
     const double left = allowed - seconds_since(start);
     if (round > 0 || needed <= left) continue;
-    // The machine is slower than was thought: the least important are left out.
+    // The machine is slower than expected: drop the least important.
     const auto fit =
         static_cast<std::size_t>(static_cast<double>(chosen.size()) * std::max(left, 0.0) / needed);
     const std::size_t least = std::min(chosen.size(), options_.engines.size());
@@ -290,7 +291,7 @@ bool InstanceSweep::measure(const std::function<void(double, const std::string&)
   return true;
 }
 
-// In the order of the engines, from coarse to fine.
+// Returns the rows in the order of the engines, from coarse to fine.
 std::vector<Result> rows_of(const InstanceRecord& record, const std::vector<std::string>& engines) {
   std::vector<Result> rows;
   for (const Trial& trial : record.trials) {
@@ -307,7 +308,7 @@ std::vector<Result> rows_of(const InstanceRecord& record, const std::vector<std:
   return rows;
 }
 
-// An instance's rows go into the results when it is complete; those that are there already are left.
+// Appends the rows of a complete instance to the results; those already there are skipped.
 void append_rows(Journal& results, std::span<const Result> rows) {
   std::set<std::string> there;
   for (const std::string& line : results.lines()) there.insert(key_of(result_from_json(line)));
@@ -315,8 +316,8 @@ void append_rows(Journal& results, std::span<const Result> rows) {
     if (!there.contains(key_of(row))) results.append(to_json_with_environment(row));
 }
 
-// What must be the same when a sweep goes on. A scene without an answer is a file's, and may have been
-// edited.
+// Returns the settings that must be the same when a sweep resumes. A scene without an answer comes from a
+// file, which may have been edited.
 std::string settings_of(const SweepOptions& options) {
   std::string out =
       fmt::format("{} repetitions, dt {} and finer", options.repetitions, options.ladder.coarsest);
@@ -345,7 +346,7 @@ Swept sweep(const SweepOptions& options, const SweepEvents& events) {
                          [&](const auto& instance) { return record.of(instance.label()).done == done; });
   };
   const double each = 1.0 / static_cast<double>(options.instances.size());
-  // What is left to do has its part of the budget, and what an instance does not use goes to the next ones.
+  // The remaining instances share the budget evenly; time that one does not use goes to the next ones.
   double left = options.budget * each * static_cast<double>(count(false));
   long before = count(true);
   for (const scenarios::Instance& instance : options.instances) {

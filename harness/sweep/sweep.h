@@ -16,12 +16,12 @@ namespace plumb::harness::sweep {
 struct SweepOptions {
   std::vector<scenarios::Instance> instances;
   std::vector<const reference::Backend*> engines;
-  std::string folder;            ///< results.jsonl and sweep.jsonl are kept there
+  std::string folder;            ///< folder of results.jsonl and sweep.jsonl
   double budget = 540;           ///< s of wall time for all instances
   int jobs = 1;                  ///< runs at a time; costs are measured one at a time
   int repetitions = 9;           ///< of every cost
-  double seconds_a_run = 20;     ///< then a run is stopped
-  std::size_t most_points = 48;  ///< an engine on an instance
+  double seconds_a_run = 20;     ///< time limit of a run
+  std::size_t most_points = 48;  ///< per engine and instance
   Ladder ladder{};
 };
 
@@ -38,10 +38,10 @@ struct Swept {
   bool interrupted = false;
 };
 
-/// Runs every engine over its knobs on every instance, nearer and nearer to its front of error against cost;
-/// then measures costs in repetitions in which all points of an instance take turns. Everything is appended
-/// to `sweep.jsonl` as it comes, and an instance's rows to `results.jsonl` when it is complete: the same call
-/// goes on from there. Throws `Error` (Io; Value where the folder is another sweep's).
+/// Runs every engine over its knobs on every instance, closing in on its Pareto front of error and cost. Then
+/// measures costs in repetitions in which all points of an instance take turns. Appends everything to
+/// `sweep.jsonl` as it comes, and an instance's rows to `results.jsonl` when it is complete. The same call
+/// resumes an interrupted sweep. Throws `Error` (Io; Value if the folder is another sweep's).
 Swept sweep(const SweepOptions& options, const SweepEvents& events = {});
 
 }  // namespace plumb::harness::sweep

@@ -13,7 +13,7 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// The settings without dt: points that share them are one series.
+// Returns the settings without dt: points that share them are one series.
 std::string series_of(const Result& row) {
   Result other = row;
   other.asked.dt = 0;
@@ -25,7 +25,7 @@ std::optional<Order> order_of(std::span<const Point> points) {
   for (const Point& point : points) series[series_of(*point.row)].push_back(point);
   std::optional<Order> best;
   for (const auto& [name, members] : series) {
-    if (members.front().row->asked.tolerance) continue;  // steps are the engine's own
+    if (members.front().row->asked.tolerance) continue;  // the engine chooses its own steps
     const std::optional<Order> order = observed_order(members);
     if (order && (!best || order->pairs > best->pairs)) best = order;
   }

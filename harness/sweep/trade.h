@@ -9,23 +9,23 @@
 
 namespace plumb::harness::sweep {
 
-/// One engine's part of a scene's trade.
+/// Trade-off of one engine on a scene.
 struct EngineTrade {
   std::string engine;
   std::vector<Point> points{};  ///< all of them
   std::vector<Point> front{};
-  std::string why_none{};        ///< where the front is empty: skipped or failed, and why
-  std::optional<Order> order{};  ///< in dt, of the series with the most steps
+  std::string why_none{};        ///< reason for an empty front: skipped or failed, and why
+  std::optional<Order> order{};  ///< in dt, of the series with the most pairs of steps
 };
 
-/// What the rows of one scene say. Points refer to the rows that it was made from.
+/// Trade-off in the rows of one scene. Points refer to the rows that it was made from.
 struct SceneTrade {
   std::string label, truth;
   double duration = 0;  ///< s
   const MetricField* metric = nullptr;
   std::vector<EngineTrade> engines;
   std::vector<double> errors;  ///< decades that some engine's front spans, from large to small
-  std::vector<double> costs;   ///< likewise, ns per simulated second, from cheap to dear
+  std::vector<double> costs;   ///< the same for costs, ns per simulated second, from cheap to dear
 };
 
 /// `metric` null: the scene's headline. `rows` are of one label.

@@ -87,7 +87,7 @@ std::string as_json(std::span<const Result> rows, const MetricField* metric) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Settings are free of quotes and are the only field with commas.
+// Only the settings field contains commas, and it has no quotes.
 std::string as_csv(std::span<const Result> rows, const MetricField* metric) {
   std::string out = "label,engine,metric,error,ns_per_simulated_second,low,high,settings\n";
   for (const std::vector<Result>& scene : by_label(rows)) {

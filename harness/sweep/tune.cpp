@@ -23,9 +23,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
-// One run may take this share of the search.
+// Largest fraction of the search's time for one run.
 constexpr double kDearest = 0.06;
-// The rough costs of the best are this uncertain: as many are measured well.
+// Number of settings whose costs are measured well: the rough costs of the best do not rank them reliably.
 constexpr std::size_t kFinalists = 3;
 constexpr int kRungs = 11;
 constexpr std::size_t kMostTried = 64;
@@ -93,7 +93,7 @@ void Tuner::enter() {
     if (why.empty() && !cases_.has_truth()) {
       const OwnLimit& limit = cases_.limit(*backend);
       why = limit.problem.empty() ? "" : "no limit of its own: " + limit.problem;
-      // Errors are as uncertain as the limit.
+      // The errors are as uncertain as the limit.
       if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
         why = fmt::format("{}: too uncertain for this tolerance", limit.source);
     }
@@ -152,13 +152,13 @@ bool Tuner::search(const std::function<void(const std::string&)>& progress) {
   return true;
 }
 
-// Holds a trial against what was asked for itself, also where that lies below the floor of the search.
+// Compares a trial with the goal itself, even if that is below the error floor of the search.
 bool Tuner::meets(const Trial& trial) const {
   return options_.tolerance ? trial.error <= *options_.tolerance : trial.ns_a_second() <= *goal_.cost;
 }
 
-// Finds whether `a` is nearer to what is asked for: of two that meet it the cheaper, or the more accurate;
-// else the one that misses by less.
+// Returns true if `a` is nearer to the goal: of two that meet it the cheaper, or the more accurate; else the
+// one that misses by less.
 bool Tuner::better(const Trial& a, const Trial& b) const {
   const bool a_meets = meets(a);
   if (a_meets != meets(b)) return a_meets;
@@ -174,7 +174,7 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
     for (std::size_t i = 0; i < std::min(kFinalists, entrant.trials.size()); ++i)
       finalists.push_back({&entrant, &entrant.trials[i]});
   }
-  // Into vectors of their own first: a trial's rough cost orders it until all are measured.
+  // Collect the samples separately first: a trial's rough cost orders it until all are measured.
   std::vector<std::vector<CostSample>> samples(finalists.size());
   for (int round = 0; round < options_.repetitions; ++round) {
     if (progress) progress(fmt::format("measuring: {} of {} rounds", round, options_.repetitions));
@@ -191,7 +191,7 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
   return true;
 }
 
-// Runs the answer once more. What the second run misses, the answer misses.
+// Repeats the answer's run. A goal missed by the second run is missed by the answer.
 void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
   const Case& scene_case = cases_.at(*entrant.backend, answer.row.dt);
   const IsolatedRun again =
@@ -242,7 +242,7 @@ TuneAnswer Tuner::answer(Entrant& entrant) {
       out.problem = entrant.last_failure.empty() ? "no run within the time" : entrant.last_failure;
     return out;
   }
-  if (meets(*measured.front())) return out;  // none of those that met it did so twice
+  if (meets(*measured.front())) return out;  // none of those that met the goal did so twice
   fill(out, *measured.front());
   out.problem =
       options_.tolerance

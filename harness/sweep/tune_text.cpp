@@ -24,7 +24,7 @@ std::string wish(const TuneOptions& options) {
                      duration_text(*options.budget_ns), dt_text(options.step));
 }
 
-// The command that runs these settings.
+// Returns the command that runs these settings.
 std::string command_of(const TuneOptions& options, const TuneAnswer& answer) {
   const reference::StepSettings& asked = answer.row.asked;
   std::string out = fmt::format("plumb run {} --engine {} --dt {}",

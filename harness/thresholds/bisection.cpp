@@ -15,7 +15,7 @@ namespace {
 constexpr int kScan = 7;
 constexpr double kBeside[] = {3, 10, 30};  // resolutions
 
-/// A search on a scale of which 0 is the end that should hold and 1 the end that should break.
+/// A search on a scale from 0, the end that should hold, to 1, the end that should break.
 class Search {
  public:
   Search(const SearchRange& range, const std::function<Answer(double)>& ask) : range_(range), ask_(ask) {}
@@ -106,7 +106,7 @@ class Search {
         Ending::Found, value, low, high, static_cast<int>(asked_.size()), nearest_break(breaks).answer.why};
   }
 
-  // From the first value that breaks to the last that holds, the answers are mixed.
+  // Reports mixed answers, from the first value that breaks to the last that holds.
   Crossing mixed(double value) const {
     const Asked *first = nullptr, *last = nullptr;
     for (const Asked& a : asked_) {

@@ -2,7 +2,7 @@
 
 #include "harness/thresholds/threshold.h"
 
-/// Each threshold's file has one of these; `catalogue.cpp` lists them.
+/// One function for each threshold's file; `catalogue.cpp` lists them.
 namespace plumb::harness::thresholds {
 
 Threshold ramp_friction();

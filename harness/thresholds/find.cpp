@@ -14,7 +14,8 @@ namespace {
 
 double resolution_of(const FindOptions& options) { return std::pow(10.0, -options.digits); }
 
-/// What is known before the first run; refused where the engine cannot run the scene at the end that holds.
+/// Returns the facts known before the first run; refused if the engine cannot run the scene at the end that
+/// holds.
 Finding described(const Request& request, const FindOptions& options) {
   const Threshold& threshold = *request.threshold;
   Finding out{.name = threshold.name,
@@ -93,12 +94,12 @@ Finding find_one(const Request& request, const FindOptions& options) {
                                                       : search(std::move(finding), request, options);
 }
 
-// A search is a process whose runs are processes; where it is killed, its runs die with it.
+// Runs each search in a process that starts processes for its runs; killing it kills its runs too.
 void find_all(std::span<const Request> requests, const FindOptions& options,
               const std::function<void(std::size_t, const std::optional<Finding>&)>& done) {
   std::vector<Finding> findings;
   std::vector<std::size_t> to_search;
-  // Asked here, so that what an engine's program says about itself is asked once.
+  // Described here, so that an engine's program is queried only once.
   for (std::size_t i = 0; i < requests.size(); ++i) {
     findings.push_back(described(requests[i], options));
     if (findings.back().outcome == Finding::Outcome::Refused) {

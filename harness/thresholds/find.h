@@ -11,7 +11,7 @@
 
 namespace plumb::harness::thresholds {
 
-/// A critical value that is to be found.
+/// A critical value to be found.
 struct Request {
   const Threshold* threshold = nullptr;
   const reference::Backend* backend = nullptr;
@@ -22,15 +22,15 @@ struct Request {
 struct FindOptions {
   int digits = 3;             ///< of the critical value, 1..4
   int jobs = 1;               ///< searches at a time
-  double seconds_a_run = 30;  ///< then a run counts as broken
+  double seconds_a_run = 30;  ///< time limit, after which a run counts as broken
 };
 
-/// Finds `request`'s value, each run in a process of its own. What an engine throws becomes the finding's
+/// Finds `request`'s value, each run in a process of its own. Exceptions of the engine become the finding's
 /// outcome.
 Finding find_one(const Request& request, const FindOptions& options);
 
-/// All of them, `options.jobs` searches at a time. `done` is called as they end, with nothing for those that
-/// an interrupt has ended.
+/// Finds all of them, `options.jobs` searches at a time. `done` is called as they end, with nothing for those
+/// that an interrupt has ended.
 void find_all(std::span<const Request> requests, const FindOptions& options,
               const std::function<void(std::size_t, const std::optional<Finding>&)>& done);
 

@@ -19,7 +19,7 @@ std::string exact_text(const Finding& finding) {
 std::string difference_text(const Finding& finding) {
   const auto difference = finding.relative_difference();
   if (!difference) return "";
-  // Below the bracket there is nothing to tell.
+  // Smaller differences are below the resolution of the bracket.
   const double least = std::pow(10.0, -finding.digits);
   return std::abs(*difference) < least ? fmt::format("< {:.2g} %", 100 * least)
                                        : fmt::format("{:+.2g} %", 100 * *difference);
@@ -64,7 +64,7 @@ std::string row(const Finding& finding, const Style& style) {
                                   : pad_right(found_text(finding) + ' ', kFoundWidth) +
                                         pad_right(exact_text(finding), kExactWidth) +
                                         pad_right(difference_text(finding), kDifferenceWidth);
-  // What is before the reason counts as part of its first word.
+  // The columns before the reason are added to its first word for wrapping.
   const std::string reason = wrap(std::string(static_cast<std::size_t>(before), '-') + finding.reason,
                                   std::max(before + 20, style.width), before)
                                  .substr(static_cast<std::size_t>(before));

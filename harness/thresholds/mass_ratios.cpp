@@ -9,12 +9,12 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// Heavy things that light ones carry. Rigid bodies carry any mass: an engine's limit is its own.
+// Heavy bodies carried by light ones. Rigid bodies carry any mass: any limit is the engine's own.
 namespace plumb::harness::thresholds {
 namespace {
 
 constexpr double kDuration = 10;  // s
-// m and rad: an engine that keeps a skin of a centimetre around its shapes rests as well.
+// m and rad: large enough for an engine that keeps a margin of a centimetre around its shapes.
 constexpr double kMoved = 0.05;
 constexpr int kLinks = 10;
 constexpr double kStretch = 0.01;  // of the chain's length

@@ -5,7 +5,7 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// Blocks that stick out over the edge of a table: n of them by half the harmonic number H_n of their length.
+// Blocks that overhang the edge of a table: n of them by half the harmonic number H_n of their length.
 // Source: the centre of mass above each edge; Paterson and Zwick, Overhang, Am. Math. Monthly 116 (2009).
 namespace plumb::harness::thresholds {
 namespace {
@@ -14,19 +14,20 @@ constexpr double kLength = 1, kHeight = 0.2, kFriction = 1;
 // About the middle of a block's lower face: (l^2 + h^2)/12 + (h/2)^2.
 constexpr double kGyrationSquared = (kLength * kLength + kHeight * kHeight) / 12 + kHeight * kHeight / 4;
 
-// The edge of the table is the origin. Block k, from below, sticks out over what it lies on by `shares[k]` of
-// the whole overhang.
+// Builds the stack at the table's edge, the origin. Block k, from below, overhangs its support by `shares[k]`
+// of the whole overhang.
 Trial over_the_edge(std::span<const double> shares, double overhang, double exact, double resolution) {
   Trial trial{.scene = {.name = "overhang", .gravity = {0, -kGravity}}};
   trial.scene.bodies = {held(block("table", 4, 2, {-2, -1}, kFriction))};
-  double end = 0, height = kHeight / 2;  // m: the end that sticks out, the centre
+  double end = 0, height = kHeight / 2;  // m: the overhanging end, the height of the centre
   for (const double share : shares) {
     end += share * overhang;
     trial.scene.bodies.push_back(block(fmt::format("block {}", trial.scene.bodies.size()), kLength, kHeight,
                                        {end - kLength / 2, height}, kFriction));
     height += kHeight;
   }
-  // The stack as one: its arm is at most its height, its inertia more than a block's as its arm squared.
+  // The stack tilts as one: its arm is at most its height, and its inertia exceeds a block's by the arm
+  // squared.
   const double count = static_cast<double>(shares.size()), arm = count * kHeight / 2;
   trial.duration =
       time_to_tilt(resolution / 2 * exact / count, arm, count * count * kGyrationSquared, kToppled);

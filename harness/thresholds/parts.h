@@ -4,16 +4,16 @@
 
 #include "engine/scene/scene.h"
 
-/// What the thresholds' scenes are put together from.
+/// Parts of the thresholds' scenes.
 namespace plumb::harness::thresholds {
 
 /// m/s^2
 inline constexpr double kGravity = 9.81;
 
-/// A box of even density 1 kg/m^2.
+/// Returns a box of uniform density 1 kg/m^2.
 Body block(std::string name, double width, double height, Vec2d position, double friction, double angle = 0);
 
-/// `body`, held where it is.
+/// Returns `body` as a static body.
 Body held(Body body);
 
 /// A half plane that rises to the right, with its surface through the origin.
@@ -22,11 +22,11 @@ class Slope {
   explicit Slope(double angle);  ///< rad
 
   double angle() const { return angle_; }
-  /// A point `along` uphill from the origin and `above` the surface, m.
+  /// Returns the point `along` uphill from the origin and `above` the surface, m.
   Vec2d at(double along, double above) const { return along * uphill_ + above * normal_; }
-  /// How far uphill of the origin a point is, m.
+  /// Returns the distance of a point uphill from the origin, m.
   double along(Vec2d point) const { return dot(point, uphill_); }
-  /// The ground, 200 m long.
+  /// Returns the ground, 200 m long.
   Body ground(double friction) const;
 
  private:
@@ -34,19 +34,19 @@ class Slope {
   Vec2d uphill_, normal_;
 };
 
-/// Seconds until what starts to slip at rest, with `acceleration` in m/s^2, is twice `way` (m) farther than
-/// where it was at `kSettled`.
+/// Returns the time, s, after which a body that slips from rest with `acceleration`, m/s^2, is 2 `way` (m)
+/// beyond its position at `kSettled`.
 double time_to_slip(double way, double acceleration);
 
-inline constexpr double kSettled = 1;  ///< s, in which an engine's contacts may find their place
+inline constexpr double kSettled = 1;  ///< s, for an engine's contacts to settle
 
-/// Seconds until something of which the centre of mass stands `offset` beside the vertical through its pivot
-/// is tilted by `tilt`, half as long again: phi'' = rate^2 (phi + offset / arm) from rest, so
-/// phi = (offset / arm) (cosh(rate t) - 1) with rate^2 = g arm / gyration_squared, `arm` and
-/// `gyration_squared` (m, m^2) being taken about the pivot.
+/// Returns 1.5 times the time, s, in which a body tilts by `tilt`. Its centre of mass is `offset` beside the
+/// vertical through its pivot. From rest phi'' = rate^2 (phi + offset / arm), so phi = (offset / arm)
+/// (cosh(rate t) - 1) with rate^2 = g arm / gyration_squared. `arm` and `gyration_squared` (m, m^2) are about
+/// the pivot.
 double time_to_tilt(double offset, double arm, double gyration_squared, double tilt);
 
-/// rad, that counts as toppled.
+/// Tilt that counts as toppled, rad.
 inline constexpr double kToppled = 0.05;
 
 }  // namespace plumb::harness::thresholds

@@ -15,16 +15,16 @@
 
 namespace plumb::harness::thresholds {
 
-/// DIR/thresholds.jsonl: a line that says where it was measured, then a finding a line as they come.
+/// DIR/thresholds.jsonl: one line for the environment, then one line per finding as they come.
 class Record {
  public:
-  /// Opens or makes the file. Throws `Error` (Io), (Syntax) for a line that is none of a record's, (Value)
-  /// where it was made by another build or on another machine.
+  /// Opens or creates the file. Throws `Error` (Io), (Syntax) for an invalid line, (Value) if it was made by
+  /// another build or on another machine.
   explicit Record(const std::string& folder);
 
   const std::string& path() const { return journal_.path(); }
 
-  /// What is there of `request`, to `digits`.
+  /// Returns the recorded finding of `request`, to `digits`; null if there is none.
   const Finding* find(const Request& request, int digits) const;
   void append(const Finding& finding);
 
@@ -40,7 +40,7 @@ struct Searched {
   bool interrupted = false;
 };
 
-/// Searches for what is not in `record` yet and appends it as it is found.
+/// Searches for the values that are not in `record` yet and appends them as they are found.
 Searched find_missing(std::span<const Request> requests, const FindOptions& options, Record& record,
                       const std::function<void(const Progress&)>& progress);
 

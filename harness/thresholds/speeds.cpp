@@ -6,17 +6,17 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// How fast things may be: stopped by a thin wall, and left alone where nothing is in their way.
+// Speed limits: a bullet stopped by a thin wall, and a free body undisturbed.
 namespace plumb::harness::thresholds {
 namespace {
 
 constexpr double kWall = 0.01, kRadius = 0.05;  // m
 constexpr int kBullets = 8;
 constexpr int kSteps = 60;
-constexpr double kSlowed = 1e-3;  // of the speed, of the way
+constexpr double kSlowed = 1e-3;  // as a fraction of the speed, or of the displacement
 
-// Whether a step happens to end inside the wall is a matter of where the bullet started: eight of them start
-// at even parts of a step's way, of 10 m at most.
+// Fires eight bullets, because a step may happen to end inside the wall. Their starts are spread evenly over
+// the displacement of a step, at most 10 m.
 Trial bullets(double speed, double) {
   Trial trial{.scene = {.name = "stopped_bullet", .gravity = {0, 0}}};
   trial.scene.bodies = {held(block("wall", kWall, 40, {kWall / 2, 0}, 0))};

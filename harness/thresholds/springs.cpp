@@ -6,19 +6,19 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// The stiffest spring that an engine integrates: its natural frequency times the step. A method that is
+// The stiffest spring that an engine integrates, as its natural frequency times the step. A method that is
 // stable for omega h up to some number, h its substep, loses the motion beyond. Source: Hairer, Lubich,
 // Wanner, Geometric Numerical Integration, I.1 and VI; the stability polynomial of the classical Runge-Kutta
 // method on the imaginary axis.
 namespace plumb::harness::thresholds {
 namespace {
 
-// Times the start. Near its limit omega h = 2 (1 - e) a symplectic method swings 1/sqrt(2 e) times as far as
-// it should and stays, which is 100 for e = 5e-5; beyond it grows by sqrt(8 e) a step. Runge-Kutta's
-// amplitude grows by 7.1 e a step beyond 2 sqrt(2) (1 + e): in 4 / resolution steps twice as far as that for
-// half of the resolution.
+// Limit of the amplitude, in units of the initial one. At omega h = 2 (1 - e) a symplectic method's amplitude
+// is bounded by 1/sqrt(2 e), 100 for e = 5e-5. Beyond, it grows by sqrt(8 e) a step. Runge-Kutta's amplitude
+// grows by 7.1 e a step beyond 2 sqrt(2) (1 + e): 4 / resolution steps with e = resolution / 2 give a factor
+// of exp(14.2) = 1.5e6.
 constexpr double kBurst = 1000;
-// m: small, so that no engine's clamp on the way of a step hides the growth.
+// m: small, so that no engine's clamp on a step's displacement hides the growth.
 constexpr double kStart = 1e-3;
 constexpr double kRestLength = 1, kPulled = 0.2;  // m
 
@@ -62,7 +62,7 @@ Trial on_a_joint(double frequency_times_step, double resolution) {
   return trial;
 }
 
-// In omega h, h the substep in which forces are evaluated; none where every spring is stable.
+// Returns the limit of omega h, h the substep in which forces are evaluated; none if every spring is stable.
 std::optional<double> limit_of(const reference::Method& method) {
   if (method.follows_springs) return {};
   switch (method.scheme) {
@@ -73,8 +73,7 @@ std::optional<double> limit_of(const reference::Method& method) {
       return 2 * kStep / method.substep;
     case reference::Scheme::RungeKutta4:
       return 2 * std::numbers::sqrt2 * kStep / method.substep;
-    case reference::Scheme::SoftStep:  // springs that a step cannot follow act by the implicit midpoint
-                                       // method
+    case reference::Scheme::SoftStep:  // springs too stiff for a step use the implicit midpoint method
     case reference::Scheme::Adaptive:
       break;
   }

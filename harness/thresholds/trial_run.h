@@ -5,13 +5,13 @@
 
 namespace plumb::harness::thresholds {
 
-/// Steps `trial` through `backend` to its end or until it breaks. A state that is not finite is a break.
-/// Throws `Error` where the engine does.
+/// Steps `trial` through `backend` to its end or until it breaks. A non-finite state is a break. Throws
+/// `Error` if the engine does.
 Answer run_trial(const Trial& trial, const reference::Backend& backend,
                  const reference::StepSettings& settings);
 
-/// The run of `threshold` at `value` in a process of its own, for at most `seconds`: an error, a crash and a
-/// run without an end are breaks with their reason, and so is an engine that refuses the scene.
+/// Runs `threshold` at `value` in a process of its own, for at most `seconds`. An error, a crash, a timeout
+/// and a refusal by the engine are breaks with their reason.
 Answer run_isolated(const Threshold& threshold, double value, double resolution,
                     const reference::Backend& backend, const reference::StepSettings& settings,
                     double seconds);

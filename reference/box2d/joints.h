@@ -19,8 +19,7 @@ namespace plumb::reference {
 
 inline b2Vec2 to_box2d(Vec2d v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
 
-/// A hinge that turns `body` about something that does not move: what Box2D's gears hold on to. Its index
-/// among the joints.
+/// Returns the index of the hinge between `body` and the world or a static body, which Box2D's gears need.
 inline std::optional<std::size_t> fixed_hinge(const Scene& scene, const std::string& body) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const auto* hinge = std::get_if<RevoluteJoint>(&scene.joints[i]);
@@ -31,7 +30,7 @@ inline std::optional<std::size_t> fixed_hinge(const Scene& scene, const std::str
   return std::nullopt;
 }
 
-/// Why Box2D cannot have a joint; empty where it can.
+/// Gives the reason why Box2D does not support a joint, or empty.
 class Box2dJointLimits {
  public:
   explicit Box2dJointLimits(const Scene& scene) : scene_(scene) {}
@@ -92,7 +91,7 @@ class Box2dJointLimits {
   const Scene& scene_;
 };
 
-/// Makes them. `body_called` gives the b2Body of a name.
+/// Creates the joints. `body_called` returns the b2Body of a name.
 template <class BodyCalled>
 class Box2dJointMaker {
  public:
@@ -194,7 +193,7 @@ class Box2dJointMaker {
 
   b2Joint* make(const MouseJoint& j) {
     auto def = ends<b2MouseJointDef>(j);
-    def.target = def.bodyB->GetWorldPoint(to_box2d(j.anchor_b));  // where it takes hold
+    def.target = def.bodyB->GetWorldPoint(to_box2d(j.anchor_b));  // grabs body b at its anchor
     def.maxForce = narrow(j.max_force);
     soften(def, j.spring);
     auto* mouse = static_cast<b2MouseJoint*>(world_.CreateJoint(&def));
@@ -237,13 +236,13 @@ class Box2dJointMaker {
     def.lowerTranslation = narrow(limits->lower), def.upperTranslation = narrow(limits->upper);
   }
 
-  // The bodies' inverse masses; 0 of what is static.
+  // Returns the bodies' inverse masses and inertias; 0 for static ones.
   static PairMobility<double> pair_of(const b2Body* a, const b2Body* b) {
     const auto inverse = [](float mass) { return mass > 0 ? 1.0 / mass : 0.0; };
     return {inverse(a->GetMass()), inverse(a->GetInertia()), inverse(b->GetMass()), inverse(b->GetInertia())};
   }
 
-  // `mobility`: what the spring's frequency refers to.
+  // `mobility`: inverse of the effective mass that the spring's frequency refers to.
   static void soften(auto& def, const Spring& spring, double mobility) {
     const double omega = 2 * std::numbers::pi * spring.hertz, mass = mobility > 0 ? 1 / mobility : 0;
     def.stiffness = narrow(mass * omega * omega);

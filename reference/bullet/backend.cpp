@@ -1,4 +1,4 @@
-// What Bullet can do and what is chosen for it. Compiled twice: with btScalar = float and = double.
+// Bullet's capabilities, options and effective settings. Compiled twice: with btScalar = float and = double.
 #include "reference/bullet/backend.h"
 
 #include <LinearMath/btTransformUtil.h>
@@ -97,8 +97,8 @@ class BulletBackend final : public Backend {
   }
 
  private:
-  /// Bullet's solver leaves out a row whose J M^-1 J^T is below its epsilon: a joint of heavy bodies is no
-  /// joint.
+  /// Returns the reason if Bullet would ignore `joint`, else empty. Its solver skips rows whose J M^-1 J^T is
+  /// below its epsilon, as between heavy bodies.
   template <class SceneJoint>
   static std::string ignored(const Scene& scene, const SceneJoint& joint) {
     double inverse_mass = 0;
@@ -124,7 +124,7 @@ class BulletBackend final : public Backend {
     out.joint_erp = given.number("joint_erp", 0);
     out.contact_erp = given.number("contact_erp", 0);
     out.speculative = given.toggle("speculative");
-    // The double build, too, takes a step below the roundoff for none at all, but a far smaller one.
+    // The double build also skips steps below its roundoff, but that limit is far smaller.
     if (kFloat) require_float_step(name_, out.substep);
     return out;
   }

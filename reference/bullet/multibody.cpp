@@ -1,5 +1,5 @@
-// A Scene's mechanisms as Bullet's articulated bodies: every tree of hinges that hangs from the world is one,
-// its coordinates are the hinges' angles.
+// A Scene's mechanisms as Bullet's articulated bodies: one for each tree of hinges attached to the world. Its
+// coordinates are the hinges' angles.
 #include "reference/bullet/multibody.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -32,7 +32,7 @@ struct MultibodySettings {
 
 btVector3 to_bullet(Vec2d v) { return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), 0}; }
 
-/// A link's place in Bullet.
+/// Tree and index of a link in Bullet.
 struct Place {
   std::size_t tree = 0;
   int index = 0;
@@ -134,7 +134,7 @@ class MultibodySimulator final : public Simulator {
     }
   }
 
-  /// Of a body of the scene, after `find_states`.
+  /// Returns the state of a body of the scene. Call `find_states` first.
   BodyState state_of(std::size_t body) const {
     if (link_of_[body] >= 0) return states_[static_cast<std::size_t>(link_of_[body])];
     BodyState state = initial_state(scene_.bodies[body]);
@@ -143,7 +143,7 @@ class MultibodySimulator final : public Simulator {
     return state;
   }
 
-  // Forces of the state at the step's start, held for the step: Bullet's stages do not ask again.
+  // Evaluates forces at the step's start and holds them for the step; Bullet's stages do not reevaluate them.
   void apply_forces() {
     if (forces_.empty()) return;
     find_states();
@@ -163,7 +163,7 @@ class MultibodySimulator final : public Simulator {
   MultibodySettings settings_;
   std::vector<Link> links_;
   std::vector<Place> places_;              // by link
-  mutable std::vector<BodyState> states_;  // by link, when last asked for
+  mutable std::vector<BodyState> states_;  // by link, as of the last `find_states`
   std::vector<int> link_of_;               // by body of the scene, or -1
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};

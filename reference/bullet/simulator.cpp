@@ -30,8 +30,8 @@ btTransform to_bullet(Vec2d position, double angle) {
 
 Vec2d from_bullet(const btVector3& v) { return {static_cast<double>(v.x()), static_cast<double>(v.y())}; }
 
-// Bullet's callbacks are global functions: what they need hangs on the shapes and bodies. A compound, which
-// is not a shape of the scene, carries nothing.
+// Bullet's callbacks are global functions, so user pointers give them the scene's shapes and the scene.
+// A compound has none, because it is not a shape of the scene.
 const Shape* shape_of(const btCollisionShape* shape) {
   return static_cast<const Shape*>(shape->getUserPointer());
 }
@@ -62,7 +62,7 @@ bool install_callbacks() {
   return true;
 }
 
-/// Keeps pairs of bodies apart of which no two shapes may touch; `shapes_may_touch` decides within a pair.
+/// Filters out pairs of bodies of which no two shapes may touch; `shapes_may_touch` filters shapes.
 class FilterOfScene final : public btOverlapFilterCallback {
  public:
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
@@ -162,7 +162,7 @@ class BulletSimulator final : public Simulator {
     return out;
   }
 
-  /// A body's shapes as one: its only shape where that is centred, else a compound; null where it has none.
+  /// Returns a body's shapes as one: an empty shape, its only shape if that is centred, or a compound.
   btCollisionShape* add_shapes(const Body& body) {
     if (body.shapes.empty()) {
       shapes_.push_back(std::make_unique<btEmptyShape>());
@@ -186,7 +186,7 @@ class BulletSimulator final : public Simulator {
     const Body& body = scene_.bodies[index];
     const bool dynamic = body.type == BodyType::Dynamic;
     const auto mass = static_cast<btScalar>(dynamic ? body.mass : 0);
-    // Zeros stand for infinite inertia: nothing turns out of the plane.
+    // Bullet reads zeros as infinite inertia, so that nothing rotates out of the plane.
     const btVector3 inertia(0, 0, static_cast<btScalar>(inertia_of(body)));
     auto out = std::make_unique<btRigidBody>(mass, nullptr, add_shapes(body), inertia);
     out->setWorldTransform(to_bullet(body.position, body.angle));
@@ -200,8 +200,7 @@ class BulletSimulator final : public Simulator {
     out->setFlags(0);  // no gyroscopic forces: there are none in the plane
     out->setActivationState(DISABLE_DEACTIVATION);
     out->setCollisionFlags(out->getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
-    // Bullet lets a body approach by what is left of the gap and takes that off the speed that it bounces
-    // with.
+    // Disables speculative contacts: Bullet subtracts their approach speed from the rebound.
     if (!settings_.speculative) out->setContactProcessingThreshold(0);
     out->setUserPointer(&scene_);
     out->setUserIndex(static_cast<int>(index));
@@ -227,7 +226,7 @@ class BulletSimulator final : public Simulator {
   }
 
   void add_joint(const RevoluteJoint& joint) {
-    // A hinge adds two rows against turning out of the plane, which nothing here can: same gaps, more work.
+    // btHingeConstraint would add two rows against rotation out of the plane: same gaps, more work.
     add(std::make_unique<btPoint2PointConstraint>(body_called(joint.body_a), body_called(joint.body_b),
                                                   to_bullet(joint.anchor_a), to_bullet(joint.anchor_b)),
         joint.collide);
@@ -255,7 +254,7 @@ class BulletSimulator final : public Simulator {
             .angular_velocity = static_cast<double>(body.getAngularVelocity().z())};
   }
 
-  // As a user of Bullet does it: forces of the state at the step's start, held for the step.
+  // Evaluates forces at the step's start and holds them for the step, as users of Bullet do.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.substep;
     forces_.apply(
@@ -266,7 +265,7 @@ class BulletSimulator final : public Simulator {
         });
   }
 
-  // Bullet derives a kinematic body's velocity from the pose that it is given for the step's end.
+  // Sets the pose at the step's end, from which Bullet derives a kinematic body's velocity.
   void move_kinematic_bodies() {
     const double end = static_cast<double>(substeps_done_ + 1) * settings_.substep;
     for (const std::size_t index : kinematic_) {
@@ -276,7 +275,7 @@ class BulletSimulator final : public Simulator {
     }
   }
 
-  // Part of the time that is measured: a game that wants whole turns has to count them as well.
+  // Counted in the measured time, because a game that needs whole turns must count them too.
   void count_turns() {
     for (const std::size_t index : turning_) {
       const btMatrix3x3& basis = bodies_[index]->getWorldTransform().getBasis();

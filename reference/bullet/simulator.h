@@ -11,10 +11,10 @@ namespace plumb::reference {
 struct BulletSettings {
   int substeps = 1;
   double substep = 0;        ///< s
-  int iterations = 10;       ///< sweeps over all constraints a substep
-  double joint_erp = 0.2;    ///< share of a joint's gap that a substep corrects
-  double contact_erp = 0.2;  ///< share of a penetration that a substep corrects
-  bool speculative = false;  ///< whether contacts act before shapes touch
+  int iterations = 10;       ///< iterations over all constraints per substep
+  double joint_erp = 0.2;    ///< fraction of a joint's gap that a substep corrects
+  double contact_erp = 0.2;  ///< fraction of a penetration that a substep corrects
+  bool speculative = false;  ///< contacts act before shapes touch
 };
 
 /// `scene` in a btDiscreteDynamicsWorld that is held to the plane z = 0.

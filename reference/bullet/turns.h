@@ -11,14 +11,14 @@ class TurnCounter {
  public:
   TurnCounter() = default;
 
-  /// `angle` in rad is what cosine and sine stand for at the start.
+  /// `angle`, rad: initial angle of `cosine` and `sine`, whole turns included.
   TurnCounter(double angle, double cosine, double sine) : cosine_(cosine), sine_(sine) {
     turns_ = std::round((angle - within_turn()) / (2 * std::numbers::pi));
   }
 
   void update(double cosine, double sine) {
-    // The angle in (-pi, pi] jumps where the upper half-plane is left counter-clockwise through -x, or
-    // entered clockwise.
+    // The angle in (-pi, pi] jumps at -x: when it leaves the upper half-plane counter-clockwise, or enters it
+    // clockwise.
     const bool was_upper = sine_ >= 0, is_upper = sine >= 0;
     const double turned = cosine_ * sine - sine_ * cosine;  // sine of the angle between
     if (was_upper && !is_upper && turned > 0) ++turns_;
@@ -30,7 +30,7 @@ class TurnCounter {
   double angle() const { return within_turn() + 2 * std::numbers::pi * turns_; }  ///< rad
 
  private:
-  // + 0.0 takes the sign from a negative zero, which would stand for -pi.
+  // + 0.0 turns a negative zero into zero; atan2 would return -pi for it.
   double within_turn() const { return std::atan2(sine_ + 0.0, cosine_); }
 
   double cosine_ = 1, sine_ = 0;

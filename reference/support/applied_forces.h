@@ -15,8 +15,8 @@ class AppliedForces {
 
   bool empty() const { return bodies_.empty(); }
 
-  /// For each body that laws act on: reads its state, and hands over the sum of the wrenches on it in those
-  /// states, averaged over [start, end] where laws depend on time.
+  /// Reads the state of each body that laws act on and applies the sum of its wrenches, averaged over
+  /// [start, end] for laws that depend on time.
   template <class StateOf, class Apply>
   void apply(double start, double end, StateOf&& state_of, Apply&& apply) {
     for (const std::size_t body : bodies_) place(body, state_of(body));
@@ -24,7 +24,7 @@ class AppliedForces {
     for (const std::size_t body : bodies_) apply(body, wrenches_[body]);
   }
 
-  /// The same for an engine that asks at each stage of a step from `start` to `end`, here at `time`.
+  /// The same for an engine that evaluates forces at each stage, `time`, of a step from `start` to `end`.
   template <class StateOf, class Apply>
   void apply_at(double time, double start, double end, StateOf&& state_of, Apply&& apply) {
     for (const std::size_t body : bodies_) place(body, state_of(body));

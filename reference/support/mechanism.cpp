@@ -37,7 +37,8 @@ std::vector<std::vector<Hinge>> hinges_by_body(const Scene& scene) {
 
 Vec2d in_world(const Body& body, Vec2d point) { return body.position + rotation_of(body.angle) * point; }
 
-/// Walks the graph of hinges from its roots: bodies held by what does not move, then free ones.
+/// Traverses the graph of hinges from its roots: bodies hinged to the world or to a body that is not dynamic,
+/// then free ones.
 class Walk {
  public:
   explicit Walk(const Scene& scene)
@@ -76,7 +77,7 @@ class Walk {
     }
   }
 
-  /// All that hangs on the link `root`, breadth first.
+  /// Adds the descendants of all links from `root` on, breadth first.
   void grow(std::size_t root) {
     for (std::size_t at = root; at < links.size(); ++at) {
       const std::size_t parent = links[at].body;
@@ -110,7 +111,7 @@ std::string quoted_joint(const Scene& scene, std::size_t joint) {
          plumb::quoted(std::visit([](const auto& j) -> std::string { return j.name; }, scene.joints[joint]));
 }
 
-/// The pairs that a joint keeps from touching, sorted.
+/// Returns the pairs of bodies between which a hinge disables contacts, sorted.
 std::vector<std::pair<std::size_t, std::size_t>> kept_apart(const Scene& scene) {
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (const Joint& joint : scene.joints) {
@@ -123,7 +124,8 @@ std::vector<std::pair<std::size_t, std::size_t>> kept_apart(const Scene& scene) 
   return out;
 }
 
-/// Filters that let nothing through are many in long chains: bodies with the same filter are asked once.
+/// Returns the names of two bodies that may touch, as a reason, else empty. Bodies whose filters let nothing
+/// through, as most in long chains, are left out first.
 std::string what_may_touch(const Scene& scene) {
   const auto apart = kept_apart(scene);
   std::vector<std::size_t> touchable;
@@ -151,7 +153,7 @@ std::string what_may_touch(const Scene& scene) {
   return "";
 }
 
-/// Empty, or the joint that is open at the start, or whose anchors move apart.
+/// Returns the reason if the link's hinge is open at the start or its anchors move apart, else empty.
 std::string ill_fitting(const Scene& scene, const Link& link, const std::vector<Link>& links) {
   constexpr double kRelative = 1e-9;
   const Body& body = scene.bodies[link.body];

@@ -16,14 +16,15 @@ struct Link {
   Vec2d parent_anchor{};   ///< m, in the parent's frame, or in the world
   Vec2d anchor{};          ///< m, in the body's frame
   double angle = 0;        ///< rad, of the body relative to its parent, at the start
-  double angle_speed = 0;  ///< rad/s, likewise
+  double angle_speed = 0;  ///< rad/s, relative to the parent, at the start
 };
 
 /// The scene's dynamic bodies as trees: parents come before their children.
 std::vector<Link> links_of(const Scene& scene);
 
-/// Empty, or why a scene is not a forest of hinges in which nothing touches: a joint of another kind, a loop,
-/// shapes that may touch, a hinge on a moving kinematic body, motion that does not fit the hinges.
+/// Returns the reason why a scene is not a forest of hinges without contacts, or empty. Reasons: another kind
+/// of joint, a loop, shapes that may touch, a hinge on a kinematic body or fixed rotation, motion that breaks
+/// a hinge.
 std::string not_a_mechanism(const Scene& scene);
 
 }  // namespace plumb::reference

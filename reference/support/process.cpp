@@ -25,7 +25,7 @@ namespace {
 using std::chrono::milliseconds;
 using Fault = ProcessError::Fault;
 
-constexpr milliseconds kGrace{500};         ///< to end by itself once its input is closed
+constexpr milliseconds kGrace{500};         ///< for a program to end by itself once its input is closed
 constexpr std::size_t kStderrBytes = 4096;  ///< of stderr that is kept
 constexpr std::size_t kStderrLines = 5;     ///< of stderr that an error shows
 
@@ -33,7 +33,8 @@ struct Pipe {
   FileDescriptor read{}, write{};
 };
 
-/// A pipe that other programs do not inherit, away from the numbers 0 to 2 that a child's pipes are moved to.
+/// Creates a pipe that other programs do not inherit. Avoids the descriptors 0 to 2, which become a child's
+/// standard streams.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return Pipe{};
@@ -48,7 +49,7 @@ void set_nonblocking(const FileDescriptor& file) {
   fcntl(file.get(), F_SETFL, fcntl(file.get(), F_GETFL) | O_NONBLOCK);
 }
 
-/// Where a worker called `name` is: see `make_process_backend`.
+/// Returns the path of the worker called `name`: see `make_process_backend`.
 std::string locate(const std::string& name) {
   namespace fs = std::filesystem;
   if (name.find('/') != std::string::npos) return name;
@@ -84,7 +85,7 @@ int spawn(const std::vector<std::string>& command, const std::array<int, 3>& str
   Pipe problem = make_pipe();
   if (!problem.write.open()) return errno;
 
-  // No handler of the host may run in the child.
+  // Blocks all signals, so that no handler of the host runs in the child.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -109,7 +110,7 @@ int spawn(const std::vector<std::string>& command, const std::array<int, 3>& str
   return number;
 }
 
-/// write(2) to a pipe whose reader may be gone: EPIPE, but no signal, whatever the program's handlers are.
+/// Calls write(2) on a pipe whose reader may be gone: fails with EPIPE and raises no SIGPIPE.
 ssize_t write_without_signal(int file, std::string_view bytes) {
   sigset_t piped, before, pending;
   sigemptyset(&piped);
@@ -212,8 +213,8 @@ Process::Clock::time_point Process::next_deadline() const {
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits_.seconds));
 }
 
-/// Waits until there is output (or, when `writing`, room for input) and takes in what stands on stderr.
-/// False when the deadline passes first.
+/// Waits for output (or, when `writing`, for room for input) and reads stderr meanwhile. Returns false if the
+/// deadline passes first.
 bool Process::wait_for_pipes(Clock::time_point deadline, bool writing) {
   while (true) {
     const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now()).count();
@@ -226,7 +227,7 @@ bool Process::wait_for_pipes(Clock::time_point deadline, bool writing) {
   }
 }
 
-/// Takes in some of what stands on the output; false at its end.
+/// Reads available output. Returns false at its end.
 bool Process::read_output() {
   std::array<char, 65536> chunk;
   const ssize_t count = read(output_.get(), chunk.data(), chunk.size());
@@ -269,7 +270,7 @@ ProcessError Process::ended() {
   return fail(Fault::Crash, std::move(problem));
 }
 
-/// What became of a program that closed a pipe.
+/// Returns, for an error, how a program ended that closed a pipe. Waits at most `kGrace` for its end.
 std::string Process::status_when_ended() {
   if (pid_ > 0 && !wait_for_end(kGrace)) return "it closed its output";
   kill_and_reap();
@@ -280,7 +281,7 @@ std::string Process::status_when_ended() {
   return "it ended with exit code " + std::to_string(WEXITSTATUS(status_));
 }
 
-/// The end of what the program wrote to stderr, as an appendix to a problem.
+/// Returns the last lines of the program's stderr, to be appended to a problem.
 std::string Process::last_words() {
   read_errors();
   std::vector<std::string> lines;
@@ -297,7 +298,7 @@ std::string Process::last_words() {
   return out;
 }
 
-/// Whether the program has ended, or ends within `limit`. It is not reaped.
+/// Waits at most `limit` and returns true if the program has ended. Does not reap it.
 bool Process::wait_for_end(milliseconds limit) const {
   const auto deadline = Clock::now() + limit;
   while (true) {

@@ -32,10 +32,10 @@ class FileDescriptor {
   int number_ = -1;
 };
 
-/// A running program that is talked to in lines, over its standard input and output. Its standard error is
-/// read along and its last lines go into every `ProcessError`. The program runs under a supervisor
-/// (supervisor.h): when it ends, when the owner is done with it, and when the thread that started it dies, it
-/// and whatever it started are gone. A copy that a fork of the owner inherits leaves the program alone.
+/// A running program that exchanges lines over its standard input and output. Its standard error is read too,
+/// and its last lines go into every `ProcessError`. The program runs under a supervisor (supervisor.h), which
+/// kills its descendants when it ends. The program is killed when this owner is destroyed or the thread that
+/// started it dies. A copy inherited through a fork does not affect the program.
 class Process {
  public:
   /// Starts `command`. Throws `ProcessError` (Start).
@@ -46,16 +46,16 @@ class Process {
   /// Closes the program's input, waits a moment for it to end, and kills it if it does not.
   ~Process();
 
-  /// Whether this process started the program, and did not inherit it through a fork.
+  /// Returns true if this process started the program, false if it inherited it through a fork.
   bool owned() const;
 
   /// Sends `line` and a newline; `request` says in errors what is being asked. Throws `ProcessError`.
   void write_line(std::string_view line, const std::string& request);
 
-  /// The next line, of at most `most` bytes, without its newline. Throws `ProcessError`.
+  /// Returns the next line, of at most `most` bytes, without its newline. Throws `ProcessError`.
   std::string read_line(std::size_t most);
 
-  /// An error about the last request, with what the program said on stderr. The program is killed.
+  /// Kills the program and returns an error about the last request, with the last lines of stderr.
   ProcessError fail(ProcessError::Fault fault, std::string problem);
 
  private:
@@ -80,8 +80,8 @@ class Process {
   pid_t pid_ = -1;  ///< of the supervisor
   int status_ = 0;  ///< of wait(2), once reaped
   FileDescriptor input_, output_, errors_;
-  std::string received_;     ///< output that has not been handed out
-  std::size_t scanned_ = 0;  ///< of `received_`: holds no newline
+  std::string received_;     ///< output that `read_line` has not returned yet
+  std::size_t scanned_ = 0;  ///< length of the start of `received_` that has no newline
   std::string stderr_tail_;
 };
 

@@ -44,7 +44,7 @@ class Session {
     try {
       process_.write_line(Json{{"request", "quit"}}.dump(), "quit");
     } catch (const Error&) {
-      // A program that is gone needs no farewell.
+      // Ignored: the program may have ended already.
     }
   }
 
@@ -80,8 +80,8 @@ class Session {
   }
 
  private:
-  /// Hands the next line, of at most `most` bytes, to `take`, and turns whatever is wrong with it into an
-  /// error about this engine.
+  /// Passes the next answer, of at most `most` bytes, to `take`. Throws an error about this engine if the
+  /// answer is invalid or is an error.
   template <class Take>
   void read_answer(std::size_t most, const Take& take) {
     const std::string line = process_.read_line(most);
@@ -195,7 +195,7 @@ class ProcessBackend final : public Backend {
   }
 
  private:
-  /// What the program said about itself, or why it could not.
+  /// The program's answer to "hello", or the reason why there is none.
   struct Known {
     std::optional<protocol::Hello> hello;
     std::string reason;
@@ -215,7 +215,7 @@ class ProcessBackend final : public Backend {
     return *known_;
   }
 
-  /// The engine's hello, for settings that it can take. Throws `Error`.
+  /// Returns the engine's hello. Throws `Error` for settings that it cannot take.
   const protocol::Hello& checked(const StepSettings& settings) const {
     const Known& known = ask_once();
     if (!known.hello) {
@@ -227,12 +227,12 @@ class ProcessBackend final : public Backend {
     return *known.hello;
   }
 
-  /// The answer to a "load" by the program that is kept for questions; it is started again if it has failed.
+  /// Returns the kept program's answer to "load". Restarts the program if it has failed.
   Loaded ask(const Scene& scene, const StepSettings& settings) const {
     const std::string request = load_request(scene, settings);
     const std::lock_guard lock(mutex_);
     if (request == asked_) return answer_;
-    // What a fork inherited is the parent's to talk to.
+    // A session inherited through a fork belongs to the parent, so start another.
     if (!session_ || !session_->owned()) session_ = std::make_unique<Session>(launch_);
     asked_.clear();
     try {
@@ -252,7 +252,7 @@ class ProcessBackend final : public Backend {
 
   Launch launch_;
   std::string summary_;
-  // The program that questions are put to: started once, its last answer kept.
+  // The program that answers "hello" and "load": started once, its last answer cached.
   mutable std::mutex mutex_;
   mutable std::optional<Known> known_;
   mutable std::unique_ptr<Session> session_;

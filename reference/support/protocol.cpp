@@ -56,12 +56,12 @@ int whole_number_or(const Json& message, const char* name, int fallback) {
 /// A setting's value as text: strings as they stand, other values as JSON writes them.
 std::string as_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-/// Most entries of a list that an engine describes itself with: each is printed, checked and searched.
+/// Maximum length of a list in an engine's hello: each entry is printed, checked and searched.
 constexpr std::size_t kMostEntries = 1000;
-/// Most bytes of a text that is shown to people.
+/// Maximum length of a text shown to people, bytes.
 constexpr std::size_t kMostText = 400;
 
-/// The list `name`, empty where there is none. Throws `Malformed` for more than `kMostEntries`.
+/// Returns the list `name`, or an empty one if absent. Throws `Malformed` for more than `kMostEntries`.
 Json list(const Json& message, const char* name) {
   Json out = member<Json>(message, name, Json::array());
   if (out.size() > kMostEntries)
@@ -70,15 +70,15 @@ Json list(const Json& message, const char* name) {
   return out;
 }
 
-/// Returns `text`, which is sent back to the engine one day. Throws `Malformed` for one that cannot be
-/// printed.
+/// Returns `text` unchanged, because it may be sent back to the engine. Throws `Malformed` for control
+/// characters.
 std::string checked_word(const char* name, std::string text) {
   if (has_control_character(text))
     throw Malformed("its \"" + std::string(name) + "\" has control characters: " + plumb::quoted(text));
   return text;
 }
 
-/// The text `name` for people, as it can be printed.
+/// Returns the text `name` in printable form, at most `kMostText` bytes of it.
 std::string text_for_people(const Json& message, const char* name) {
   return printable(member<std::string>(message, name, ""), kMostText);
 }
@@ -132,8 +132,8 @@ Json method_json(const Method& method, int substeps) {
   return out;
 }
 
-/// Whether arrays and objects of a text lie in each other deeper than scenes and messages do. What handles
-/// JSON calls itself for each level, so that a line of brackets would use up the stack.
+/// Returns true if arrays and objects nest deeper than in any scene or message (64 levels). The JSON library
+/// recurses for each level, so a line of brackets would overflow the stack.
 bool nests_too_deep(std::string_view text) {
   constexpr int kDeepest = 64;
   int depth = 0;
@@ -158,7 +158,7 @@ bool nests_too_deep(std::string_view text) {
 int whole_number(const Json& message, const char* name) {
   const auto number = member<Json>(message, name);
   const double value = number.is_number() ? number.get<double>() : 0.5;
-  // Beyond an int a conversion would have no defined result.
+  // Converting a number beyond the range of int is undefined behaviour.
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
     throw Malformed("its \"" + std::string(name) + "\" is " + printable(number.dump()));
   return static_cast<int>(value);
@@ -372,7 +372,7 @@ Json parse_line(std::string_view line) {
   try {
     out = Json::parse(line);
   } catch (const Json::exception&) {
-    // What Python, JavaScript or C print for a number that JSON has no words for.
+    // Spellings in Python, JavaScript and C of numbers that JSON cannot express.
     for (const char* word : {"NaN", "nan", "Infinity", "inf"}) {
       if (line.starts_with('{') && line.find(word) != line.npos) throw NotFinite("a state is not finite");
     }
@@ -414,7 +414,7 @@ bool some_may_touch(const std::vector<Shape>& a, const std::vector<Shape>& b) {
   return false;
 }
 
-/// Two bodies that the scene lets touch; nothing where no contact can ever be.
+/// Returns the names of two bodies that may touch, or nullopt if no contact is possible.
 std::optional<std::pair<std::string, std::string>> pair_that_may_touch(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {

@@ -15,22 +15,22 @@ namespace plumb::reference::protocol {
 
 inline constexpr int kVersion = 1;
 
-/// The kind of an error that stands for a state that is not finite.
+/// Kind of the error that reports a state that is not finite.
 inline constexpr const char* kDiverged = "diverged";
 
-/// How an engine steps while one of its options has this value.
+/// An engine's method and substeps for one value of an option.
 struct OptionMethod {
   std::string option, value;
   Method method;
   int substeps = 1;
 };
 
-/// What an engine says about itself in answer to "hello".
+/// The answer to "hello": an engine's description of itself.
 struct Hello {
   std::string name, version, precision, summary;
   Method method;
-  int substeps = 1;                     ///< that it makes of a step when none are asked for
-  std::vector<OptionMethod> methods{};  ///< where an option changes them
+  int substeps = 1;                     ///< per step, if the settings give none
+  std::vector<OptionMethod> methods{};  ///< for option values that change the method
   std::vector<std::string> shapes, joints, forces, features;
   std::vector<Option> options;
   std::vector<Knob> knobs{};
@@ -42,7 +42,7 @@ struct Loaded {
   Settings effective{};
 };
 
-/// A message that is JSON, but not what is due; `what()` says how.
+/// A message other than the expected one; `what()` gives the reason.
 class Malformed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -65,7 +65,8 @@ Loaded loaded_from_json(const nlohmann::ordered_json& message);
 /// Reads the line after the last sample: the engine's ns. Throws `Malformed`.
 double done_from_json(const nlohmann::ordered_json& message);
 
-/// An error as its parts; a bare string is read as a problem. Throws `NotFinite` for one of kind `kDiverged`.
+/// Converts an error to and from its parts; a bare string is read as a problem. Throws `NotFinite` for one of
+/// kind `kDiverged`.
 nlohmann::ordered_json to_json(const Error& error);
 Error error_from_json(const nlohmann::ordered_json& message, const std::string& engine);
 
@@ -75,14 +76,14 @@ std::string sample_line(double time, std::span<const BodyState> states);
 /// Reads a sample of `out.size()` bodies and returns its time. Throws `Malformed` or `NotFinite`.
 double sample_from_json(const nlohmann::ordered_json& message, std::span<BodyState> out);
 
-/// The member `name`, which must be there and be a whole number that an int holds. Throws `Malformed`.
+/// Returns the member `name`. Throws `Malformed` unless it is a whole number that fits into an int.
 int whole_number(const nlohmann::ordered_json& message, const char* name);
 
-/// A line as a JSON object. Throws `Malformed`, also for one that nests deeper than any message, or
-/// `NotFinite` for JSON with a NaN or an infinity in it.
+/// Parses a line into a JSON object. Throws `Malformed`, also if it nests too deep, or `NotFinite` if it has
+/// a NaN or an infinity.
 nlohmann::ordered_json parse_line(std::string_view line);
 
-/// Empty, or what `scene` needs that an engine with these capabilities does not have.
+/// Returns a feature that `scene` needs and the engine of `hello` lacks, or empty.
 std::string missing_capability(const Scene& scene, const Hello& hello);
 
 }  // namespace plumb::reference::protocol

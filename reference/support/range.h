@@ -6,8 +6,8 @@
 
 namespace plumb::reference {
 
-/// What an engine's arithmetic can hold: quantities up to `largest`, whose squares must not overflow, and
-/// masses, inertias and sizes from `smallest`, whose inverses must not.
+/// Range of an engine's arithmetic. Squares of quantities up to `largest` must not overflow, nor inverses of
+/// masses, inertias and sizes from `smallest`.
 struct Range {
   double smallest;
   double largest;
@@ -18,7 +18,8 @@ struct Range {
 inline constexpr Range kFloatRange{.smallest = 1e-18, .largest = 1e18};
 inline constexpr Range kDoubleRange{.smallest = 1e-150, .largest = 1e150};
 
-/// Empty, or which of the scene's quantities is out of `range`, for `Backend::unsupported`.
+/// Returns the reason if one of the scene's quantities is out of `range`, else empty. For
+/// `Backend::unsupported`.
 std::string out_of_range(const Scene& scene, const Range& range);
 
 }  // namespace plumb::reference

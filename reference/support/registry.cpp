@@ -12,7 +12,7 @@
 namespace plumb::reference {
 namespace {
 
-// A function's static, because registrations run before main in an order that no one knows.
+// Function-local static, because registrations run before main in an unspecified order.
 std::vector<std::unique_ptr<Backend>>& registry() {
   static std::vector<std::unique_ptr<Backend>> all;
   return all;

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-/// Lines to the host. Many samples share a write, but none waits for long.
+/// Writes lines to the host. Answers are flushed at once, samples if the last flush is over 100 ms old.
 class Output {
  public:
   explicit Output(std::FILE* file) : file_(file) {}
@@ -53,7 +53,7 @@ class Server {
  public:
   Server(const Backend& backend, std::FILE* answers) : backend_(backend), output_(answers) {}
 
-  /// False when the host is done.
+  /// Handles one request. Returns false for "quit".
   bool handle(const std::string& line) {
     const Json message = protocol::parse_line(line);
     const std::string request = message.value("request", "");
@@ -86,7 +86,7 @@ class Server {
     out.method = backend_.method({.dt = 1});
     out.substeps = substeps_of(out.method);
     out.methods = methods_by_option(out.method);
-    // What a scene can hold; the backend's own `unsupported` decides scene by scene.
+    // Lists all that a scene can hold; the backend's `unsupported` decides for each scene.
     out.shapes.assign(kGeometryNames.begin(), kGeometryNames.end());
     out.joints.assign(kJointNames.begin(), kJointNames.end());
     out.forces.assign(kForceNames.begin(), kForceNames.end());
@@ -96,7 +96,7 @@ class Server {
     output_.answer(protocol::to_json(out));
   }
 
-  /// Of a step of 1 s.
+  /// Returns the number of substeps; `method` is for a step of 1 s.
   static int substeps_of(const Method& method) { return static_cast<int>(std::lround(1 / method.substep)); }
 
   /// The options' values that a sweep tries and that change the method.
@@ -153,7 +153,7 @@ class Server {
 }  // namespace
 
 int serve(const Backend& backend) {
-  // Engines print banners: their standard output becomes the standard error, the protocol keeps a copy.
+  // Engines print banners, so standard output is redirected to standard error; the protocol uses a duplicate.
   std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
   dup2(STDERR_FILENO, STDOUT_FILENO);
   const int code = serve(backend, std::cin, answers);

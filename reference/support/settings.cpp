@@ -14,7 +14,7 @@ namespace {
 
 std::string subject_of(std::string_view engine) { return "engine '" + std::string(engine) + "'"; }
 
-/// Whether all of `text` is a number, which goes to `out` then.
+/// Parses `text` into `out`. Returns true if all of it is a number.
 bool parse(const std::string& text, int& out) {
   const char* end = text.data() + text.size();
   const auto [rest, problem] = std::from_chars(text.data(), end, out);
@@ -25,7 +25,7 @@ bool parse(const std::string& text, double& out) {
 #ifdef __cpp_lib_to_chars
   const auto [rest, problem] = std::from_chars(text.data(), end, out);
   return problem == std::errc{} && rest == end;
-#else  // the library of the page for browsers has it for integers alone
+#else  // the browser build's library has from_chars for integers only
   char* rest = nullptr;
   out = std::strtod(text.c_str(), &rest);
   return rest != text.c_str() && rest == end;
@@ -69,7 +69,7 @@ void check_steps(std::string_view engine, const StepSettings& settings, Stepping
 }
 
 void require_float_step(std::string_view engine, double substep) {
-  // Bullet takes a step below the roundoff for none at all.
+  // Bullet skips a step below its roundoff.
   constexpr double kLeast = 2 * static_cast<double>(std::numeric_limits<float>::epsilon());
   if (substep >= kLeast && substep <= std::numeric_limits<float>::max()) return;
   throw Error(Error::Kind::Value, subject_of(engine), "dt / substeps", shortest(substep),

@@ -9,7 +9,7 @@
 #include "engine/scene/scene.h"
 #include "reference/backend.h"
 
-/// What adapters share in reading settings and in printing the ones that they chose.
+/// Helpers of all adapters that read settings and print those in effect.
 namespace plumb::reference {
 
 /// Which of `StepSettings`' members an engine takes.
@@ -22,13 +22,13 @@ void check_steps(std::string_view engine, const StepSettings& settings, Stepping
 /// Throws `Error` (Value) for a substep, in s, that an engine whose time is in float would round away.
 void require_float_step(std::string_view engine, double substep);
 
-/// The combine rule's name in scene files.
+/// Returns the combine rule's name in scene files.
 std::string_view name_of(Combine rule);
 
 /// Appends the scene's contact rules, which every adapter equalises.
 void append_contact_rules(Settings& out, const Scene& scene);
 
-/// An engine's options as they were given, or their fallbacks. Every reader throws `Error` (Value) with the
+/// Reads an engine's options as given, or their fallbacks. Every reader throws `Error` (Value) with the
 /// option's name, what was given and what it must be.
 class OptionReader {
  public:
@@ -40,7 +40,7 @@ class OptionReader {
   double number(std::string_view name, double least) const;
   bool toggle(std::string_view name) const;  ///< "on" or "off"
 
-  /// The value that goes with the name given.
+  /// Returns the value for the given name.
   template <class Value>
   Value choice(std::string_view name, const std::vector<std::pair<std::string, Value>>& choices) const {
     const std::string given = text(name);

@@ -19,7 +19,7 @@ namespace {
   _exit(127);
 }
 
-/// Becomes the program.
+/// Executes the program in this process.
 [[noreturn]] void become(const Command& command, pid_t supervisor, int problem) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -35,14 +35,14 @@ namespace {
   refuse(problem, errno);
 }
 
-/// Closes all files that were inherited: pipes end when those who use them do.
+/// Closes all inherited files, so that pipes end when the processes that use them do.
 void close_files() {
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (int file = 0; file < 3; ++file) dup2(nothing, file);
   close_range(3, ~0U, 0);
 }
 
-/// Waits until `child` has ended, which stays unreaped, or SIGTERM asks for its end.
+/// Waits until `child` has ended or SIGTERM arrives. Reaps other children, but not `child`.
 void wait_for_end(pid_t child, const sigset_t& signals) {
   while (true) {
     siginfo_t ended{};
@@ -55,8 +55,8 @@ void wait_for_end(pid_t child, const sigset_t& signals) {
   }
 }
 
-/// Kills `number` where it is a child of this process: what /proc lists has other numbers where it was
-/// mounted for another namespace of processes. Returns 1 where it is one and has ended or now ends, else 0.
+/// Kills `number` if it is a child of this process: /proc lists other numbers if mounted for another PID
+/// namespace. Returns 1 if it is a child that has ended or now ends, else 0.
 int kill_child(pid_t number) {
   siginfo_t state{};
   if (waitid(P_PID, static_cast<id_t>(number), &state, WEXITED | WNOHANG | WNOWAIT) != 0) return 0;
@@ -85,8 +85,8 @@ int kill_children() {
   return killed;
 }
 
-/// Ends whatever was started by a program that has ended: as it is the reaper of orphans, all of that comes
-/// here.
+/// Kills and reaps all descendants of the program that has ended: as the subreaper, this process inherits
+/// them.
 void end_orphans() {
   while (true) {
     const int killed = kill_children();
@@ -111,7 +111,7 @@ void end_orphans() {
 }  // namespace
 
 void supervise(const Command& command, pid_t host, int problem) {
-  // Away from the host's group, so that an interrupt from the keyboard reaches the host alone.
+  // Leaves the host's group, so that an interrupt from the keyboard reaches only the host.
   setpgid(0, 0);
   signal(SIGCHLD, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
@@ -123,7 +123,7 @@ void supervise(const Command& command, pid_t host, int problem) {
   const pid_t child = fork();
   if (child < 0) refuse(problem, errno);
   if (child == 0) become(command, self, problem);
-  setpgid(child, child);  // the child does the same; whoever comes first
+  setpgid(child, child);  // the child does the same; either may run first
   close_files();
 
   sigset_t signals;
@@ -131,9 +131,9 @@ void supervise(const Command& command, pid_t host, int problem) {
   sigaddset(&signals, SIGCHLD);
   sigaddset(&signals, SIGTERM);
   wait_for_end(child, signals);
-  // The group before its leader is reaped: until then no other group can have its number.
+  // Kills the group before reaping its leader: until then no other group can get its number.
   kill(-child, SIGKILL);
-  kill(child, SIGKILL);  // where it left its group
+  kill(child, SIGKILL);  // it may have left its group
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -13,8 +13,8 @@ struct Command {
   std::array<int, 3> streams{};  ///< become its stdin, stdout and stderr
 };
 
-/// Runs a program and sees to it that nothing of it is left: to be called in a process that was just forked,
-/// with all signals blocked, and never returns. It ends when the program does, when it gets SIGTERM, or when
+/// Runs a program and kills all that is left of it at the end. Never returns. Call it in a newly forked
+/// process, with all signals blocked. It ends when the program does, when it gets SIGTERM, or when
 /// the thread of `host` that forked it is gone, even by SIGKILL. By then it has killed the program, its
 /// process group and whatever else was started from there, in sessions of their own too. It ends as the
 /// program did: with the same exit code, or by the same signal. An errno that kept the program from starting

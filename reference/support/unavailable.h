@@ -7,7 +7,7 @@
 
 namespace plumb::reference {
 
-/// An adapter called `name` that is listed with the `reason` why it cannot run, and runs nothing.
+/// Placeholder for an adapter called `name` that cannot run; it is listed with the `reason`.
 std::unique_ptr<Backend> make_unavailable(std::string name, std::string reason);
 
 }  // namespace plumb::reference

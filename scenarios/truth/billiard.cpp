@@ -20,8 +20,8 @@ struct Impact {
   std::size_t first = 0, second = 0;
 };
 
-/// How long until the two touch; infinite when they miss. Pairs that have just bounced move apart, and after
-/// a plastic impact they do not approach but for rounding.
+/// Returns the time until the two touch; infinite if they miss. After an impact a pair separates; after a
+/// plastic one rounding alone makes it approach, which does not count.
 Real time_to_touch(const Disc& first, const Disc& second) {
   constexpr Real kNever = std::numeric_limits<Real>::infinity();
   const Vec2<Real> d = second.motion.position - first.motion.position;
@@ -29,7 +29,7 @@ Real time_to_touch(const Disc& first, const Disc& second) {
   const Real reach = first.radius + second.radius;
   const Real approach = -dot(d, u), speed_squared = length_squared(u);
   if (approach <= 0) return kNever;
-  // The miss distance b: b^2 = |d x u|^2/|u|^2.
+  // b is the miss distance times |u|.
   const Real b = cross(d, u), discriminant = reach * reach * speed_squared - b * b;
   if (discriminant <= 0) return kNever;
   if (approach <= 1e-15L * std::sqrt(length_squared(d) * speed_squared)) return kNever;

@@ -16,16 +16,16 @@ struct Disc {
 
 /// Frictionless discs without gravity: straight lines between pair impacts, so closed forms joined at the
 /// impacts. An impact comes at the earlier root of |d + t u| = r1 + r2 (d, u the relative position and
-/// velocity), and exchanges the impulse (1 + e) m1 m2/(m1 + m2) |u.n| along the normal n of that very moment.
-/// Nothing turns a disc. Impacts at one moment are taken pair by pair, in the discs' order.
+/// velocity). It exchanges the impulse (1 + e) m1 m2/(m1 + m2) |u.n| along the normal n of that moment. Discs
+/// get no spin. Simultaneous impacts are resolved pair by pair, in the discs' order.
 class Billiard {
  public:
-  /// Throws `Error` (Run) when the impacts have no end.
+  /// Throws `Error` (Run) if the number of impacts is unbounded.
   Billiard(std::vector<Disc> discs, Real restitution, Real duration);
 
   const std::vector<double>& impacts() const { return impacts_; }
 
-  /// The motions at `time`; at an impact, those after it.
+  /// Returns the motions at `time`; at an impact, those after it.
   std::vector<Motion> at(Real time) const;
 
  private:
@@ -37,7 +37,7 @@ class Billiard {
   std::vector<double> impacts_;
 };
 
-/// The truth of `scene`, whose bodies are discs of one restitution, without friction or gravity.
+/// Returns the truth of `scene`, whose bodies are discs of one restitution, without friction or gravity.
 Truth billiard_truth(const Scene& scene, double duration);
 
 }  // namespace plumb::scenarios::truth

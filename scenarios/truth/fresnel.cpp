@@ -9,7 +9,7 @@ namespace {
 
 constexpr Real kPi = boost::math::constants::pi<Real>();
 
-/// Both components of a (cos, sin) turned by b's: complex multiplication.
+/// Rotates a (cos, sin) by the angle of b: complex multiplication.
 Vec2<Real> times(Vec2<Real> a, Vec2<Real> b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 
 }  // namespace

@@ -8,18 +8,18 @@
 #include "engine/math/vec2.h"
 #include "engine/scene/scene.h"
 
-/// What truths share. They compute in extended precision where the platform has it and round once, at the
+/// Common parts of truths. They compute in extended precision if the platform has it, and round once, at the
 /// end.
 namespace plumb::scenarios::truth {
 
 #ifdef __wasm__
-// There it is a quad in software, a hundred times slower; a page has use for a few digits.
+// There long double is a software quad, a hundred times slower, and a page needs only a few digits.
 using Real = double;
 #else
 using Real = long double;
 #endif
 
-/// How a body moves, in SI units.
+/// Motion of a body, in SI units.
 struct Motion {
   Vec2<Real> position{};
   Real angle = 0;
@@ -27,7 +27,7 @@ struct Motion {
   Real angular_velocity = 0;
 };
 
-/// What changes it.
+/// Accelerations of a body, in SI units.
 struct Acceleration {
   Vec2<Real> linear{};
   Real angular = 0;
@@ -48,7 +48,7 @@ inline BodyState rounded(const Motion& motion) {
           static_cast<double>(motion.angular_velocity)};
 }
 
-/// Motion under a constant acceleration: x + v t + a t^2/2.
+/// Returns the motion under a constant acceleration: x + v t + a t^2/2.
 inline Motion coast(const Motion& from, Real time, const Acceleration& acceleration = {}) {
   const auto& [linear, angular] = acceleration;
   return {from.position + time * from.velocity + time * time / 2 * linear,
@@ -56,16 +56,16 @@ inline Motion coast(const Motion& from, Real time, const Acceleration& accelerat
           from.velocity + time * linear, from.angular_velocity + time * angular};
 }
 
-/// (cos, sin) of `angle`.
+/// Returns (cos, sin) of `angle`.
 inline Vec2<Real> direction(Real angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// `v` turned by `angle`.
+/// Rotates `v` by `angle`.
 inline Vec2<Real> turned(Real angle, Vec2<Real> v) {
   const auto [c, s] = direction(angle);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// A shape that gives a body its looks and its inertia, and touches nothing.
+/// Returns a shape that gives a body its appearance and inertia, but collides with nothing.
 inline Shape untouchable(const Geometry& geometry) {
   return {.geometry = geometry, .friction = 0, .filter = {.mask = 0}};
 }

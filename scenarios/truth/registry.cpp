@@ -11,7 +11,7 @@
 namespace plumb::scenarios {
 namespace {
 
-constexpr int kLargestSize = 1'000'000;  // a scene of a GB; more would use up the memory of most machines
+constexpr int kLargestSize = 1'000'000;  // a scene of a GB; more would exhaust the memory of most machines
 
 /// Filled before main() by the scenario files, in whatever order they are linked.
 struct Registry {
@@ -42,7 +42,7 @@ std::optional<Error> problem_with(const Scenario& scenario) {
   return std::nullopt;
 }
 
-/// "name", "name/variant", "name[size]" or "name/variant[size]", taken apart.
+/// Parts of "name", "name/variant", "name[size]" or "name/variant[size]".
 struct Selector {
   std::string name;
   std::optional<std::string> variant;

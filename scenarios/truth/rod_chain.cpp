@@ -32,7 +32,7 @@ void RodChain::rates(const State& state, State& rate) const {
 
   // M = L D L^T with L_ij = p_i . w_j, p_i = n_i u_i, for i > j. From M_ij = p_i . u_j follow
   // d_j = M_jj - p_j . S_j p_j and w_j = (u_j - S_j p_j)/d_j, where S_j = sum over k < j of d_k w_k w_k^T.
-  // Forward substitution goes along: y_i = b_i - p_i . z_i, z_i = sum over j < i of w_j y_j.
+  // The same loop does the forward substitution: y_i = b_i - p_i . z_i, z_i = sum over j < i of w_j y_j.
   std::vector<Vec2<Real>> w(n);
   std::vector<Real> d(n), y(n);
   Real s_xx = 0, s_xy = 0, s_yy = 0;
@@ -48,7 +48,7 @@ void RodChain::rates(const State& state, State& rate) const {
     y[j] = b[j] - dot(p, z);
     z += y[j] * w[j];
   }
-  // Backward: a_j = y_j/d_j - w_j . v_j, v_j = sum over i > j of p_i a_i.
+  // Back substitution: a_j = y_j/d_j - w_j . v_j, v_j = sum over i > j of p_i a_i.
   Vec2<Real> v{};
   for (std::size_t j = n; j-- > 0;) {
     rate[n + j] = y[j] / d[j] - dot(w[j], v);

@@ -8,10 +8,9 @@
 
 namespace plumb::scenarios::truth {
 
-/// A chain of equal uniform rods (their mass cancels) that hangs from a fixed pivot at the origin, in minimal
-/// coordinates: one absolute angle a rod, from +x, so that the joints are part of the description and cannot
-/// open. Lagrange's equations with n_k = N - k - 1/2 (rods beyond rod k and half of itself, k from 0), in
-/// units of m L^2:
+/// A chain of equal uniform rods (their mass cancels) that hangs from a fixed pivot at the origin. It uses
+/// minimal coordinates, one absolute angle per rod, from +x, so that joints cannot open. Lagrange's equations
+/// with n_k = N - k - 1/2 (rods beyond rod k and half of itself, k from 0), in units of m L^2:
 ///
 ///   sum_j M_ij a_j = - sum_j n_max(i,j) sin(t_i - t_j) w_j^2 - (g/L) n_i cos t_i,
 ///   M_ij = n_max(i,j) cos(t_i - t_j) for i != j,  M_ii = n_i - 1/6   (I = m L^2/12).
@@ -26,11 +25,11 @@ class RodChain {
 
   std::size_t count() const { return count_; }
 
-  /// d(state)/dt in O(N): with u = (cos t, sin t), M_ij = n_i u_i . u_j below the diagonal has rank two, and
-  /// so has its Cholesky factor.
+  /// Computes d(state)/dt in O(N): with u = (cos t, sin t), M_ij = n_i u_i . u_j below the diagonal has rank
+  /// two, and so has its Cholesky factor.
   void rates(const State& state, State& rate) const;
 
-  /// Where the rods' centres are, and how they move.
+  /// Returns the positions and velocities of the rods' centres.
   std::vector<Motion> motions(const State& state) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using reference::Scheme;
 
-/// A recurrence that goes on from where the last question left it.
+/// A recurrence that continues from the step last asked for.
 struct Recurrence {
   std::vector<Motion> start;
   Law law;

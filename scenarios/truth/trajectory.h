@@ -9,21 +9,21 @@
 
 namespace plumb::scenarios::truth {
 
-/// The solution of y' = f(y) from y(0), at any time, to the last few digits of extended precision: the
-/// eighth-order Runge-Kutta-Fehlberg method of Boost.Odeint with error control. States are kept on a grid as
-/// they are asked for, and a time in between is reached from the grid point before it, so questions may come
-/// in any order and have one answer. Not thread-safe.
+/// Solution of y' = f(y) from y(0), at any time, to the last few digits of extended precision: the
+/// eighth-order Runge-Kutta-Fehlberg method of Boost.Odeint with error control. States are kept on a grid,
+/// extended when needed; a time in between is integrated from the grid point before it. So the answer does
+/// not depend on the order of the calls. Not thread-safe.
 class Trajectory {
  public:
   using State = std::vector<Real>;
   using Law = std::function<void(const State& y, State& rate)>;
 
-  /// 1e-15, or what `Real` can tell from rounding.
+  /// 1e-15, or the smallest tolerance above the rounding errors of `Real`.
   static constexpr Real kTolerance =
       std::max<Real>(Real(1e-15L), 4096 * std::numeric_limits<Real>::epsilon());
 
-  /// `spacing` of the grid, s; also the largest step. `tolerance` is the local error a step, relative to
-  /// 1 + |y|.
+  /// `spacing` of the grid, s; also the largest step. `tolerance` is the local error per step, relative to 1
+  /// + |y|.
   Trajectory(State start, Law law, Real spacing, Real tolerance = kTolerance);
 
   State at(Real time) const;

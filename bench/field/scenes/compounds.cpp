@@ -1,5 +1,5 @@
-// 20 columns of 150 bodies, each of two triangles that overlap, fall into a silo of 281 static boxes, 80 m
-// wide and 100 m high, above a segment for what gets out. 3001 bodies.
+// 20 columns of 150 bodies, each of two overlapping triangles, fall into a silo of 281 static boxes, 80 m
+// wide and 100 m high. A segment below catches escaping bodies. 3001 bodies.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {

@@ -1,4 +1,4 @@
-// Nothing at all: what a step costs before it does anything.
+// An empty world: the overhead of a step.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {

@@ -1,5 +1,5 @@
-// 1000 x 1000 squares of 1 m at a pitch of 3 m fall from rest side by side and never touch: free_10000, a
-// hundred times.
+// 1000 x 1000 squares of 1 m at a pitch of 3 m fall from rest side by side and never touch: free_10000 times
+// a hundred.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {

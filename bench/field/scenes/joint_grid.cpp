@@ -1,5 +1,5 @@
 // A curtain of 100 x 100 discs of radius 0.4 m at a pitch of 1 m, each joined to its neighbours by revolute
-// joints half-way; 7 in the middle of the top row are static. Nothing may touch. 10000 bodies, 19800 joints.
+// joints half-way; 7 in the middle of the top row are static. Nothing collides. 10000 bodies, 19800 joints.
 #include <vector>
 
 #include "bench/field/scenes/scenes.h"

@@ -1,5 +1,5 @@
-// 8000 pentagons of radius 0.25 m fall into a yard of 261 static boxes, 160 m wide and 50 m high, in which a
-// kinematic pusher of 4 x 8 m goes to and fro: x = 60 sin(0.2 t) m. 8002 bodies.
+// 8000 pentagons of radius 0.25 m fall into a yard of 261 static boxes, 160 m wide and 50 m high. A kinematic
+// pusher of 4 x 8 m moves to and fro: x = 60 sin(0.2 t) m. 8002 bodies.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ std::vector<ShapeDefinition> yard() {
   return out;
 }
 
-/// Five points of a circle, a golden angle apart.
+/// Returns five points of a circle, a golden angle apart.
 Polygon pentagon(double radius) {
   std::vector<double> angles;
   for (int i = 0; i < 5; ++i)

@@ -4,11 +4,11 @@
 
 namespace plumb::field {
 
-/// A pyramid of squares that stand edge to edge, `base` in the lowest row; returns its top.
-/// `left` is the left edge of the lowest row, `ground` the height below it, `half` half a square's side, m.
+/// Adds a pyramid of squares that stand edge to edge, `base` in the lowest row; returns its top. `left` is
+/// the left edge of the lowest row, `ground` the height below it, `half` half a square's side, m.
 Top add_pyramid(Builder& world, int base, double half, double left, double ground);
 
-/// One pyramid on a box 200 m wide whose upper side lies at height 0.
+/// Builds one pyramid on a box 200 m wide with its upper side at height 0.
 Built pyramid_on_ground(Builder& world, int base);
 
 }  // namespace plumb::field

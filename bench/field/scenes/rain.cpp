@@ -1,7 +1,6 @@
-// It rains people: every 8 steps a column of 5 groups of 5 ragdolls, one group a storey, until 40 columns
-// have come; then the oldest column is taken away and comes anew. 5 storeys of 501 static boxes of 0.5 m, 45
-// m apart. With all columns 11001 bodies and 10000 joints. What it costs to make and remove bodies is part of
-// the time.
+// Every 8 steps a column of 5 groups of 5 ragdolls falls, one group per storey, until there are 40 columns;
+// then the oldest column is removed and created anew. 5 storeys of 501 static boxes of 0.5 m, 45 m apart.
+// With all columns 11001 bodies and 10000 joints. The time includes creating and destroying bodies.
 #include <array>
 #include <memory>
 
@@ -24,7 +23,7 @@ struct Extent {
 constexpr Extent kFull{.storeys = 5, .columns = 40, .boxes = 500, .delay = 8};
 constexpr Extent kQuick{.storeys = 2, .columns = 6, .boxes = 100, .delay = 8};
 
-/// Who fell where, so that a column can be taken away.
+/// Bodies of each column, so that a column can be removed.
 class Rain {
  public:
   explicit Rain(const Extent& extent) : extent_(extent), bodies_(extent.columns) {}

@@ -4,8 +4,8 @@
 
 namespace plumb::field {
 
-// One file a scene. The parameters follow the field's own benchmark of the same name (Box2D v3,
-// shared/benchmarks.c, August 2026), so that figures can be compared with what others publish.
+// One file per scene. The parameters follow the field's own benchmark of the same name (Box2D v3,
+// shared/benchmarks.c, August 2026), so that figures can be compared with published ones.
 Scene large_pyramid();
 Scene many_pyramids();
 Scene joint_grid();
@@ -17,14 +17,14 @@ Scene rain();
 Scene junkyard();
 Scene compounds();
 
-// Small worlds, in which what a step costs besides its work shows.
+// Small worlds, which show the overhead of a step.
 Scene empty();
 Scene one_free_body();
 Scene chain_10();
 Scene pyramid_10();
 Scene free_10000();
 
-// What a million bodies cost, beside ten thousand.
+// A million bodies, to compare with ten thousand.
 Scene free_1000000();
 Scene stacks_10000();
 Scene stacks_1000000();

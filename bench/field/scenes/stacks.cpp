@@ -1,6 +1,5 @@
-// Stacks of four 1 m squares, 2 m apart, on static grounds of ten stacks, storey above
-// storey. With --sleeping they are
-// asleep by the time the clock starts.
+// Stacks of four 1 m squares, 2 m apart, on static grounds of ten stacks, one storey above the other. With
+// --sleeping they are asleep when the measurement starts.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {
@@ -8,9 +7,9 @@ namespace {
 
 constexpr int kHigh = 4;
 
-constexpr int kPiece = 10;  // stacks on one piece of ground
+constexpr int kPiece = 10;  // stacks per piece of ground
 
-// `columns` stacks on each of `storeys` grounds; columns are a multiple of kPiece.
+// Builds `columns` stacks on each of `storeys` grounds; columns are a multiple of kPiece.
 Built build(Builder& world, int storeys, int columns) {
   constexpr double kPitch = 2, kStorey = 8;  // m
   const ShapeDefinition square{.geometry = box(0.5, 0.5)},

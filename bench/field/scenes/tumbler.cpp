@@ -1,5 +1,5 @@
-// A hollow square, 20 m wide inside and 1 m thick, driven at 25 degrees a second by a motor, with 45 x 45
-// squares of 0.25 m at a pitch of 0.4 m in it. 2027 bodies, 1 joint.
+// A hollow square, 20 m wide inside and 1 m thick, driven at 25 degrees a second by a motor. Inside are 45 x
+// 45 squares of 0.25 m at a pitch of 0.4 m. 2027 bodies, 1 joint.
 #include <numbers>
 
 #include "bench/field/scenes/scenes.h"

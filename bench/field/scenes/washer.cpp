@@ -1,7 +1,7 @@
-// A kinematic drum of 36 quadrilaterals between radius 16 and 18 m and 4 blades down to 14 m turns at 25
-// degrees a second and creeps by (1, -2) mm/s; 90 x 90 squares of 0.2 m at a pitch of 0.21 m in it. 8102
-// bodies, one of which is static and empty. Without continuous collision, which would take more than half of
-// Box2D 2.4's time.
+// A kinematic drum of 36 quadrilaterals between radius 16 and 18 m and 4 blades down to 14 m. It turns at 25
+// degrees a second and moves by (1, -2) mm/s. It contains 90 x 90 squares of 0.2 m at a pitch of 0.21 m. 8102
+// bodies, one of which is static and empty. Without continuous collision, because that would take more than
+// half of Box2D 2.4's time.
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr int kSegments = 36;
 constexpr double kPitchAngle = 2 * std::numbers::pi / kSegments;
 
-/// Between two radii and two angles, counter-clockwise.
+/// Returns the quadrilateral between two radii and two angles, counter-clockwise.
 Polygon sector(double inner, double outer, double from, double to) {
   const Vec2d a{std::cos(from), std::sin(from)}, b{std::cos(to), std::sin(to)};
   return {{inner * a, outer * a, outer * b, inner * b}, 0};
@@ -21,7 +21,7 @@ Polygon sector(double inner, double outer, double from, double to) {
 
 std::vector<ShapeDefinition> drum() {
   std::vector<ShapeDefinition> out;
-  const double seam = 0.1 * kPitchAngle;  // neighbours overlap by this on either side
+  const double seam = 0.1 * kPitchAngle;  // overlap with a neighbour on either side
   for (int i = 0; i < kSegments; ++i) {
     const double from = i * kPitchAngle, to = from + kPitchAngle;
     out.push_back({.geometry = sector(16, 18, from - seam, to + seam)});

@@ -25,15 +25,16 @@ const Scene& scene_called(const std::string& name) {
 
 std::string name_of(const testing::TestParamInfo<const Engine*>& tested) { return tested.param->name; }
 
-/// What an engine is to count, for all that it makes of one thing.
+/// Returns the counts that an engine must report, including shapes that it splits or joints that it cannot
+/// have.
 Counts expected_of(const Engine& engine, const Inventory& inventory) {
   Counts out = inventory.counts();
-  if (engine.name == "box2d") {  // a capsule is three
+  if (engine.name == "box2d") {  // Box2D makes three shapes of a capsule
     for (const BodyRecord& body : inventory.bodies)
       for (const ShapeDefinition& shape : body.shapes)
         out.shapes += body.alive && std::holds_alternative<Capsule>(shape.geometry) ? 2 : 0;
   }
-  if (engine.name != "box2d") {  // the others take no joint that has nothing to move
+  if (engine.name != "box2d") {  // the others reject joints without a dynamic body
     for (const JointRecord& joint : inventory.joints)
       out.joints -= joint.alive && inventory.bodies[joint.a].definition.type != BodyType::Dynamic &&
                     inventory.bodies[joint.b].definition.type != BodyType::Dynamic;
@@ -72,7 +73,7 @@ TEST_P(OnEngine, EverySceneRunsAndHoldsWhatWasAskedFor) {
   }
 }
 
-// Every scheme is within one step's fall of g t^2/2: semi-implicit ones by half a step either way.
+// Every scheme is within one step's fall of g t^2/2: semi-implicit ones by half a step, to either side.
 TEST_P(OnEngine, FallsAsFarAsGravityHasIt) {
   Stage stage({});
   stage.builder.create_body({.position = {1, 2}}, ShapeDefinition{.geometry = box(0.5, 0.5)});
@@ -114,7 +115,7 @@ TEST_P(OnEngine, LimitsHoldAndReferenceAnglesCount) {
   stage.builder.create_revolute(wall, arm,
                                 {.anchor_b = {-1, 0}, .reference_angle = -0.2, .limits = Limits{-0.1, 0.5}});
   stage.builder.step(300);
-  // It hangs from the lower limit: -0.1 from the reference angle.
+  // The arm hangs at the lower limit: -0.1 from the reference angle.
   EXPECT_NEAR(stage.builder.states()[arm].angle, -0.3, 0.05);
 }
 
@@ -127,7 +128,7 @@ TEST_P(OnEngine, DampingSlowsByItsRate) {
                             disc);
   stage.builder.step(60);
   const BodyState state = stage.builder.states()[0];
-  // exp(-c t); first-order schemes miss by about c^2 t dt / 2.
+  // exp(-c t); first-order schemes miss by approximately c^2 t dt / 2.
   EXPECT_NEAR(state.velocity.x, std::exp(-0.5), 0.003);
   EXPECT_NEAR(state.spin, std::exp(-1.0), 0.006);
 }
@@ -140,7 +141,7 @@ TEST_P(OnEngine, TheCentreOfMassIsThatOfTheShapes) {
                             ShapeDefinition{.geometry = box(0.5, 0.5, {1, 0})});
   stage.builder.step(60);
   const BodyState state = stage.builder.states()[0];
-  // It turns about (1, 0).
+  // The body turns about (1, 0).
   EXPECT_NEAR(state.angle, 1, 0.01);
   EXPECT_NEAR(state.position.x, 1 - std::cos(state.angle), 1e-3);
   EXPECT_NEAR(state.position.y, -std::sin(state.angle), 1e-3);
@@ -158,7 +159,7 @@ TEST_P(OnEngine, ShapesRestOnEachOther) {
                               ShapeDefinition{.geometry = kinds[i]});
   stage.builder.step(120);
   const auto states = stage.builder.states();
-  // Box2D's skins hold polygons up by 1.5 cm.
+  // Box2D's skins keep polygons apart by 1.5 cm.
   for (std::size_t i = 1; i < states.size(); ++i) EXPECT_NEAR(states[i].position.y, 0.3, 0.016) << i;
   EXPECT_GE(stage.world->counts().touching, 5);
 }
@@ -196,7 +197,7 @@ TEST_P(OnEngine, BodiesThatAreRemovedAreGone) {
   EXPECT_EQ(stage.builder.states()[ground].position.y, -1);
 }
 
-// A box of friction 0.2 slides on ground of 0.8: it loses 0.4 g.
+// A box of friction 0.2 slides on ground of 0.8: it decelerates by 0.4 g.
 TEST_P(OnEngine, FrictionIsTheGeometricMean) {
   Stage stage({});
   stage.builder.create_body({.type = BodyType::Static, .position = {0, -1}},
@@ -207,7 +208,7 @@ TEST_P(OnEngine, FrictionIsTheGeometricMean) {
   EXPECT_NEAR(stage.builder.states()[1].velocity.x, 5 - 0.4 * 10 * 0.5, 0.1);
 }
 
-// A disc falls 1.25 m onto the ground, which takes 0.5 s, and comes back with half of 5 m/s.
+// A disc falls 1.25 m onto the ground, which takes 0.5 s, and rebounds with half of 5 m/s.
 TEST_P(OnEngine, EqualRestitutionsAreThatOfThePair) {
   Stage stage({});
   stage.builder.create_body({.type = BodyType::Static, .position = {0, -1}},
@@ -222,7 +223,7 @@ TEST_P(OnEngine, EqualRestitutionsAreThatOfThePair) {
   EXPECT_NEAR(fastest, 2.5, 0.25);  // a step of gravity either way at the impact
 }
 
-// A disc of inertia pi/2 kg m^2 runs down against a torque of pi/4 N m: 0.5 rad/s in a second.
+// A motor brakes a disc of inertia pi/2 kg m^2 with at most pi/4 N m: 0.5 rad/s in a second.
 TEST_P(OnEngine, AMotorPullsWithNoMoreThanItsTorque) {
   WorldSettings settings;
   settings.gravity = {0, 0};
@@ -252,7 +253,7 @@ TEST_P(OnEngine, SpringsPullTowardsTheReferenceAngle) {
     EXPECT_EQ(highest, 0);
     return;
   }
-  // It overshoots by exp(-pi z / sqrt(1 - z^2)) of the way at a damping ratio z, and comes to rest.
+  // At a damping ratio z it overshoots by exp(-pi z / sqrt(1 - z^2)) of the displacement, and comes to rest.
   EXPECT_NEAR(highest, 0.4 * (1 + std::exp(-std::numbers::pi * 0.2 / std::sqrt(0.96))), 0.03);
   EXPECT_NEAR(stage.builder.states()[disc].angle, 0.4, 1e-3);
 }

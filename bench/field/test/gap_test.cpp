@@ -65,8 +65,8 @@ TEST(Gap, SegmentsCrossTouchAndRunAlongALine) {
   EXPECT_NEAR(gap_of(level, at(0, 0), Circle{{}, 0.1}, at(0.5, 0)), -0.1, kRounding);
 }
 
-// The signed gap of convex sets is the largest separation over all directions (Boyd, Vandenberghe 2004, 8.2);
-// found by looking in many directions and then ever closer around the best.
+// Returns the signed gap of convex sets as the largest separation over all directions (Boyd, Vandenberghe
+// 2004, 8.2). Tries many directions, then refines around the best.
 long double gap_by_directions(const PlacedShape& a, const PlacedShape& b) {
   const auto separation = [&](long double angle) {
     const long double x = std::cos(angle), y = std::sin(angle);

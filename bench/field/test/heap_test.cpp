@@ -9,7 +9,7 @@
 namespace plumb::field {
 namespace {
 
-/// Keeps the compiler from taking a pair of allocation and release away.
+/// Keeps the compiler from removing a pair of allocation and release.
 void* seen(void* block) {
   asm volatile("" : "+r"(block) : : "memory");
   return block;

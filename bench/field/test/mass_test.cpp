@@ -28,7 +28,7 @@ TEST(MassOf, BoxAndDisc) {
 
 TEST(MassOf, StaticThingsHaveNone) { EXPECT_EQ(mass_of_one(Segment{{0, 0}, {1, 0}}).mass, 0); }
 
-/// By counting the midpoints of a fine grid that lie inside.
+/// Computes the mass by counting the midpoints of a fine grid that lie inside.
 MassProperties by_counting(const Geometry& geometry) {
   const PlacedShape shape = place(geometry, {});
   const int n = 1200;
@@ -53,7 +53,7 @@ TEST(MassOf, RoundedShapesAgreeWithCounting) {
         Geometry(Polygon{{{-0.8, -0.5}, {0.6, -0.6}, {0.1, 0.7}}, 0.25}),
         Geometry(Polygon{{{-0.8, -0.5}, {0.6, -0.6}, {0.1, 0.7}}, 0})}) {
     const MassProperties exact = mass_of_one(geometry), counted = by_counting(geometry);
-    // Cells that the edge cuts err by half a cell each way; most of it cancels.
+    // Cells cut by the edge err by half a cell each way; most of it cancels.
     EXPECT_NEAR(exact.mass, counted.mass, 4e-4);
     EXPECT_NEAR(exact.centre.x, counted.centre.x, 3e-4);
     EXPECT_NEAR(exact.centre.y, counted.centre.y, 3e-4);

@@ -25,7 +25,8 @@ const Scene& scene_called(const std::string& name) {
   return *std::ranges::find_if(scenes(), [&](const Scene& scene) { return scene.name == name; });
 }
 
-/// Every dynamic body sinks by 1 mm a step, and every step takes three blocks of 1000 bytes and keeps one.
+/// Every dynamic body sinks by 1 mm a step, and every step allocates three blocks of 1000 bytes and keeps
+/// one.
 class SinkingWorld final : public StillWorld {
  public:
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
@@ -64,7 +65,7 @@ TEST(Measure, FindsWhatIsKnownOfASinkingPyramid) {
       plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { m = done.front(); },
       [] { return false; });
   ASSERT_EQ(m.failure, "");
-  // 100 steps before the clock starts and 20 measured; looked at after every second of these.
+  // 100 steps of warm-up and 20 measured ones, sampled after every second of these.
   EXPECT_NEAR(*m.height, (9.5 - 0.12) / 9.5, 1e-12);
   EXPECT_NEAR(m.quality.deepest, 0.12, 1e-12);
   EXPECT_NEAR(m.quality.mean_depth, 0.111, 1e-12);
@@ -76,7 +77,7 @@ TEST(Measure, FindsWhatIsKnownOfASinkingPyramid) {
   EXPECT_EQ(m.allocations_a_step, heap::counted() ? 3 : 0);
 }
 
-// What the books themselves take is not the engine's.
+// Allocations of the builder's own records do not count for the engine.
 TEST(Builder, MetersTheEngineAlone) {
   if (!heap::counted()) GTEST_SKIP() << "a sanitizer's allocator is in charge";
   SinkingWorld world;
@@ -113,7 +114,7 @@ TEST(Measure, TakesTurnsAndFillsEveryFigure) {
   }
 }
 
-/// A world in which the second step goes wrong.
+/// A world that fails in the second step.
 class BrokenWorld : public StillWorld {
  public:
   enum class Way { Dies, Throws, IsNotFinite };

@@ -20,7 +20,7 @@ struct Ran {
   std::string out;
 };
 
-/// The program with `arguments`; stderr goes where `errors` says.
+/// Runs the program with `arguments`; `errors` redirects stderr.
 Ran run(const std::string& arguments, const std::string& errors = "2>&1") {
   Ran out;
   FILE* pipe = popen((std::string(PLUMB_FIELD_PROGRAM) + " " + arguments + " " + errors).c_str(), "r");

@@ -93,7 +93,7 @@ TEST(MeasureQuality, SeesWhatIsNotFinite) {
 
 TEST(MeasureSpeed, IsThatOfTheCentreOfMass) {
   Bench bench;
-  // The frame's origin stays; the centre, 1 m from it, goes round.
+  // The frame's origin stays; the centre, 1 m from it, moves on a circle.
   bench.builder.create_body({}, {.geometry = box(0.5, 0.5, {1, 0})});
   bench.builder.create_body({.position = {9, 0}}, kSquare);
   bench.builder.create_body({.type = BodyType::Kinematic, .position = {20, 0}}, kSquare);

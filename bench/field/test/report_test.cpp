@@ -34,7 +34,7 @@ TEST(Table, SpeedIsTheYardsticksMedianOverTheEngines) {
   EXPECT_THAT(text, Not(HasSubstr("~")));
   EXPECT_THAT(text, HasSubstr("-20/+80 %"));
   EXPECT_THAT(text, HasSubstr("5.00 ms"));
-  EXPECT_THAT(text, HasSubstr("500000"));  // ns a body
+  EXPECT_THAT(text, HasSubstr("500000"));  // ns per body
 }
 
 TEST(Table, SaysWhereNoiseHidesWhichIsFaster) {

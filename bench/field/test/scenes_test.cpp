@@ -13,7 +13,7 @@ const Scene& scene_called(const std::string& name) {
   return *std::ranges::find_if(scenes(), [&](const Scene& scene) { return scene.name == name; });
 }
 
-/// A scene in full size, as it was built and after `steps` calls between steps.
+/// A full-size scene, after `steps` calls between steps.
 struct FullScene {
   StillWorld world;
   Builder builder{world};
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"joint_grid", 10000, 10000, 19800}, Expected{"tumbler", 2027, 2029, 1},
                     Expected{"smash", 9601, 9601, 0}, Expected{"spinner", 6078, 360 + 6077, 1},
                     Expected{"washer", 8102, 8140, 0}, Expected{"rain", 1, 2505, 0},
-                    // The 40th column has come at step 312; then one goes for each that comes.
+                    // The 40th column is created at step 312; then each new column replaces one.
                     Expected{"rain", 11001, 2505 + 13000, 10000, 313},
                     Expected{"rain", 11001, 2505 + 13000, 10000, 400}, Expected{"junkyard", 8002, 8262, 0},
                     Expected{"compounds", 3001, 6282, 0}, Expected{"empty", 0, 0, 0},
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(tested.param.name) + "_" + std::to_string(tested.param.steps);
     });
 
-// On the ground, on two below each, side by side.
+// Neighbours: the ground, two below each square, and those side by side.
 TEST(Scenes, PyramidsHaveTheFieldsContacts) {
   EXPECT_EQ(FullScene("large_pyramid").quality().near, 100 + 2 * 4950 + 4950);
   EXPECT_EQ(FullScene("many_pyramids").quality().near, 400 * (10 + 2 * 45 + 45));

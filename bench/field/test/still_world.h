@@ -6,7 +6,7 @@
 
 namespace plumb::field {
 
-/// A world in which nothing happens: bodies stay where they are put. What is measured in it is known
+/// A world in which nothing moves: bodies stay at their initial pose, so that all figures are known
 /// beforehand.
 class StillWorld : public FieldWorld {
  public:

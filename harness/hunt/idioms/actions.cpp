@@ -21,14 +21,14 @@ int any_dynamic(Draft& draft) {
   }
 }
 
-// s by which most things on a floor have come to rest, and sleep.
+// Returns a step by which most bodies on a floor have come to rest and sleep, and makes the run outlast it.
 int later(Draft& draft) {
   const double time = draft.random.within(0.1, 4);
   draft.out.steps = std::max(draft.out.steps, static_cast<int>((time + 1.5) / draft.out.dt));
   return static_cast<int>(time / draft.out.dt);
 }
 
-// A static or dynamic body is put where a body has come to rest.
+// Puts a body of any type onto bodies at rest.
 void intruder(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -43,7 +43,7 @@ void intruder(Draft& draft) {
   if (random.chance(0.5)) {
     const int made = draft.box(at, size, size, 0, type);
     draft.out.actions.push_back({.kind = ActionKind::Create, .step = step, .target = draft.name(made)});
-  } else {  // it comes from elsewhere
+  } else {  // an existing body is teleported there
     const int made = draft.box({at.x + 30 * s, at.y + 40 * s}, size, size, 0,
                                type == BodyType::Dynamic ? BodyType::Static : type);
     draft.out.actions.push_back(
@@ -52,7 +52,7 @@ void intruder(Draft& draft) {
   draft.out.expectations.clear();
 }
 
-// A body is taken away.
+// Removes a body.
 void removal(Draft& draft) {
   const int at = draft.random.whole(0, draft.count() - 1);
   draft.out.sleeping = draft.out.sleeping || draft.random.chance(0.7);
@@ -60,7 +60,7 @@ void removal(Draft& draft) {
   draft.out.expectations.clear();
 }
 
-// A joint is taken away.
+// Removes a joint.
 void release(Draft& draft) {
   const Joint& joint = draft.random.pick(draft.out.scene.joints);
   draft.out.sleeping = draft.out.sleeping || draft.random.chance(0.5);
@@ -70,7 +70,7 @@ void release(Draft& draft) {
   draft.out.expectations.clear();
 }
 
-// A sensor where bodies are; it, a visitor, or neither is destroyed.
+// Adds a sensor near a body; later destroys the sensor, its shape or the body, or moves the sensor.
 void sensor(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -103,7 +103,7 @@ void sensor(Draft& draft) {
   }
 }
 
-// A body becomes static, and perhaps dynamic again; or meets nothing, and perhaps everything again.
+// Makes a body static, and perhaps dynamic again; or disables its collisions, and perhaps enables them again.
 void change(Draft& draft) {
   Random& random = draft.random;
   const int at = any_dynamic(draft), step = later(draft);

@@ -6,7 +6,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// The middle of a body's shapes, in its frame.
+// Returns the centroid of a body's first `count` shapes, in its frame.
 Vec2d middle_of(const Body& body, std::size_t count) {
   double area = 0;
   Vec2d moment{};
@@ -17,8 +17,8 @@ Vec2d middle_of(const Body& body, std::size_t count) {
   return (1 / area) * moment;
 }
 
-// A kinematic body whose shapes lie beside the point that it turns about: a bat, a windmill's sail, a door
-// that is driven. Later it may be let go, and lose a shape: what is left goes on as it moved.
+// Builds a kinematic body with shapes beside its axis of rotation: a bat, a windmill's sail, a driven door.
+// It may become dynamic later, and lose a shape; the rest must keep its motion.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, dt = draft.out.dt;
@@ -38,7 +38,7 @@ void build(Draft& draft) {
   body.velocity = {random.within(-3, 3) * s, random.within(-3, 3) * s};
   const double rate = body.angular_velocity = random.within(-6, 6);
   const int steps = draft.out.steps = std::min(draft.out.steps, static_cast<int>(1.5 / dt));
-  // Where the body's centre is, and how it moves, each time that it becomes another.
+  // Position and velocity of the body's centre of mass, updated each time that the centre changes.
   Vec2d centre{}, place = body.position, velocity = body.velocity;
   double time = 0;
   const auto go_on = [&](double until) {
@@ -67,7 +67,7 @@ void build(Draft& draft) {
   for (const Quantity quantity : {Quantity::X, Quantity::Y}) {
     Expectation& moves = draft.expect("moves_on", made, quantity);
     const double right = quantity == Quantity::X ? place.x : place.y;
-    // Half a hundredth of what it turns and goes, or 5 % of what a step turns it by.
+    // Half a hundredth of the rotation and displacement, or 5 % of a step's rotation.
     const double slack = (0.005 + 0.05 * std::abs(rate) * dt) * (2 + std::abs(rate)) * s;
     moves.lower = right - slack, moves.upper = right + slack;
     moves.from = moves.to = steps * dt;

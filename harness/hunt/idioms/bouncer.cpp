@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Bodies that come down turned and spinning, and bounce.
+// Builds bodies that fall rotated and spinning, and bounce.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;

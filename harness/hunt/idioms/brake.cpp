@@ -7,14 +7,14 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A flat box that slides over a level floor until friction has stopped it.
+// Builds a flat box that slides over a level floor until friction has stopped it.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, dt = draft.out.dt, g = -draft.out.scene.gravity.y;
   draft.friction = random.pick({0.1, 0.3, 0.6, 1.0}), draft.restitution = 0;
   for (int i = 0; i < draft.count(); ++i)
     for (Shape& shape : draft.body(i).shapes) shape.friction = draft.friction, shape.restitution = 0;
-  // So flat that it does not tip: friction acts at half its height.
+  // Flat enough not to tip: friction acts at half its height.
   const double width = random.within(1, 2) * s, height = random.within(0.1, 0.4) * width;
   const double braking = draft.friction * g;  // m/s^2
   const double room = 0.8 * draft.site.width - 2 * width, from = -0.4 * draft.site.width + width;
@@ -26,7 +26,7 @@ void build(Draft& draft) {
   const int steps = draft.out.steps = std::max(2, static_cast<int>(time / dt));
   const double t = std::min(steps * dt, stops);
   const double right = from + speed * t - 0.5 * braking * t * t;
-  // A step late or early, and what a landing from nowhere may take.
+  // A step late or early, and the loss of a landing from slightly above the floor.
   const double slack = 0.02 * way + speed * dt + 0.002 * s;
   Expectation& brakes = draft.expect("brakes", made, Quantity::X);
   brakes.lower = right - slack, brakes.upper = right + slack;

@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A small fast disc is shot at what was built.
+// Shoots a small fast disc at the structure.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, speed = random.ladder(5, 300) * s;

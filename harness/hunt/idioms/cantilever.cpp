@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Boards in a row, each held by the one before: a diving board, a shelf, a rope of welds or hinges.
+// Builds boards in a row, each held by the one before: a diving board, a shelf, a rope of welds or hinges.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, length = random.pick({0.5, 1.0, 2.0}) * s;

@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Links in a row that hang from a point, lie between two, or fly.
+// Builds links in a row that hang from a point, lie between two, or fly.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, length = random.pick({0.3, 0.5, 1.0}) * s, ratio = random.ladder(0.01, 100);

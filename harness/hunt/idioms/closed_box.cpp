@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Four walls, of any thickness; their corners overlap.
+// Builds four walls, of any thickness; their corners overlap.
 void build(Draft& draft) {
   const double s = draft.size, inside = draft.random.pick({6, 10, 20}) * s;
   const double wall = draft.random.ladder(0.02, 2) * s, half = inside / 2, long_way = inside + 2 * wall;

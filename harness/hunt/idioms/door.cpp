@@ -3,7 +3,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A pair of bodies, or one and the frame, with a joint of any kind between them that holds an angle.
+// Builds two bodies, or one and the fixed frame, with a joint between them of any kind that constrains an
+// angle.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;

@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Everything lies elsewhere.
+// Moves everything far from the origin.
 void build(Draft& draft) {
   const double side = draft.random.pick({-1.0, 1.0});
   const Vec2d by{side * draft.random.ladder(100, 1e5), draft.random.within(-100, 100)};

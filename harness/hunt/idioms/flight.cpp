@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// One to three bodies that fly free, spin, and may meet in pairs.
+// Builds one to three bodies in free flight that spin and may collide in pairs.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;

@@ -7,14 +7,14 @@ void take_floor(Draft& draft, double width) {
   draft.site = {.kind = Site::Kind::Floor, .width = width, .friction = draft.friction};
 }
 
-// A slab of twice the size thick.
+// Builds a slab with a thickness of twice the size.
 void slab(Draft& draft) {
   const double s = draft.size, width = draft.random.pick({40, 100, 400}) * s;
   draft.box({0, -s}, width, 2 * s, 0, BodyType::Static);
   take_floor(draft, width);
 }
 
-// Boxes, or polygons that are boxes, side by side.
+// Builds boxes, or polygons that are boxes, side by side.
 void tiles(Draft& draft) {
   const double s = draft.size, side = draft.random.pick({0.5, 1.0, 1.0, 2.0}) * s;
   const int half = draft.random.whole(4, 8);
@@ -54,7 +54,7 @@ void chain(Draft& draft) {
   take_floor(draft, 2 * side * half);
 }
 
-// A lift or a train of its own speed beneath everything.
+// Builds a lift or a train, whose motion is prescribed, beneath everything.
 void platform(Draft& draft) {
   const double s = draft.size;
   const int made = draft.box({0, -s}, 200 * s, 2 * s, 0, BodyType::Kinematic);

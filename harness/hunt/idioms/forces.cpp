@@ -12,7 +12,7 @@ struct Owed {
   double right, slack;
 };
 
-// e^-x from its series, with the same bits everywhere.
+// Returns e^-x from its series, with the same bits everywhere.
 double decay(double x) {
   const double part = x / 64;
   double term = 1, sum = 1;
@@ -21,7 +21,8 @@ double decay(double x) {
   return 1 / sum;
 }
 
-// One body under one force whose motion is known: a rocket, a propeller, a parachute, a planet, a shaker.
+// Builds one body under one force with a known motion: a rocket, a propeller, a parachute, a planet, a
+// shaker.
 void build(Draft& draft) {
   Random& random = draft.random;
   Case& out = draft.out;
@@ -41,7 +42,7 @@ void build(Draft& draft) {
   const double push = random.within(1, 20) * s;  // m/s^2
   std::vector<Owed> owed;
   switch (random.whole(0, 6)) {
-    case 0: {  // a thrust along a body that spins
+    case 0: {  // a thrust along a spinning body
       const double rate = body.angular_velocity = random.pick({-1.0, 1.0}) * random.within(0.5, 6);
       out.scene.forces.push_back(
           PointForce{.body = body.name, .force = {mass * push, 0}, .frame = Frame::Body});
@@ -81,7 +82,7 @@ void build(Draft& draft) {
       owed = {{Quantity::VelocityY, speed / (1 + share * speed * t), speed * (0.01 + share * speed * dt)}};
       break;
     }
-    case 4: {  // a force that swings
+    case 4: {  // a sinusoidal force
       const double rate = random.within(1, 6), phase = random.within(0, 6);
       out.scene.forces.push_back(SinusoidalForce{
           .body = body.name, .amplitude = {0, mass * push}, .angular_frequency = rate, .phase = phase});

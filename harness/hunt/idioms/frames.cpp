@@ -4,7 +4,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Gives each body another frame: turned by any angle, or by whole turns. The world it stands for is the same.
+// Gives each body another frame: rotated by any angle, or by whole turns. The scene in the world is the same.
 void build(Draft& draft) {
   Random& random = draft.random;
   std::vector<double> turns;

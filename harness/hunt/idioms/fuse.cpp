@@ -10,7 +10,7 @@ void bear(Joint& joint, double force, double torque) {
   joint.break_force = force, joint.break_torque = torque;
 }
 
-// A load on a joint that is said to bear a little more or less than its weight.
+// Builds a load on a joint that breaks somewhat above or below the load's weight or torque.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -39,7 +39,7 @@ void build(Draft& draft) {
     owed.lower = y - 0.1 * length, owed.upper = y + 0.1 * length;
     owed.why = "a joint bears what it is said to bear";
   } else {
-    owed.upper = y - 0.25 * g * time * time;  // half of the fall: it may take a while to let go
+    owed.upper = y - 0.25 * g * time * time;  // half of the fall: breaking may take a while
     owed.from = owed.to = time;
     owed.why = "a joint lets go of what is more than it is said to bear";
   }

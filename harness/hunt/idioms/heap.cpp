@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Things of all kinds that fall on the ground and come to rest there, needles among them.
+// Builds bodies of all kinds, needles among them, that fall on the ground and come to rest there.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -14,7 +14,7 @@ void build(Draft& draft) {
     const double size = random.ladder(0.3, 1.6) * s, angle = random.within(-3, 3);
     const Vec2d at{random.within(-2, 2) * s, (1 + 1.2 * i) * s};
     if (random.chance(0.3)) {
-      // Corners that lie nearly on a line.
+      // Nearly collinear corners.
       Polygon needle;
       const double thin = random.ladder(1e-4, 1e-1) * size;
       const int corners = random.whole(3, 5);

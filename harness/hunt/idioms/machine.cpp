@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A crank that drives something: gears, a piston, a pulley, a ratchet, another crank.
+// Builds a crank that drives a mechanism: gears, a piston, a pulley, a ratchet, another crank.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -21,7 +21,7 @@ void build(Draft& draft) {
     draft.revolute(a, b, middle + Vec2d{crank, 0});
     draft.revolute(b, c, middle + Vec2d{crank + rod, 0});
     draft.prismatic(-1, c, middle + Vec2d{crank + rod, 0}, {1, 0});
-  } else if (kind == 1) {  // wheels that mesh
+  } else if (kind == 1) {  // meshing wheels
     const int wheels = random.whole(2, 4);
     double x = 0, before = 0;
     for (int i = 0; i < wheels; ++i) {
@@ -45,7 +45,7 @@ void build(Draft& draft) {
     auto& rope = draft.join<PulleyJoint>(a, b);
     rope.ground_a = middle + Vec2d{-s, 0}, rope.ground_b = middle + Vec2d{s, 0};
     rope.ratio = random.pick({1.0, 1.0, 2.0, 0.5});
-  } else if (kind == 3) {  // two cranks that a rod couples; equal ones pass through a line
+  } else if (kind == 3) {  // two cranks coupled by a rod; equal ones pass through a line
     const double crank = random.within(0.3, 0.8) * s, apart = random.within(1.5, 3) * s;
     const double angle = random.within(-3, 3), rate = random.within(-8, 8);
     const Vec2d along = direction(angle), next = middle + Vec2d{apart, 0};
@@ -59,7 +59,7 @@ void build(Draft& draft) {
     for (const int each : {a, b})
       draft.body(each).angular_velocity = rate, draft.body(each).velocity = cross(rate, 0.5 * crank * along);
     draft.body(rod).velocity = cross(rate, crank * along);
-  } else {  // a wheel that turns one way
+  } else {  // a wheel that turns one way only
     const int wheel = draft.disc(middle, 0.5 * s);
     draft.revolute(-1, wheel, middle);
     draft.join<RatchetJoint>(-1, wheel).tooth = random.pick({0.1, -0.1, 0.5});

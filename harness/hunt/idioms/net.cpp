@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Discs in a grid, each held to its neighbours: cloth, jelly.
+// Builds discs in a grid, each joined to its neighbours: cloth, jelly.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, step = random.pick({0.4, 0.6}) * s;

@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// One body is heavier or lighter than it looks, or has an inertia of its own.
+// Makes one body heavier or lighter than its size suggests, or sets its inertia.
 void build(Draft& draft) {
   Random& random = draft.random;
   const int first = random.whole(0, draft.count() - 1);

@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A body that flies past the corner, or end, of a static one, with room to spare.
+// Builds a body that flies past the corner, or end, of a static one without touching it.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, side = random.within(0.2, 1) * s, gap = random.ladder(0.05, 0.3) * s;

@@ -5,15 +5,16 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Of a triangle about its centroid, for a mass of 1: the sum of the squared sides over 36 (Routh).
+// Returns a triangle's inertia about its centroid, for a mass of 1: the sum of the squared sides over 36
+// (Routh).
 double inertia_of_triangle(const std::vector<Vec2d>& p) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) sum += dot(p[(i + 1) % 3] - p[i], p[(i + 1) % 3] - p[i]);
   return sum / 36;
 }
 
-// A body on a hinge that swings under its weight, with the period of a physical pendulum. Its inertia is
-// worked out here, apart from what scenes say.
+// Builds a body on a hinge that swings under its weight, with the period of a physical pendulum. Its inertia
+// is computed here, independently of the engine.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, away = random.within(0.05, 0.3);
@@ -53,7 +54,7 @@ void build(Draft& draft) {
   draft.out.steps = step;
   Expectation& swings = draft.expect("swings_with_its_period", made, Quantity::Angle);
   const double right = away * direction(6.283185307179586 * step * draft.out.dt / period).x;
-  // A step of first order keeps the phase to a step, and the width to half of what it turns in one.
+  // A first-order method keeps the phase to a step, and the amplitude to half the rotation of a step.
   const double slack = away * (0.03 + rate * draft.out.dt);
   swings.lower = right - slack, swings.upper = right + slack;
   swings.from = step * draft.out.dt, swings.to = swings.from;

@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A pyramid, an arch, a house of cards or a bridge on two posts, that stands.
+// Builds a pyramid, an arch, a house of cards or a bridge on two posts, at rest.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, width = s, height = random.pick({0.5, 1.0}) * s;

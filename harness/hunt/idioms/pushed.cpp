@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Something that was built is pushed or spun.
+// Pushes and spins one body.
 void build(Draft& draft) {
   Random& random = draft.random;
   const int first = random.whole(0, draft.count() - 1);

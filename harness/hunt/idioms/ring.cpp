@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Links in a closed loop of hinges, welds or rods, at rest or turning: a necklace, a tyre, a track.
+// Builds links in a closed loop of hinges, welds or rods, at rest or turning: a necklace, a tyre, a track.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, radius = random.within(1, 2) * s;

@@ -7,7 +7,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A box on the floor under a force that swings: up, until it leaves the floor, or to the side, until it
+// Builds a box on the floor under a sinusoidal force: upwards until it leaves the floor, or sideways until it
 // slips.
 void build(Draft& draft) {
   Random& random = draft.random;
@@ -19,14 +19,14 @@ void build(Draft& draft) {
   const double width = random.within(1, 3) * s, height = random.within(0.2, 0.5) * s;
   const int made = draft.box({0, height / 2}, width, height);
   const double mass = draft.body(made).mass, holds = up ? g : draft.friction * g;  // m/s^2
-  // The phase at which the force has grown to what holds it.
+  // Phase at which the force reaches the weight or the friction limit.
   const double start = random.within(0.3, 1.2), peak = holds / direction(start).y;
   const double rate = std::sqrt(g / s) * random.ladder(0.3, 2);
   SinusoidalForce force{.body = draft.name(made), .angular_frequency = rate};
   force.amplitude = up ? Vec2d{0, mass * peak} : Vec2d{mass * peak, 0};
   if (!up) force.point = {0, -height / 2};  // so that it does not tip
   draft.out.scene.forces.push_back(force);
-  // Looked at when the force has come down to what holds it again.
+  // The run ends when the force has fallen to that value again.
   const int steps = draft.out.steps = std::max(2, static_cast<int>((3.141592653589793 - start) / rate / dt));
   const double t = steps * dt, span = std::max(0.0, t - start / rate);
   const Vec2d first = direction(start), last = direction(std::max(rate * t, start));
@@ -38,7 +38,7 @@ void build(Draft& draft) {
   moves.lower = from + right - slack, moves.upper = from + right + slack;
   moves.from = moves.to = t;
   moves.why = "what is pushed harder than it is held moves by the difference";
-  // The parts of the floor beneath its way.
+  // It needs the parts of the floor along its path.
   for (int i = 0; i < made; ++i) {
     const std::vector<Shape>& shapes = draft.body(i).shapes;
     const double reach = shapes.size() > 1 ? draft.site.width : reach_of(shapes.front().geometry);

@@ -6,7 +6,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Something that slides over a floor without friction.
+// Builds a body that slides over a floor without friction.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size * random.pick({0.2, 0.5, 1.0}), speed = random.ladder(0.5, 20) * draft.size;
@@ -35,7 +35,7 @@ void build(Draft& draft) {
   Expectation& keeps = draft.expect("keeps_speed", made, Quantity::VelocityX);
   keeps.lower = 0.98 * speed, keeps.upper = 1.02 * speed;
   keeps.why = "what slides on a level floor without friction keeps its speed";
-  // The parts of the floor that it comes to.
+  // It needs the parts of the floor along its path.
   for (int i = 0; i < made; ++i) {
     const double reach =
         draft.body(i).shapes.size() > 1 ? draft.site.width : reach_of(draft.body(i).shapes.front().geometry);

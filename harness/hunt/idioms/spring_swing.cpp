@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A bar on a hinge with a spring, or a load on one: it swings at the frequency that is stated.
+// Builds a bar on a hinge with a spring, or a load on one: it swings at the given frequency.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, hertz = random.ladder(0.1, 4), away = random.within(0.1, 0.5);
@@ -25,7 +25,7 @@ void build(Draft& draft) {
     joint.spring = spring;
     joint.target_angle = away;
   }
-  // After half a period it stands at twice the way. An implicit method damps by w h / 2 a radian.
+  // After half a period it is at twice the displacement. An implicit method damps by w h / 2 a radian.
   const double half = 0.5 / hertz;
   draft.out.steps = static_cast<int>(1.2 * half / draft.out.dt) + 2;
   Expectation& swings = draft.expect("swings_at_its_frequency", made, slides ? Quantity::X : Quantity::Angle);

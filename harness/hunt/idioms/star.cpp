@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586;
 
-// Arms around a hub, each held by a joint of the same kind: a propeller, a spider, a cart wheel.
+// Builds arms around a hub, each held by a joint of the same kind: a propeller, a spider, a cart wheel.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, hub = random.within(0.1, 0.5) * s, arm = random.within(0.5, 2) * s;

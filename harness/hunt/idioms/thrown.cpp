@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Sticks, needles and others fly about in a closed box.
+// Builds sticks, needles and other shapes that fly about in a closed box.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, inside = draft.site.width;

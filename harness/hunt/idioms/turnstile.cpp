@@ -5,11 +5,11 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A bar that turns about its middle, or its end, until a post stands in its way.
+// Builds a bar that turns about its middle, or its end, until it hits a post.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, half = random.within(0.5, 3) * s, at = random.within(0.2, 0.97) * half;
-  // So thin that they are apart at the start: a post covers 0.3 rad of the bar's way at most.
+  // Thin enough to be apart at the start: a post covers at most 0.3 rad of the bar's rotation.
   const double thick = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
   const double post = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
   const double rate = random.ladder(1, 30), from = -random.within(0.5, 1.2);
@@ -28,7 +28,7 @@ void build(Draft& draft) {
   draft.restitution = 0;
   const int stop = draft.disc(middle + Vec2d{at, 0}, post, BodyType::Static);
   for (Shape& shape : draft.body(bar).shapes) shape.restitution = 0;
-  // Before the bar comes to the other side of a post at both sides by itself.
+  // Ends before the other half of the bar would reach the post.
   draft.out.steps = std::max(5, static_cast<int>(1.5 / rate / draft.out.dt));
   Expectation& blocked = draft.expect("is_stopped", bar, Quantity::Angle);
   blocked.upper = 0.3;

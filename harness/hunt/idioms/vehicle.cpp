@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// A chassis on wheels with springs, motors or plain hinges.
+// Builds a chassis on wheels with springs, motors or plain hinges.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, wheel = random.within(0.2, 0.5) * s, length = random.within(1.5, 3) * s;

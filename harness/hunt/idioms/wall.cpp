@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Bricks at rest, in a bond or a stack.
+// Builds bricks at rest, in a bond or a stack.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, width = s, height = random.pick({0.3, 0.5, 1.0}) * s;
@@ -33,7 +33,7 @@ void build(Draft& draft) {
     creeps.from = 3;
     creeps.upper = 5e-4 * s;
     creeps.why = "what has come to rest below its friction limit does not move";
-    // Without those beneath it falls.
+    // Without the bricks below it falls.
     for (int k = 0; k < i; ++k) creeps.needs.push_back(draft.name(k));
   }
 }
