@@ -196,7 +196,7 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
                       "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
-  // So that destroying objects later does not allocate.
+  // Reserves the free lists now: destroying objects later must not allocate.
   fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
   fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
   fresh.still_tree.make_room(0), fresh.moving_tree.make_room(0);

@@ -52,7 +52,8 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
   }
 }
 
-// What a composer knows of a motion has a closed form, and Precise integrates it: neither knows of the other.
+// Compares the closed form that each idiom expects with Precise, which integrates the same scene
+// independently.
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
       world(reference::find_backend("plumb-world"));

@@ -96,8 +96,9 @@ TEST_P(SolverJoints, RevoluteLimitsHold) {
   EXPECT_LT(world.read(joint).linear_error, 2 * kFall);
 }
 
-/// s, by how much semi-implicit Euler is ahead of the motion: the way is made with the velocity at its end.
-/// Where joints are solved all at once it is the mean of both ends', which is exact.
+/// Returns the lead of a solver's positions, s. Semi-implicit Euler moves bodies by the velocity at the
+/// substep's end, half a substep ahead; Direct moves them by the mean of both ends' velocities, which is
+/// exact here.
 double ahead(Solver solver) { return solver == Solver::Direct ? 0 : kH; }
 
 TEST_P(SolverJoints, PrismaticSlidesDownToItsLimit) {
