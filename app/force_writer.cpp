@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output.h"
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb::app {
 namespace {

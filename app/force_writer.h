@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/trajectory_writer.h"
+#include "engine/driver/driver.h"
 #include "engine/scene/scene.h"
-#include "engine/simulation/driver.h"
 
 namespace plumb::app {
 

@@ -12,7 +12,7 @@
 #include "app/output.h"
 #include "app/report_error.h"
 #include "app/usage.h"
-#include "engine/scene/suggest.h"
+#include "engine/core/suggest.h"
 #include "harness/environment.h"
 
 namespace plumb::app {

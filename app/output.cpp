@@ -8,8 +8,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 
 namespace plumb::app {
 namespace {

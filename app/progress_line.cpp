@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "app/output.h"
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 #include "harness/style.h"
 
 namespace plumb::app {

@@ -19,8 +19,8 @@
 #include "app/source.h"
 #include "app/trajectory_writer.h"
 #include "app/usage.h"
+#include "engine/precise/dynamics/joint_starts.h"
 #include "engine/scene/error.h"
-#include "engine/simulation/joint_starts.h"
 #include "harness/interrupt.h"
 #include "harness/truth_table.h"
 

@@ -10,9 +10,9 @@
 
 #include "app/output.h"
 #include "app/usage.h"
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
-#include "engine/scene/text.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {

@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "engine/driver/accuracy.h"
+#include "engine/driver/plan.h"
 #include "engine/scene/scene.h"
-#include "engine/simulation/accuracy.h"
-#include "engine/simulation/plan.h"
 #include "harness/style.h"
 #include "reference/backend.h"
 

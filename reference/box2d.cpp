@@ -15,9 +15,9 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "reference/backend.h"
 #include "reference/box2d/joints.h"
 #include "reference/support/applied_forces.h"

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "reference/backend.h"
 #include "reference/support/applied_forces.h"
 #include "reference/support/mechanism.h"

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
+#include "engine/realtime/stages.h"
 #include "engine/simulation/simulation.h"
-#include "engine/simulation/stages.h"
 #include "reference/backend.h"
 #include "reference/support/settings.h"
 

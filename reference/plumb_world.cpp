@@ -7,9 +7,9 @@
 #include <string>
 #include <type_traits>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 #include "engine/world/add_scene.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "reference/backend.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"

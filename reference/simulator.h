@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/driver/driver.h"
 #include "engine/scene/scene.h"
-#include "engine/simulation/driver.h"
 
 namespace plumb::reference {
 

@@ -16,8 +16,8 @@
 #include "demos/core/registry.h"
 #include "demos/window/run.h"
 #include "demos/window/view.h"
+#include "engine/core/suggest.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/field/adapters.h"
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb::field {
 namespace {

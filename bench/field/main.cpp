@@ -14,7 +14,7 @@
 
 #include "bench/field/measure.h"
 #include "bench/field/report.h"
-#include "engine/scene/suggest.h"
+#include "engine/core/suggest.h"
 #include "harness/interrupt.h"
 #include "harness/style.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
-#include "engine/scene/text.h"
 #include "engine/world/checksum.h"
 
 namespace plumb::demos {

@@ -4,8 +4,8 @@
 #include <string>
 #include <tuple>
 
+#include "engine/core/suggest.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
 
 namespace plumb::demos {
 namespace {

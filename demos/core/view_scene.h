@@ -6,7 +6,7 @@
 
 #include "demos/core/world_demo.h"
 #include "engine/scene/scene.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 
 namespace plumb::demos {
 

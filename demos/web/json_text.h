@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 /// JSON for the page; its texts are the program's own.
 namespace plumb::web {

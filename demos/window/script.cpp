@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/core/suggest.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
 
 namespace plumb::window {
 namespace {

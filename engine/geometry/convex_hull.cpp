@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 
 namespace plumb {
 namespace {

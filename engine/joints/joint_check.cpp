@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 
 namespace plumb {
 

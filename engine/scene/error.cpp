@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb {
 namespace {

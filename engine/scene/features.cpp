@@ -4,9 +4,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/scene/joint_fields.h"
 #include "engine/scene/names.h"
-#include "engine/scene/text.h"
 
 namespace plumb {
 namespace {

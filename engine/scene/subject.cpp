@@ -1,6 +1,6 @@
 #include "engine/scene/subject.h"
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb {
 namespace {

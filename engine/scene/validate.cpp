@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
 #include "engine/scene/joint_fields.h"
 #include "engine/scene/names.h"
 #include "engine/scene/subject.h"
-#include "engine/scene/suggest.h"
-#include "engine/scene/text.h"
 
 namespace plumb {
 namespace {

@@ -2,10 +2,10 @@
 #include <new>
 #include <string>
 
+#include "engine/precise/precise.h"
+#include "engine/realtime/realtime.h"
 #include "engine/scene/error.h"
 #include "engine/scene/validate.h"
-#include "engine/simulation/precise.h"
-#include "engine/simulation/realtime.h"
 #include "engine/simulation/simulation.h"
 
 namespace plumb {

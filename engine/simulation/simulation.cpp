@@ -7,10 +7,10 @@
 #include <new>
 #include <string>
 
+#include "engine/core/text.h"
+#include "engine/driver/snapshot.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
-#include "engine/simulation/snapshot.h"
 
 namespace plumb {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/driver/accuracy.h"
+#include "engine/driver/driver.h"
+#include "engine/driver/plan.h"
 #include "engine/scene/scene.h"
-#include "engine/simulation/accuracy.h"
-#include "engine/simulation/driver.h"
-#include "engine/simulation/plan.h"
 
 namespace plumb {
 
@@ -46,17 +46,13 @@ class Simulation {
   const Error* doubt() const;
 
  private:
-  friend Simulation compile(const Scene&, const Accuracy&, struct CompileOptions);
+  friend Simulation compile(const Scene&, const Accuracy&, CompileOptions);
   Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, std::uint64_t identity);
 
   std::unique_ptr<Driver> driver_;
   std::size_t body_count_;
   std::uint64_t identity_;  ///< of scene and accuracy, stamped on snapshots
   bool abandoned_ = false;  ///< a step was not finished
-};
-
-struct CompileOptions {
-  bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
 };
 
 /// Validates `scene` and `accuracy`, derives the plan and allocates what it needs. Throws `Error`.

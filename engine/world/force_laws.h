@@ -5,7 +5,7 @@
 #include "engine/forces/elastic_spring.h"
 #include "engine/forces/wind.h"
 #include "engine/forces/wrench.h"
-#include "engine/world/query_filter.h"
+#include "engine/world/queries/query_filter.h"
 #include "engine/world/world.h"
 
 /// Force laws for a world: each call before a step adds the forces of that one step, and `dt` is its length

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/world/query_filter.h"
+#include "engine/world/queries/query_filter.h"
 #include "engine/world/world.h"
 
 /// Character controller: a capsule that is not a body of the world, but is stopped by bodies.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/geometry/aabb.h"
-#include "engine/world/query_filter.h"
-#include "engine/world/query_shape.h"
+#include "engine/world/queries/query_filter.h"
+#include "engine/world/state/query_shape.h"
 #include "engine/world/world.h"
 
 /// Queries of a world between its steps: ray casts, shape casts, overlaps, nearest shapes. They change

@@ -5,8 +5,8 @@
 #include <functional>
 #include <span>
 
-#include "engine/world/recorded_calls.h"
-#include "engine/world/recording_file.h"
+#include "engine/world/recording/recorded_calls.h"
+#include "engine/world/recording/recording_file.h"
 #include "engine/world/world.h"
 
 namespace plumb {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/recording_file.h"
+#include "engine/world/recording/recording_file.h"
 #include "engine/world/world.h"
 
 namespace plumb {

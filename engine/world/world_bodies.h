@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "engine/world/bodies.h"
-#include "engine/world/contact_reading.h"
-#include "engine/world/contacts.h"
-#include "engine/world/islands.h"
-#include "engine/world/lock.h"
-#include "engine/world/mass.h"
-#include "engine/world/naming.h"
-#include "engine/world/quarantine.h"
-#include "engine/world/validate.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/lock.h"
+#include "engine/world/state/mass.h"
+#include "engine/world/state/naming.h"
+#include "engine/world/state/quarantine.h"
+#include "engine/world/state/validate.h"
+#include "engine/world/step/contact_reading.h"
 #include "engine/world/world.h"
 
 /// The members of BasicWorld about bodies; world.cpp instantiates them.

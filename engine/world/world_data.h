@@ -7,22 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "engine/collide/dynamic_tree.h"
-#include "engine/collide/pair_set.h"
-#include "engine/solve/body_motion.h"
-#include "engine/solve/bounce_crowds.h"
-#include "engine/solve/bounded_rows.h"
-#include "engine/solve/contact_graph.h"
-#include "engine/solve/direct_rows.h"
-#include "engine/solve/hinge_tree.h"
-#include "engine/solve/joint_set.h"
-#include "engine/world/burst_list.h"
-#include "engine/world/corner_pool.h"
+#include "engine/collision/broad_phase/dynamic_tree.h"
+#include "engine/collision/broad_phase/pair_set.h"
+#include "engine/core/burst_list.h"
+#include "engine/core/slots.h"
+#include "engine/core/used_list.h"
+#include "engine/linear_algebra/bounded_rows.h"
+#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/bounce_crowds.h"
+#include "engine/world/contact_solver/contact_graph.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
-#include "engine/world/flight.h"
-#include "engine/world/slots.h"
-#include "engine/world/used_list.h"
+#include "engine/world/joint_solver/direct_rows.h"
+#include "engine/world/joint_solver/hinge_tree.h"
+#include "engine/world/joint_solver/joint_set.h"
+#include "engine/world/state/corner_pool.h"
+#include "engine/world/state/flight.h"
 
 /// The data of a world. Bodies, shapes, contacts and joints are in slots with stable indices; solver data are
 /// in separate arrays. Lists through the slots (a body's shapes, contacts, joints) are linked by index, -1 at

@@ -2,12 +2,12 @@
 
 #include <type_traits>
 
-#include "engine/world/bodies.h"
-#include "engine/world/islands.h"
-#include "engine/world/lock.h"
-#include "engine/world/naming.h"
-#include "engine/world/shape_reading.h"
-#include "engine/world/validate.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/lock.h"
+#include "engine/world/state/naming.h"
+#include "engine/world/state/shape_reading.h"
+#include "engine/world/state/validate.h"
 #include "engine/world/world.h"
 
 /// The members of BasicWorld about shapes, chains and joints; world.cpp instantiates them.

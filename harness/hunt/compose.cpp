@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
-#include "engine/scene/text.h"
 #include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/text.h"
 #include "engine/joints/kind_of.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "engine/world/add_scene.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "engine/world/snapshot.h"
 #include "harness/hunt/processor_time.h"
 

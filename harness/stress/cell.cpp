@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "harness/table.h"
 
 namespace plumb::harness::stress {

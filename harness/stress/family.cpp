@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
-#include "engine/scene/text.h"
 
 namespace plumb::harness::stress {
 namespace {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "engine/scene/validate.h"
 #include "reference/process_backend.h"
 

@@ -1,7 +1,7 @@
 #include "harness/thresholds/catalogue.h"
 
+#include "engine/core/suggest.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
 
 namespace plumb::harness::thresholds {
 

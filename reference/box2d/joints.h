@@ -9,10 +9,10 @@
 #include <string>
 #include <variant>
 
+#include "engine/core/text.h"
 #include "engine/joints/spring_mobility.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/text.h"
 
 /// A scene's joints in Box2D 2.4: those that it has, with the same physical values.
 namespace plumb::reference {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/scene/features.h"
-#include "engine/scene/text.h"
 #include "reference/bullet/simulator.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"

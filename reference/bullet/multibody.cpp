@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/math/trigonometry.h"
-#include "engine/scene/text.h"
 #include "reference/support/applied_forces.h"
 #include "reference/support/mechanism.h"
 #include "reference/support/range.h"

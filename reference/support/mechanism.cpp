@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
+#include "engine/core/text.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/features.h"
-#include "engine/scene/text.h"
 
 namespace plumb::reference {
 namespace {

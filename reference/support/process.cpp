@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 #include "reference/support/supervisor.h"
 
 namespace plumb::reference {

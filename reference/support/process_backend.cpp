@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/scene/json.h"
-#include "engine/scene/text.h"
 #include "reference/support/process.h"
 #include "reference/support/protocol.h"
 #include "reference/support/settings.h"

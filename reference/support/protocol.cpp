@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/scene/features.h"
 #include "engine/scene/names.h"
-#include "engine/scene/text.h"
 
 namespace plumb::reference::protocol {
 namespace {

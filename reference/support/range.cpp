@@ -3,7 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb::reference {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/suggest.h"
 #include "engine/scene/error.h"
-#include "engine/scene/suggest.h"
 #include "reference/backend.h"
 
 namespace plumb::reference {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/names.h"
-#include "engine/scene/suggest.h"
-#include "engine/scene/text.h"
 
 namespace plumb::reference {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/text.h"
-#include "engine/world/encoding.h"
+#include "engine/core/text.h"
+#include "engine/world/snapshot/encoding.h"
 
 /// Every number of a definition, one after another: what definitions consist of is said by `Members`, whose
 /// lists do not compile when one is missing.

@@ -5,7 +5,7 @@
 #include "engine/scene/json.h"
 #include "engine/scene/validate.h"
 #include "engine/simulation/simulation.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "tests/bad_input/refusal.h"
 #include "tests/bad_input/scene_members.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/simulation/accuracy.h"
-#include "engine/world/definition_members.h"
+#include "engine/driver/accuracy.h"
+#include "engine/world/recording/definition_members.h"
 
 /// The members of what scenes are made from.
 namespace plumb {

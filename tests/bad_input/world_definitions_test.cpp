@@ -4,13 +4,13 @@
 #include <functional>
 
 #include "engine/joints/joint_check.h"
-#include "engine/world/definition_members.h"
+#include "engine/world/recording/definition_members.h"
 #include "tests/bad_input/refusal.h"
 
 namespace plumb::bad_input {
 namespace {
 
-// As the headers of the definitions say, with the limits of engine/world/validate.h and
+// As the headers of the definitions say, with the limits of engine/world/state/validate.h and
 // engine/joints/joint_check.h.
 constexpr Rule kAny{-1e12, 1e12}, kNotNegative{0, 1e12}, kPositive{1e-12, 1e12}, kShare{0, 1};
 constexpr Rule kMass{1e-18, 1e18}, kInertia{1e-30, 1e30};

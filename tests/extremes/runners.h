@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/simulation/simulation.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 
 /// The engines that extremes are asked of, behind one face.
 namespace plumb::test {

@@ -26,19 +26,19 @@ from mutate import Mutation, mismatches  # noqa: E402
 
 # The suite of a bug is the fuzz target that is to find it.
 BUGS = [
-    Mutation("a force's phase is not written", "engine/scene/json_writer.cpp", 'write("phase", force.phase);', "",
+    Mutation("a force's phase is not written", "engine/scene/json/json_writer.cpp", 'write("phase", force.phase);', "",
              suite="scene"),
-    Mutation("awake bodies of a snapshot are not checked", "engine/world/snapshot_check.cpp",
+    Mutation("awake bodies of a snapshot are not checked", "engine/world/snapshot/snapshot_check.cpp",
              'require(has_body(body) && listed.mark(body), "awake bodies", "are not there");', "listed.mark(body);",
              suite="snapshot"),
-    Mutation("a list's length is believed", "engine/world/encoding.h",
+    Mutation("a list's length is believed", "engine/world/snapshot/encoding.h",
              "require(count <= in_.size() / packed_size<T>(), field, \"is cut off\");", "", suite="recording"),
     Mutation("a sample's row may have any number of numbers", "reference/support/protocol.cpp",
              "if (!row.is_array() || row.size() != 6) {", "if (!row.is_array()) {", suite="host"),
     Mutation("a run before any scene", "reference/support/serve.cpp",
              'if (!simulator_) throw Error(Error::Kind::Run, "request", "run", "", "no scene is loaded");', "",
              suite="worker"),
-    Mutation("a body that goes leaves what is its own", "engine/world/bodies.cpp",
+    Mutation("a body that goes leaves what is its own", "engine/world/state/bodies.cpp",
              "if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);", "", suite="world"),
 ]
 

@@ -1,4 +1,4 @@
-#include "engine/math/bit_set.h"
+#include "engine/core/bit_set.h"
 
 #include <gtest/gtest.h>
 

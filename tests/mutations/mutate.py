@@ -70,12 +70,13 @@ def mismatches(root, mutations):
 # Programs to build, and what ctest is to run of them.
 SUITES = {
     "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
-    "precise": (["test_simulation"], ["-L", "unit", "-R", "^simulation/Precise"]),
-    "realtime": (["test_simulation"], ["-L", "unit", "-R", "^simulation/(Watch|Substeps|Contacts|Impacts)"]),
-    "world": (["test_collide", "test_joints", "test_solve", "test_world"],
-              ["-L", "unit", "-R", "^(collide|joints|solve|world)/"]),
+    "precise": (["test_precise"], ["-L", "unit", "-R", "^precise/"]),
+    "realtime": (["test_realtime", "test_simulation"], ["-L", "unit", "-R", "^(realtime/|simulation/(Watch|Substeps|Contacts|Impacts))"]),
+    "world": (["test_collision", "test_joints", "test_linear_algebra", "test_world", "test_world_solver"],
+              ["-L", "unit", "-R", "^(collision|joints|linear_algebra|world)/"]),
     "harness": (["test_harness", "test_sweep"], ["-L", "unit", "-R", "^(harness|sweep)/"]),
-    "features": (["test_extremes", "test_joints", "test_simulation", "test_solve", "test_world"], ["-L", "unit"]),
+    "features": (["test_extremes", "test_joints", "test_precise", "test_simulation", "test_world", "test_world_solver"],
+                 ["-L", "unit"]),
 }
 
 
@@ -85,7 +86,7 @@ def names_of(root, files):
     for file in files:
         text = (root / "tests" / f"{file}_test.cpp").read_text(encoding="utf-8")
         found = re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),", text, re.MULTILINE)
-        names |= {f"^{file.split('/')[0]}/{prefix}{name}[./]" for name in found for prefix in ("", ".*/")}
+        names |= {f"^{file.rsplit('/', 1)[0]}/{prefix}{name}[./]" for name in found for prefix in ("", ".*/")}
     return "|".join(sorted(names))  # without groups: ctest bears few
 
 

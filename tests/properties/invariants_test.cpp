@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/simulation/simulation.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "engine/world/snapshot.h"
 #include "tests/properties/check.h"
 #include "tests/properties/runs.h"

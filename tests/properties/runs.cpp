@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/simulation/simulation.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 
 namespace plumb::properties {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/scene/json.h"
-#include "engine/scene/json_document.h"
+#include "engine/scene/json/json_document.h"
 #include "tests/scene/sample.h"
 
 namespace plumb {

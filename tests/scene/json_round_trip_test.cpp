@@ -6,8 +6,8 @@
 #include <random>
 
 #include "engine/scene/json.h"
-#include "engine/scene/json_document.h"
-#include "engine/scene/json_emitter.h"
+#include "engine/scene/json/json_document.h"
+#include "engine/scene/json/json_emitter.h"
 #include "tests/scene/sample.h"
 
 namespace plumb {

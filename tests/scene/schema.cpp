@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 namespace plumb::test {
 namespace {

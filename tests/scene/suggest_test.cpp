@@ -1,4 +1,4 @@
-#include "engine/scene/suggest.h"
+#include "engine/core/suggest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/scene/text.h"
+#include "engine/core/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/simulation/accuracy.h"
+#include "engine/driver/accuracy.h"
 
 #include <gtest/gtest.h>
 

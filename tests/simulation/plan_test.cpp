@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/simulation/stages.h"
+#include "engine/realtime/stages.h"
 #include "tests/simulation/scenes.h"
 
 namespace plumb {

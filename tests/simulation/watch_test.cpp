@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/realtime/watch.h"
+#include "engine/realtime/watch_bounds.h"
 #include "engine/scene/error.h"
-#include "engine/simulation/watch.h"
-#include "engine/simulation/watch_bounds.h"
 #include "tests/simulation/scenes.h"
 
 namespace plumb {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/scene/error.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "tests/world/support.h"
 
 namespace plumb {

@@ -1,4 +1,4 @@
-#include "engine/world/plane_solver.h"
+#include "engine/world/character/plane_solver.h"
 
 #include <gtest/gtest.h>
 

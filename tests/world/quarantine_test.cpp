@@ -1,4 +1,4 @@
-#include "engine/world/quarantine.h"
+#include "engine/world/state/quarantine.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/world/query_filter.h"
+#include "engine/world/queries/query_filter.h"
 #include "tests/world/query_truth.h"
 
 namespace plumb::query_truth {

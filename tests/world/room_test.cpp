@@ -3,9 +3,9 @@
 #include <map>
 #include <random>
 
-#include "engine/world/corner_pool.h"
-#include "engine/world/slots.h"
-#include "engine/world/used_list.h"
+#include "engine/core/slots.h"
+#include "engine/core/used_list.h"
+#include "engine/world/state/corner_pool.h"
 #include "tests/world/allocations.h"
 #include "tests/world/support.h"
 

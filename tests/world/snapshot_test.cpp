@@ -10,9 +10,9 @@
 
 #include "engine/scene/error.h"
 #include "engine/world/checksum.h"
+#include "engine/world/snapshot/world_members.h"
 #include "engine/world/state_hash.h"
 #include "engine/world/world_data.h"
-#include "engine/world/world_members.h"
 #include "tests/world/busy_world.h"
 #include "tests/world/support.h"
 

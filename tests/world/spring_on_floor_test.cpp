@@ -5,7 +5,7 @@
 
 #include "engine/world/add_scene.h"
 #include "engine/world/force_laws.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "engine/world/world.h"
 
 namespace plumb {

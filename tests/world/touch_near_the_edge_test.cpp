@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/world/body_hash.h"
 #include "engine/world/queries.h"
 #include "engine/world/recorder.h"
 #include "engine/world/replay.h"
+#include "engine/world/snapshot/body_hash.h"
 #include "engine/world/state_hash.h"
 #include "tests/world/support.h"
 

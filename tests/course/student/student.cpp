@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/scene/features.h"
-#include "engine/scene/text.h"
 #include "reference/support/settings.h"
 #include "tests/course/student/world.h"
 

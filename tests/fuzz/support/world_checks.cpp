@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "engine/scene/text.h"
 #include "engine/world/snapshot_check.h"
 #include "engine/world/world_data.h"
 #include "tests/fuzz/support/require.h"

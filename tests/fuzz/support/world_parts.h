@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/world/definitions.h"
-#include "engine/world/query_shape.h"
+#include "engine/world/state/query_shape.h"
 #include "tests/fuzz/support/byte_source.h"
 
 /// What a world is made from, drawn from bytes: metres and kilograms as games have them, and anything at all

@@ -11,7 +11,7 @@
 #include "engine/scene/validate.h"
 #include "engine/simulation/simulation.h"
 #include "engine/world/add_scene.h"
-#include "engine/world/scene_forces.h"
+#include "engine/world/scene/scene_forces.h"
 #include "tests/fuzz/support/require.h"
 #include "tests/fuzz/support/world_checks.h"
 

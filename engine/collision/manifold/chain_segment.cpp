@@ -1,0 +1,125 @@
+#include "engine/collision/manifold/hull_pair.h"
+
+namespace plumb {
+namespace narrow {
+namespace {
+
+/// Bends below this, in rad, are ignored: a curve of short segments is as smooth as a line.
+constexpr double kFlat = 0.01;
+
+/// Minus the sine of 45 degrees: steeper normals point into the ground.
+template <class Real>
+constexpr Real kInto = Real(0.70710678118654752);
+
+/// The chain's continuation at one end of a segment.
+template <class Real>
+struct Neighbour {
+  bool open;            // no neighbour: the end is a corner
+  bool convex;          // it bends away from the front
+  Vec2<Real> normal{};  // the neighbour's
+};
+
+/// `corner` is the shared vertex and `other` the neighbour's far one; `first`: at the segment's first end.
+template <class Real>
+Neighbour<Real> neighbour(Vec2<Real> corner, Vec2<Real> other, Vec2<Real> normal, bool first) {
+  const Vec2<Real> way = first ? corner - other : other - corner;
+  const Real length = std::sqrt(length_squared(way));
+  if (!(length > 0)) return {true, true};
+  const Vec2<Real> own{way.y / length, -way.x / length};
+  const Real bend = first ? cross(own, normal) : cross(normal, own);
+  return {false, bend > Real(kFlat), own};
+}
+
+/// Admits the normals that belong to a segment: its own, and at an end that bends away from the front those
+/// between its own and the neighbour's.
+template <class Real>
+struct AdmitOwn {
+  static constexpr bool kOpen = false;
+  Vec2<Real> tangent;
+  Neighbour<Real> before, after;
+  Real slack;  // m, against rounding: no gap between segments
+
+  Normal operator()(Vec2<Real> normal) const {
+    const bool at_first = dot(normal, tangent) < 0;
+    const Neighbour<Real>& end = at_first ? before : after;
+    if (end.open) return Normal::Admit;
+    if (!end.convex) return Normal::Snap;
+    const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
+    if (inside >= -Real(kFlat)) return Normal::Admit;
+    // Into the ground rather than along it: this segment must push out so deep a penetration.
+    return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
+  }
+  void widen(FacingEdges<Real>& edges) const {
+    edges.slack_before = before.convex ? Real(0) : slack;
+    edges.slack_after = after.convex ? Real(0) : slack;
+  }
+};
+
+template <class Real>
+Real taxicab(Vec2<Real> v) {
+  return std::fabs(v.x) + std::fabs(v.y);
+}
+
+/// A disc touches the segment beside its centre, or a corner between two segments. Both segments of a corner
+/// compare the same products, so that no disc falls between.
+template <class Real>
+ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
+                                           Vec2<Real> center, Real radius, Real reach) {
+  const Vec2<Real> first = segment.corners[0].point, second = segment.corners[1].point;
+  const Vec2<Real> normal = segment.corners[0].normal, way = second - first;
+  const Real height = dot(normal, center - first);
+  const Real limit = reach + segment.radius + radius;
+  if (height < 0 || height > limit) return {};
+  const bool short_of = dot(center - first, way)<0, beyond = dot(center - second, way)> 0;
+  if (!short_of && !beyond) {
+    const Vec2<Real> foot = center - height * normal;
+    return single_point(foot, normal, height, segment.radius, radius, reach, 0);
+  }
+  const Vec2<Real> corner = short_of ? first : second, offset = center - corner;
+  // The centre is beside the neighbour, which has the contact.
+  if (short_of && before != first && dot(offset, first - before) <= 0) return {};
+  if (beyond && after != second && dot(offset, after - second) >= 0) return {};
+  const Real distance = std::sqrt(length_squared(offset));
+  if (distance > limit) return {};
+  const bool apart = distance * distance > 16 * std::numeric_limits<Real>::min();
+  return single_point(corner, apart ? Vec2<Real>{offset.x / distance, offset.y / distance} : normal, distance,
+                      segment.radius, radius, reach, 0);
+}
+
+}  // namespace
+}  // namespace narrow
+
+template <class Real>
+ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach) {
+  using namespace narrow;
+  if (b.count == 1) {
+    const Vec2<Real> center = b_in_a.position + b_in_a.rotation * b.corners[0].point;
+    return collide_segment_disc(segment, before, after, center, b.radius, reach);
+  }
+  const Vec2<Real> first = segment.corners[0].point, second = segment.corners[1].point;
+  const Vec2<Real> normal = segment.corners[0].normal;
+  Hull<Real> hull_a, hull_b;
+  place<0>(hull_a, segment, first);
+  hull_a.edges = 1;
+  place<0>(hull_b, b, b_in_a.rotation, b_in_a.position - first);
+
+  // Only shapes in front are touched.
+  Vec2<Real> sum{};
+  for (int i = 0; i < hull_b.count; ++i) sum += hull_b.point(i);
+  if (dot(normal, sum) < 0) return {};
+
+  const AdmitOwn<Real> admit{perpendicular(normal), neighbour(first, before, normal, true),
+                             neighbour(second, after, normal, false),
+                             32 * std::numeric_limits<Real>::epsilon() *
+                                 (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
+  return collide_hulls<0, 0>(
+      hull_a, hull_b, [&] { return smaller_size(segment, b); }, reach, first, admit);
+}
+
+template ContactManifold<float> collide_chain_segment(const Convex<float>&, Vec2<float>, Vec2<float>,
+                                                      const Convex<float>&, const Pose<float>&, float);
+template ContactManifold<double> collide_chain_segment(const Convex<double>&, Vec2<double>, Vec2<double>,
+                                                       const Convex<double>&, const Pose<double>&, double);
+
+}  // namespace plumb

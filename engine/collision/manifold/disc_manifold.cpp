@@ -1,0 +1,86 @@
+#include "engine/collision/manifold/hull.h"
+
+namespace plumb::narrow {
+namespace {
+
+/// Manifold from a point of a's hull to the disc's centre, `offset` away; `fallback` is the direction if they
+/// coincide.
+template <class Real>
+ContactManifold<Real> toward_disc(Vec2<Real> on_a, Vec2<Real> offset, Vec2<Real> fallback, Real radius_a,
+                                  Real radius_b, Real reach) {
+  const Real square = length_squared(offset);
+  const Real limit = reach + radius_a + radius_b;
+  if (square > limit * limit) return {};
+  const Real distance = std::sqrt(square);
+  const bool apart = square > 16 * std::numeric_limits<Real>::min();
+  const Vec2<Real> normal = apart ? Vec2<Real>{offset.x / distance, offset.y / distance} : fallback;
+  return single_point(on_a, normal, distance, radius_a, radius_b, reach, 0);
+}
+
+template <class Real>
+ContactManifold<Real> collide_capsule_disc(const Convex<Real>& a, Vec2<Real> center, Real radius,
+                                           Real reach) {
+  const Vec2<Real> first = a.corners[0].point, normal = a.corners[0].normal, tangent = perpendicular(normal);
+  const Vec2<Real> offset = center - first;
+  const Real length = dot(tangent, a.corners[1].point - first), x = dot(tangent, offset);
+  if (x < 0) return toward_disc(first, offset, normal, a.radius, radius, reach);
+  if (x > length)
+    return toward_disc(a.corners[1].point, center - a.corners[1].point, normal, a.radius, radius, reach);
+  // Beside the axis the normal is the edge's own, without the rounding of a division.
+  const Real height = dot(normal, offset);
+  const Vec2<Real> side = height < 0 ? -normal : normal;
+  return single_point(first + x * tangent, side, std::fabs(height), a.radius, radius, reach, 0);
+}
+
+template <class Real>
+ContactManifold<Real> collide_polygon_disc(const Convex<Real>& a, Vec2<Real> center, Real radius,
+                                           Real reach) {
+  // The edge of greatest separation from the centre: the nearest of all if the centre is inside, and
+  // otherwise next to the nearest corner if that is nearer than any edge.
+  const Real limit = reach + a.radius + radius;
+  Real height = -std::numeric_limits<Real>::max();
+  int edge = 0;
+  for (int i = 0; i < a.count; ++i) {
+    const Real out = dot(a.corners[i].normal, center - a.corners[i].point);
+    if (out > limit) return {};
+    if (out > height) height = out, edge = i;
+  }
+  const Vec2<Real> normal = a.corners[edge].normal, tangent = perpendicular(normal);
+  const Vec2<Real> first = a.corners[edge].point, second = a.corners[edge + 1 < a.count ? edge + 1 : 0].point;
+  const Real x = dot(tangent, center - first);
+  if (height > 0) {
+    if (x < 0) return toward_disc(first, center - first, normal, a.radius, radius, reach);
+    if (dot(tangent, center - second) > 0)
+      return toward_disc(second, center - second, normal, a.radius, radius, reach);
+  }
+  return single_point(first + x * tangent, normal, height, a.radius, radius, reach, 0);
+}
+
+}  // namespace
+
+template <class Real>
+ContactManifold<Real> collide_discs(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                    Real reach) {
+  const Vec2<Real> on_a = a.corners[0].point;
+  const Vec2<Real> offset = (b_in_a.position - on_a) + b_in_a.rotation * b.corners[0].point;
+  return toward_disc(on_a, offset, {0, 1}, a.radius, b.radius, reach);
+}
+
+template <class Real>
+ContactManifold<Real> collide_hull_disc(const Convex<Real>& a, const Convex<Real>& b,
+                                        const Pose<Real>& b_in_a, Real reach) {
+  const Vec2<Real> center = b_in_a.position + b_in_a.rotation * b.corners[0].point;
+  return a.count == 2 ? collide_capsule_disc(a, center, b.radius, reach)
+                      : collide_polygon_disc(a, center, b.radius, reach);
+}
+
+#define PLUMB_INSTANTIATE(Real)                                                                             \
+  template ContactManifold<Real> collide_discs(const Convex<Real>&, const Convex<Real>&, const Pose<Real>&, \
+                                               Real);                                                       \
+  template ContactManifold<Real> collide_hull_disc(const Convex<Real>&, const Convex<Real>&,                \
+                                                   const Pose<Real>&, Real);
+PLUMB_INSTANTIATE(float)
+PLUMB_INSTANTIATE(double)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb::narrow

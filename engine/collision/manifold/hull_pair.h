@@ -1,0 +1,252 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/collision/manifold/hull.h"
+
+namespace plumb::narrow {
+
+/// How a chain segment treats a contact normal.
+enum class Normal : std::uint8_t {
+  Admit,  ///< the normal is one of the segment's own
+  Snap,   ///< the surface is smooth or concave there: use the segment's own normal instead
+  Skip,   ///< the normal belongs to a neighbour
+};
+
+/// Accepts every normal: for shapes without neighbours.
+template <class Real>
+struct AdmitAll {
+  static constexpr bool kOpen = true;  // a contact at a corner alone counts
+  Normal operator()(Vec2<Real>) const { return Normal::Admit; }
+  void widen(FacingEdges<Real>&) const {}
+};
+
+/// The edge of one hull that is farthest from another.
+template <class Real>
+struct Face {
+  Real separation;  // m, radii not counted
+  int edge;
+};
+
+/// Evaluates four edges at once, and reduces them in pairs to the farthest: the first of equals.
+template <class Real>
+inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull<Real>& other, int count) {
+  using Lanes = Four<Real>;
+  const Lanes nx = Lanes::load(hull.nx + first), ny = Lanes::load(hull.ny + first);
+  Lanes out = nx * Lanes(other.x[0]) + ny * Lanes(other.y[0]);
+  for (int j = 1; j < count; ++j) out = least(nx * Lanes(other.x[j]) + ny * Lanes(other.y[j]), out);
+  out = out - (nx * Lanes::load(hull.x + first) + ny * Lanes::load(hull.y + first));
+  Real s[4];
+  out.store(s);
+  const Real most_low = larger(s[0], s[1]), most_high = larger(s[2], s[3]);
+  const int low = s[1] > s[0], high = 2 + (s[3] > s[2]);
+  return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
+}
+
+/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are the hulls'
+/// numbers of corners if known at compile time, or 0. Repetitions of the last corner never win over itself.
+template <int kCount, int kOther, class Real>
+inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
+  const int count = kOther ? kOther : other.count;
+  if (hull.edges == 1) {  // a chain's front
+    Real out = dot(hull.normal(0), other.point(0));
+    for (int j = 1; j < count; ++j)
+      if (const Real next = dot(hull.normal(0), other.point(j)); next < out) out = next;
+    return {out - dot(hull.normal(0), hull.point(0)), 0};
+  }
+  Face<Real> best = farthest_of_four(hull, 0, other, count);
+  if (kCount == 4) return best;
+  for (int i = 4; i < hull.count && best.separation <= limit; i += 4)
+    if (const Face<Real> face = farthest_of_four(hull, i, other, count); face.separation > best.separation)
+      best = face;
+  return best;
+}
+
+/// Returns the corner least far along a direction: the first of equals.
+template <int kCount, class Real>
+inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
+  if (kCount == 4) {
+    using Lanes = Four<Real>;
+    Real s[4];
+    (Lanes(direction.x) * Lanes::load(hull.x) + Lanes(direction.y) * Lanes::load(hull.y)).store(s);
+    const Real least_low = smaller(s[0], s[1]), least_high = smaller(s[2], s[3]);
+    const int low = s[1] < s[0], high = 2 + (s[3] < s[2]);
+    return least_high < least_low ? high : low;
+  }
+  int corner = 0;
+  Real out = dot(direction, hull.point(0));
+  for (int j = 1; j < hull.count; ++j)
+    if (const Real next = dot(direction, hull.point(j)); next < out) out = next, corner = j;
+  return corner;
+}
+
+/// Classifies a point along an edge: -1 before its first corner, 1 beyond its second, 0 between.
+template <class Real>
+int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
+  const Vec2<Real> tangent = perpendicular(hull.normal(edge));
+  if (dot(tangent, point - hull.point(edge)) < 0) return -1;
+  return dot(tangent, point - hull.point(hull.next(edge))) > 0 ? 1 : 0;
+}
+
+/// Returns the edge of `other` at `corner` that faces most directly against `normal`.
+template <class Real>
+int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
+  const int before = other.previous(corner);
+  return dot(other.normal(before), normal) < dot(other.normal(corner), normal) ? before : corner;
+}
+
+/// `kOther` is the number of corners of `other`, or 0.
+template <int kOther, class Real>
+inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, const Hull<Real>& other,
+                                      bool reference_is_b) {
+  FacingEdges<Real> out;
+  out.normal = reference.normal(edge);
+  const int end = reference.next(edge);
+  const int incident = facing_edge(other, support<kOther>(other, out.normal), out.normal);
+  const int incident_end = other.next(incident);
+  out.reference[0] = reference.point(edge), out.reference[1] = reference.point(end);
+  out.incident[0] = other.point(incident), out.incident[1] = other.point(incident_end);
+  out.reference_id[0] = edge, out.reference_id[1] = end;
+  out.incident_id[0] = incident, out.incident_id[1] = incident_end;
+  out.reference_radius = reference.radius, out.incident_radius = other.radius;
+  out.reference_is_b = reference_is_b;
+  return out;
+}
+
+/// Returns true if the reference edge's normal is right for separated hulls: the nearest corner lies over the
+/// edge, or the edges are parallel and overlap along their length.
+template <class Real>
+inline bool over_edge(const FacingEdges<Real>& edges) {
+  const Vec2<Real> tangent = perpendicular(edges.normal);
+  const Vec2<Real> start = edges.incident[1] - edges.reference[0],
+                   end = edges.incident[0] - edges.reference[0];
+  const Real rise = dot(edges.normal, end - start), start_x = dot(tangent, start), end_x = dot(tangent, end);
+  const Real length = dot(tangent, edges.reference[1] - edges.reference[0]);
+  if (std::fabs(rise) < Real(kParallel) * (end_x - start_x)) return end_x > 0 && start_x < length;
+  const Real nearest_x = rise > 0 ? start_x : end_x;
+  return nearest_x >= 0 && nearest_x <= length;
+}
+
+/// Returns, for parallel edges beside each other, the incident edge's end nearer to the reference; otherwise
+/// the `deepest` corner.
+template <class Real>
+int nearest_end(const FacingEdges<Real>& edges, int deepest) {
+  const Vec2<Real> tangent = perpendicular(edges.normal);
+  const Vec2<Real> start = edges.incident[1] - edges.reference[0],
+                   end = edges.incident[0] - edges.reference[0];
+  const Real rise = dot(edges.normal, end - start), start_x = dot(tangent, start), end_x = dot(tangent, end);
+  if (!(std::fabs(rise) < Real(kParallel) * (end_x - start_x))) return deepest;
+  if (end_x <= 0) return edges.incident_id[0];
+  return start_x >= dot(tangent, edges.reference[1] - edges.reference[0]) ? edges.incident_id[1] : deepest;
+}
+
+/// The faces of both hulls of greatest separation.
+template <class Real>
+struct Faces {
+  Face<Real> a, b;
+};
+
+/// Manifold of two hulls that touch at the deepest corner of one alone, because their edges miss each other
+/// by a rounding or by the preference.
+template <class Real>
+ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
+                                   const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
+  const bool reference_is_b = edges.reference_is_b;
+  const Hull<Real>&reference = reference_is_b ? b : a, &other = reference_is_b ? a : b;
+  const Vec2<Real> normal = reference.normal(face.edge);
+  const int corner = nearest_end(edges, support<0>(other, normal));
+  const Vec2<Real> point = other.point(corner);
+  const int end = along(reference, face.edge, point) < 0 ? face.edge : reference.next(face.edge);
+  if (reference_is_b)
+    return single_point(origin + point, -normal, face.separation, a.radius, b.radius, reach,
+                        corner_pair(corner, end));
+  return single_point(origin + point - face.separation * normal, normal, face.separation, a.radius, b.radius,
+                      reach, corner_pair(end, corner));
+}
+
+template <bool kOpen, class Real>
+inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real>& b,
+                                            const Faces<Real>& faces, const FacingEdges<Real>& edges,
+                                            Real reach, Vec2<Real> origin) {
+  ContactManifold<Real> out = clip(edges, reach, origin);
+  if (kOpen && out.count == 0)
+    out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges, reach, origin);
+  return out;
+}
+
+/// Manifold of two hulls that touch at a face of one.
+template <class Real, class Admit>
+inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                        FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
+                                        const Admit& admit) {
+  if (edges.reference_is_b) {
+    const Normal answer = admit(-edges.normal);
+    if (answer == Normal::Skip) return {};
+    if (answer == Normal::Snap) edges = facing_edges<0>(a, faces.a.edge, b, false);
+  }
+  if (!edges.reference_is_b) admit.widen(edges);
+  return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
+}
+
+/// Manifold of separated hulls whose nearest features are not two faces. The separation along a normal is the
+/// distance times the cosine of the angle to the nearest direction, while the same corners stay in support.
+/// So the face of greatest separation ends at, or is, the nearest feature of its hull.
+template <class Real, class Admit>
+ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                  bool prefer_b, Real size, Real reach, Vec2<Real> origin,
+                                  const Admit& admit) {
+  const bool nearer_b = faces.b.separation > faces.a.separation;
+  const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
+  const int edge = nearer_b ? faces.b.edge : faces.a.edge;
+  // A line has no thickness that would separate its far end: of two equally deep ends take the nearer one.
+  const bool line = a.count == 2 || b.count == 2;
+  const int deepest = support<0>(other, reference.normal(edge));
+  const int corner = line ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
+  const int place = along(reference, edge, other.point(corner));
+  bool use_b = nearer_b;
+  if (place != 0) {
+    const int end = place < 0 ? edge : reference.next(edge);
+    const int on_a = nearer_b ? corner : end, on_b = nearer_b ? end : corner;
+    const Vec2<Real> way = b.point(on_b) - a.point(on_a);
+    const Real distance = std::sqrt(length_squared(way));
+    use_b = prefer_b;
+    if (distance > kDirection<Real> * size) {
+      const Vec2<Real> normal{way.x / distance, way.y / distance};
+      const Normal answer = admit(normal);
+      if (answer == Normal::Skip) return {};
+      if (answer == Normal::Admit)
+        return single_point(origin + a.point(on_a), normal, distance, a.radius, b.radius, reach,
+                            corner_pair(on_a, on_b));
+      use_b = false;
+    }
+  }
+  FacingEdges<Real> edges =
+      use_b ? facing_edges<0>(b, faces.b.edge, a, true) : facing_edges<0>(a, faces.a.edge, b, false);
+  return touch_face(a, b, faces, edges, reach, origin, admit);
+}
+
+/// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size`
+/// returns the size of the smaller one. `admit` selects the normals allowed; a snapped one becomes that of
+/// a's first edge. `kA` and `kB` are the numbers of corners, or 0.
+template <int kA, int kB, class Real, class Size, class Admit>
+inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
+                                           Real reach, Vec2<Real> origin, const Admit& admit) {
+  const Real limit = reach + a.radius + b.radius;
+  Faces<Real> faces;
+  faces.a = farthest_face<kA, kB>(a, b, limit);
+  if (faces.a.separation > limit) return {};
+  faces.b = farthest_face<kB, kA>(b, a, limit);
+  if (faces.b.separation > limit) return {};
+
+  const bool prefer_b = faces.b.separation > faces.a.separation &&
+                        faces.b.separation > faces.a.separation + Real(kPreference) * size();
+  // One path for both: a branch here would be mispredicted half the time.
+  const Hull<Real>&reference = prefer_b ? b : a, &other = prefer_b ? a : b;
+  FacingEdges<Real> edges =
+      facing_edges < kA == kB ? kA : 0 > (reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
+  const bool apart = faces.a.separation > 0 || faces.b.separation > 0;
+  if (apart && !over_edge(edges)) return touch_apart(a, b, faces, prefer_b, size(), reach, origin, admit);
+  return touch_face(a, b, faces, edges, reach, origin, admit);
+}
+
+}  // namespace plumb::narrow

@@ -1,0 +1,34 @@
+#include "engine/collision/manifold/hull_pair.h"
+
+namespace plumb::narrow {
+
+namespace {
+
+/// `kA` and `kB` are the numbers of corners if known at compile time, or 0.
+template <int kA, int kB, class Real>
+ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                      Real reach) {
+  const Vec2<Real> origin = a.corners[0].point;
+  Hull<Real> hull_a, hull_b;
+  place<kA>(hull_a, a, origin);
+  place<kB>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
+  return collide_hulls<kA, kB>(
+      hull_a, hull_b, [&] { return smaller_size(a, b); }, reach, origin, AdmitAll<Real>{});
+}
+
+}  // namespace
+
+template <class Real>
+ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                       Real reach) {
+  // Boxes are the most common shapes.
+  if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach);
+  return collide_counted<0, 0>(a, b, b_in_a, reach);
+}
+
+template ContactManifold<float> collide_polygons(const Convex<float>&, const Convex<float>&,
+                                                 const Pose<float>&, float);
+template ContactManifold<double> collide_polygons(const Convex<double>&, const Convex<double>&,
+                                                  const Pose<double>&, double);
+
+}  // namespace plumb::narrow

@@ -1,0 +1,89 @@
+#include "engine/core/text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
+
+/// Returns true if the character of `length` bytes at the start of `text` is a control character.
+bool is_control(std::string_view text, std::size_t length) {
+  if (length == 1) return byte_at(text, 0) < 0x20 || byte_at(text, 0) == 0x7F;
+  return length == 2 && byte_at(text, 0) == 0xC2 && byte_at(text, 1) < 0xA0;
+}
+
+void append_escaped(std::string& out, unsigned byte) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  out += "\\x";
+  out += kDigits[byte >> 4];
+  out += kDigits[byte & 15];
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  // Most JSON readers take "-0" for an integer, and integers have no negative zero.
+  if (value == 0 && std::signbit(value)) return "-0.0";
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::size_t utf8_length(std::string_view text) {
+  if (text.empty()) return 0;
+  const unsigned lead = byte_at(text, 0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte_at(text, i) & 0xC0) != 0x80) return 0;
+  }
+  // Unicode, table 3-7: the second byte excludes overlong forms, surrogates and code points beyond U+10FFFF.
+  const unsigned second = byte_at(text, 1);
+  const bool excluded = (lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+                        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F);
+  return excluded ? 0 : length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+bool has_control_character(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (is_control(text, length)) return true;
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return false;
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const std::size_t taken = length == 0 ? 1 : length;
+    if (out.size() + taken > limit) return out + "...";
+    if (length == 0 || is_control(text, length)) {
+      for (std::size_t i = 0; i < taken; ++i) append_escaped(out, byte_at(text, i));
+    } else {
+      out += text.substr(0, taken);
+    }
+    text.remove_prefix(taken);
+  }
+  return out;
+}
+
+std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }
+
+}  // namespace plumb

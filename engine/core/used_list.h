@@ -1,0 +1,40 @@
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "engine/core/room.h"
+
+namespace plumb {
+
+/// A list of optional values, all T{} and without memory until one is used.
+template <class T>
+class UsedList {
+ public:
+  bool used() const { return !items_.empty(); }
+  /// Returns the value, T{} if the list is not used.
+  T get(int i) const { return used() ? items_[i] : T{}; }
+  /// Returns the value for writing; allocates memory for all `size` values.
+  T& at(int i, int size) {
+    make_room(items_, size);
+    return items_[i];
+  }
+  /// Allocates memory for `size` values if one is used, or `going_to_be`.
+  void ensure(int size, bool going_to_be) {
+    if (used() || going_to_be) ensure_room(items_, static_cast<std::size_t>(size));
+  }
+  /// Resets value `i` of a new item; there are `size` items now.
+  void renew(int i, int size) {
+    if (used()) at(i, size) = T{};
+  }
+  T* data() { return items_.data(); }
+
+  /// Returns the whole state, for snapshots.
+  auto parts() { return std::tie(items_); }
+  auto parts() const { return std::tie(items_); }
+
+ private:
+  std::vector<T> items_;
+};
+
+}  // namespace plumb

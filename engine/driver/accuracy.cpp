@@ -1,0 +1,95 @@
+#include "engine/driver/accuracy.h"
+
+#include <cmath>
+#include <string>
+
+#include "engine/core/text.h"
+#include "engine/scene/check.h"
+#include "engine/scene/error.h"
+
+namespace plumb {
+namespace {
+
+void require_positive(double value, const char* driver, const char* field, const char* unit) {
+  if (value >= kSmallest && value <= kLargest) return;
+  throw Error(Error::Kind::Value, driver, field, shortest(value),
+              std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
+}
+
+/// Steps err by a thousandth of the tolerance of Precise; below 1e-15 that is rounding.
+constexpr double kLeastTolerance = 1e-12;
+
+/// More would not end.
+constexpr int kMost = 1000000;
+
+void require_at_least_one(int value, const char* field) {
+  if (value >= 1 && value <= kMost) return;
+  throw Error(Error::Kind::Value, "realtime", field, std::to_string(value),
+              "must be a number from 1 to 1000000");
+}
+
+void require_known(int value, int last, const char* field, const char* driver = "realtime") {
+  if (value >= 0 && value <= last) return;
+  throw Error(Error::Kind::Value, driver, field, std::to_string(value), "is not one of the known kinds");
+}
+
+}  // namespace
+
+std::string_view name_of(Precision precision) { return precision == Precision::Float ? "float" : "double"; }
+
+std::string_view name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::VelocityVerlet:
+      return "velocity_verlet";
+    case Integrator::SemiImplicitEuler:
+      return "semi_implicit_euler";
+    case Integrator::ExplicitEuler:
+      return "explicit_euler";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(JointSolver joint_solver) {
+  return joint_solver == JointSolver::Direct ? "direct" : "iterative";
+}
+
+std::string_view name_of(OnDoubt on_doubt) { return on_doubt == OnDoubt::Stop ? "stop" : "report"; }
+
+std::string_view name_of(MotionMethod method) {
+  switch (method) {
+    case MotionMethod::Automatic:
+      return "automatic";
+    case MotionMethod::Explicit:
+      return "explicit";
+    case MotionMethod::Implicit:
+      return "implicit";
+    case MotionMethod::Symplectic:
+      return "symplectic";
+  }
+  return "unknown";
+}
+
+void validate(const Accuracy& accuracy) {
+  if (const auto* precise = std::get_if<Precise>(&accuracy)) {
+    require_positive(precise->tolerance, "precise", "tolerance", "");
+    if (precise->tolerance < kLeastTolerance)
+      throw Error(Error::Kind::Value, "precise", "tolerance", shortest(precise->tolerance),
+                  "must be 1e-12 or more: further down a step's error cannot be told from rounding");
+    require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
+    require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Symplectic), "method",
+                  "precise");
+    return;
+  }
+  const Realtime& realtime = std::get<Realtime>(accuracy);
+  require_positive(realtime.dt, "realtime", "dt", " of seconds");
+  require_at_least_one(realtime.substeps, "substeps");
+  require_at_least_one(realtime.iterations, "iterations");
+  require_known(static_cast<int>(realtime.precision), static_cast<int>(Precision::Double), "precision");
+  require_known(static_cast<int>(realtime.integrator), static_cast<int>(Integrator::ExplicitEuler),
+                "integrator");
+  require_known(static_cast<int>(realtime.joint_solver), static_cast<int>(JointSolver::Iterative),
+                "joint_solver");
+  require_known(static_cast<int>(realtime.on_doubt), static_cast<int>(OnDoubt::Report), "on_doubt");
+}
+
+}  // namespace plumb

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/driver/plan.h"
+#include "engine/scene/error.h"
+#include "engine/scene/scene.h"
+
+namespace plumb {
+
+/// Events of contacts in Precise.
+enum class ContactEvent {
+  Impact,      ///< shapes that met got an impulse
+  Rest,        ///< bouncing that piles up ended; the last time is that of its limit
+  Hold,        ///< a contact that lasts began
+  Separation,  ///< the force of a lasting contact fell to zero
+  SlipStart,   ///< a sticking or rolling contact began to slip
+  SlipEnd,     ///< slip came to an end: it sticks, rolls, or slips back
+  Change,      ///< a contact went over to another corner or edge
+  Paradox,     ///< no force could hold a slipping contact (Painleve): an impulse ended its slip
+};
+inline constexpr std::size_t kContactEvents = 8;
+
+/// How often, and when last.
+struct EventCount {
+  std::int64_t count = 0;
+  double last = 0;  ///< s
+};
+
+/// How far a run is from the true motion, by estimate: the largest of all bodies and steps.
+struct ErrorEstimate {
+  bool known = false;   ///< the run estimates its error
+  double position = 0;  ///< m
+  double angle = 0;     ///< rad
+  double velocity = 0;  ///< m/s
+};
+
+/// Statistics of a run so far.
+struct Statistics {
+  std::int64_t steps = 0;        ///< Realtime: substeps; Precise: accepted steps
+  std::int64_t rejected = 0;     ///< Precise: steps that were redone with a smaller one
+  std::int64_t impacts = 0;      ///< velocity jumps that were resolved
+  std::int64_t evaluations = 0;  ///< evaluations of the accelerations
+  std::int64_t implicit = 0;     ///< Precise: accepted steps by the implicit method
+  std::int64_t leaps = 0;        ///< Precise: steps carried over a singular place of a mechanism
+  std::int64_t redundant_joints =
+      0;  ///< Precise: joints with rows that follow from others, named in the plan
+  std::array<EventCount, kContactEvents> contacts{};  ///< Precise: by `ContactEvent`
+
+  ErrorEstimate error{};  ///< Precise: with `Precise::estimate_error`
+
+  const EventCount& of(ContactEvent event) const { return contacts[static_cast<std::size_t>(event)]; }
+};
+
+/// Reaction of a joint on body b, and the opposite on body a: the multipliers of its rows, its springs,
+/// limits and motors.
+struct JointReaction {
+  std::string joint;
+  Vec2d position{};   ///< m, of its anchor on body b, in the world's frame; of b itself where it has none
+  Vec2d force{};      ///< N
+  double torque = 0;  ///< N m, about that anchor
+};
+
+/// Reaction of a lasting contact on body b at one point, and the opposite on body a.
+struct ContactReaction {
+  std::size_t body_a = 0, body_b = 0;  ///< of the scene
+  Vec2d position{};                    ///< m
+  Vec2d normal{};                      ///< from a to b
+  double normal_force = 0;             ///< N, along the normal
+  double tangent_force = 0;            ///< N, along the normal turned a quarter counter-clockwise; of the
+                                       ///< two points of one pair, both at the first
+};
+
+/// Forces of joints, in the scene's order, and of contacts, by pair.
+struct Reactions {
+  std::vector<JointReaction> joints;
+  std::vector<ContactReaction> contacts;
+};
+
+struct CompileOptions {
+  bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
+};
+
+/// A way of moving compiled bodies forward in time. One virtual call a step, none a body.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+
+  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step
+  /// when a state is not finite or a work limit is met.
+  virtual void step() = 0;
+  virtual double time() const = 0;  ///< s
+  virtual void read(std::span<BodyState> out) const = 0;
+
+  /// Overwrites the motion of one body; what was cached about its contacts is forgotten.
+  virtual void write(std::size_t body, const BodyState& state) = 0;
+
+  /// All that the future depends on, warm starting included: restoring and going on gives the same bits.
+  virtual std::vector<std::byte> save() const = 0;
+  virtual void restore(std::span<const std::byte> snapshot) = 0;
+
+  /// Forces at the time of what is read; throws `Error` (Unsupported) where a driver has impulses alone.
+  virtual Reactions reactions() {
+    throw Error(Error::Kind::Unsupported, "realtime", "forces", "",
+                "fixed steps have impulses, not forces; 'plumb-precise' and Precise have forces");
+  }
+
+  virtual const Plan& plan() const = 0;
+  virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off
+  virtual Statistics statistics() const = 0;
+  /// A step could not be finished for want of memory: what `read` gives is the state before it, where the
+  /// driver keeps that. It is not asked for another.
+  virtual void abandon_step() {}
+  /// The first promise that a step broke, of a run that goes on all the same; or null.
+  virtual const Error* doubt() const { return nullptr; }
+};
+
+}  // namespace plumb

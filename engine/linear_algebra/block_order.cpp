@@ -1,0 +1,44 @@
+#include "engine/linear_algebra/block_order.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
+  neighbours_.resize(std::max<std::size_t>(neighbours_.size(), blocks));
+  for (int i = 0; i < blocks; ++i) neighbours_[i].clear();
+  ends_.assign(ends.begin(), ends.end());
+  std::sort(ends_.begin(), ends_.end());
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].first == ends_[i].first; ++j) {
+      neighbours_[ends_[i].second].push_back(ends_[j].second);
+      neighbours_[ends_[j].second].push_back(ends_[i].second);
+    }
+  }
+  // Breadth first from a block at the edge. The last block of a search from any start is such a block.
+  degree_.assign(blocks, 0);
+  const auto walk = [&](int start, int mark) {
+    const std::size_t begin = sequence_.size();
+    sequence_.push_back(start);
+    degree_[start] = mark;
+    for (std::size_t next = begin; next < sequence_.size(); ++next) {
+      for (const int other : neighbours_[sequence_[next]]) {
+        if (degree_[other] >= mark) continue;
+        degree_[other] = mark;
+        sequence_.push_back(other);
+      }
+    }
+    return sequence_.back();
+  };
+  sequence_.clear();
+  for (int start = 0; start < blocks; ++start) {
+    if (degree_[start] != 0) continue;
+    const std::size_t begin = sequence_.size();
+    const int edge = walk(start, 1);
+    sequence_.resize(begin);
+    walk(edge, 2);
+  }
+  std::reverse(sequence_.begin(), sequence_.end());
+}
+
+}  // namespace plumb

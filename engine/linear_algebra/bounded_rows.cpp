@@ -1,0 +1,387 @@
+#include "engine/linear_algebra/bounded_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+// Regularisation: added to the mobility of each row, as a fraction of it, so that redundant rows share their
+// load. Iterative refinement removes the error that it causes.
+constexpr double kSharing = 1e-10;
+constexpr int kRefinements = 2;
+// Tolerated residual of a row, and tolerated violation of its inequality, relative to the row with the
+// largest energy v^2 / mobility: speeds of linear and of angular rows have different units.
+constexpr double kExact = 1e-11, kSlack = 1e-9;
+// Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
+constexpr int kPivots = 4;
+// Rounds of descent after that, the iterations in each, and the last iterations if the rounds do not
+// converge.
+constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
+
+double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {
+  return body.inverse_mass.x * linear_r.x * linear_s.x + body.inverse_mass.y * linear_r.y * linear_s.y +
+         body.inverse_inertia * angular_r * angular_s;
+}
+
+double coupling(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow& s) {
+  double sum = 0;
+  if (r.a == s.a) sum += coupling(bodies[r.a], r.linear_a, r.angular_a, s.linear_a, s.angular_a);
+  if (r.a == s.b) sum += coupling(bodies[r.a], r.linear_a, r.angular_a, s.linear_b, s.angular_b);
+  if (r.b == s.a) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
+  if (r.b == s.b) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
+  return sum;
+}
+
+}  // namespace
+
+BoundedRows::BoundedRows(std::pmr::memory_resource* room)
+    : bodies(room),
+      rows(room),
+      shifts(room),
+      order_(room),
+      all_(room),
+      matrix_(room),
+      start_(room),
+      mobility_(room),
+      block_first_(room),
+      free_(room),
+      block_place_(room),
+      sequence_(room),
+      rank_(room),
+      first_(room),
+      x_(room),
+      best_(room),
+      wrong_(room) {}
+
+double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes) {
+  std::pmr::vector<std::pair<int, int>> ends(rows.get_allocator());
+  const int count = static_cast<int>(blocks.size());
+  for (int block = 0; block < count; ++block) {
+    if (bodies[blocks[block].first].gives_way()) ends.emplace_back(blocks[block].first, block);
+    if (bodies[blocks[block].second].gives_way()) ends.emplace_back(blocks[block].second, block);
+  }
+  order_.find(count, ends);
+  block_place_.assign(count, 0);
+  int next = 0;
+  for (const int block : order_.sequence()) block_place_[block] = next, next += sizes[block];
+  first_.clear();
+  for (const int block : order_.sequence()) {
+    int first = block_place_[block];
+    for (const int other : order_.neighbours(block)) first = std::min(first, block_place_[other]);
+    for (int i = 0; i < sizes[block]; ++i) first_.push_back(first);
+  }
+  return EnvelopeMatrix::cost(first_);
+}
+
+double BoundedRows::along(const BoundedRow& row) const {
+  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
+  return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
+         row.angular_b * b.spin;
+}
+
+void BoundedRows::push(const BoundedRow& row, double impulse) {
+  if (impulse == 0) return;
+  const auto add = [&](BoundedBody& body, Vec2d linear, double angular) {
+    body.velocity.x += body.inverse_mass.x * linear.x * impulse;
+    body.velocity.y += body.inverse_mass.y * linear.y * impulse;
+    body.spin += body.inverse_inertia * angular * impulse;
+  };
+  add(bodies[row.a], row.linear_a, row.angular_a);
+  add(bodies[row.b], row.linear_b, row.angular_b);
+}
+
+void BoundedRows::find_mobility() {
+  mobility_.resize(rows.size());
+  largest_ = 0;
+  const int blocks = static_cast<int>(order_.sequence().size());
+  block_first_.assign(blocks + 1, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const BoundedRow& row = rows[i];
+    mobility_[i] = coupling(bodies, row, row);
+    const double speed = std::max(std::abs(along(row)), std::abs(row.wanted));
+    if (mobility_[i] > 0) largest_ = std::max(largest_, speed * speed / mobility_[i]);
+    block_first_[row.block + 1] = static_cast<int>(i) + 1;
+  }
+  for (int block = 0; block < blocks; ++block)
+    block_first_[block + 1] = std::max(block_first_[block + 1], block_first_[block]);
+}
+
+void BoundedRows::assemble() {
+  sequence_.clear(), first_.clear();
+  for (const int block : order_.sequence()) {
+    block_place_[block] = static_cast<int>(sequence_.size());
+    for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) sequence_.push_back(i);
+  }
+  for (const int i : sequence_) {
+    int first = block_place_[rows[i].block];
+    for (const int other : order_.neighbours(rows[i].block)) first = std::min(first, block_place_[other]);
+    first_.push_back(first);
+  }
+  all_.reset(first_);
+  for (int place = 0; place < static_cast<int>(sequence_.size()); ++place) {
+    const int i = sequence_[place];
+    const BoundedRow& row = rows[i];
+    const auto couple = [&](int block) {
+      const int from = block_place_[block];
+      const int count = std::min(block_first_[block + 1] - block_first_[block], place + 1 - from);
+      for (int k = 0; k < count; ++k)
+        all_.at(place, from + k) = coupling(bodies, row, rows[block_first_[block] + k]);
+    };
+    couple(row.block);
+    for (const int other : order_.neighbours(row.block)) couple(other);
+    if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
+    all_.at(place, place) += row.compliance + mobility_[i] * (kSharing + row.softening);
+  }
+}
+
+void BoundedRows::factorise() {
+  free_.clear(), first_.clear();
+  const int count = static_cast<int>(sequence_.size());
+  rank_.resize(count);
+  for (int place = 0; place < count; ++place) {
+    rank_[place] = static_cast<int>(free_.size());
+    if (rows[sequence_[place]].state == BoundedRow::kFree) free_.push_back(place);
+  }
+  for (const int place : free_) first_.push_back(rank_[all_.first(place)]);
+  matrix_.reset(first_);
+  for (int k = 0; k < static_cast<int>(free_.size()); ++k)
+    for (int j = first_[k]; j <= k; ++j) matrix_.at(k, j) = all_.at(free_[k], free_[j]);
+  for (int& place : free_) place = sequence_[place];
+  matrix_.factorise();
+}
+
+// Returns the residual of a row at the present velocities.
+double BoundedRows::residual(int i) const {
+  const BoundedRow& row = rows[i];
+  double missing = row.wanted - along(row) - row.compliance * row.impulse;
+  if (row.coupled_compliance != 0) missing -= row.coupled_compliance * rows[i - 1].impulse;
+  if (i + 1 < static_cast<int>(rows.size()) && rows[i + 1].coupled_compliance != 0)
+    missing -= rows[i + 1].coupled_compliance * rows[i + 1].impulse;
+  return missing - row.softening * mobility_[i] * row.impulse;
+}
+
+// Returns whether a row's speed is more than a share of the largest.
+bool BoundedRows::matters(int i, double speed, double share) const {
+  return speed * speed > share * share * largest_ * mobility_[i];
+}
+
+// Sets the bodies' velocities from all present impulses.
+void BoundedRows::apply_all() {
+  std::copy(start_.begin(), start_.end(), bodies.begin());
+  for (const BoundedRow& row : rows) push(row, row.impulse);
+}
+
+// Solves for the impulses of the free rows, given those of the others.
+void BoundedRows::find_free() {
+  for (BoundedRow& row : rows) {
+    if (row.state == BoundedRow::kFree) {
+      row.impulse = 0;
+    } else {
+      row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
+    }
+  }
+  apply_all();
+  x_.resize(free_.size());
+  for (int refinement = 0; refinement <= kRefinements; ++refinement) {
+    bool exact = true;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      x_[k] = residual(free_[k]);
+      exact = exact && !matters(free_[k], x_[k], kExact);
+    }
+    if (exact) break;
+    matrix_.solve(x_.data());
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      rows[free_[k]].impulse += x_[k];
+      push(rows[free_[k]], x_[k]);
+    }
+  }
+}
+
+int BoundedRows::count_wrong() {
+  int count = 0;
+  wrong_.assign(rows.size(), 0);
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    const BoundedRow& row = rows[i];
+    int to = -1;
+    if (row.state == BoundedRow::kFree) {
+      if (row.impulse < row.lower && matters(i, (row.lower - row.impulse) * mobility_[i], kSlack))
+        to = BoundedRow::kLower;
+      if (row.impulse > row.upper && matters(i, (row.impulse - row.upper) * mobility_[i], kSlack))
+        to = BoundedRow::kUpper;
+    } else if (row.lower < row.upper) {
+      const double missing = residual(i);
+      if (row.state == BoundedRow::kLower && missing > 0 && matters(i, missing, kSlack))
+        to = BoundedRow::kFree;
+      if (row.state == BoundedRow::kUpper && missing < 0 && matters(i, missing, kSlack))
+        to = BoundedRow::kFree;
+    }
+    if (to < 0) continue;
+    wrong_[i] = static_cast<std::int8_t>(to + 1);
+    ++count;
+  }
+  return count;
+}
+
+// Returns the work x . (wanted - J v) of the impulses on the wanted velocities, and x . A x on their own.
+BoundedRows::Work BoundedRows::work() const {
+  Work out;
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    const BoundedRow& row = rows[i];
+    if (row.impulse == 0) continue;
+    const BoundedBody &a = start_[row.a], &b = start_[row.b];
+    const double before = dot(row.linear_a, a.velocity) + row.angular_a * a.spin +
+                          dot(row.linear_b, b.velocity) + row.angular_b * b.spin;
+    const double wanted = row.impulse * (row.wanted - before);
+    out.wanted += wanted;
+    out.own += wanted - row.impulse * residual(i);
+  }
+  return out;
+}
+
+// Returns 1/2 x A x - x (wanted - J v), which solutions minimise.
+double BoundedRows::energy() const {
+  const Work w = work();
+  return 0.5 * w.own - w.wanted;
+}
+
+// Scales all impulses by the factor that minimises the energy. Then x A x = x (wanted - J v): even far from
+// the solution they gain no energy.
+void BoundedRows::shrink() {
+  const Work w = work();
+  if (!(w.own > w.wanted)) return;
+  const double share = std::max(w.wanted / w.own, 0.0);
+  for (BoundedRow& row : rows) row.impulse *= share;
+  apply_all();
+}
+
+// Runs passes of projected Gauss-Seidel, each of which lowers the energy.
+void BoundedRows::sweep(int passes) {
+  for (int pass = 0; pass < passes; ++pass) {
+    for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+      BoundedRow& row = rows[i];
+      const double own = mobility_[i] * (1 + row.softening) + row.compliance;
+      if (!(own > 0)) continue;
+      const double now = std::min(std::max(row.impulse + residual(i) / own, row.lower), row.upper);
+      push(row, now - row.impulse);
+      row.impulse = now;
+    }
+  }
+}
+
+// Adds a fraction of the step x_ to the free rows.
+void BoundedRows::advance(double share) {
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    BoundedRow& row = rows[free_[k]];
+    const double now = std::min(std::max(row.impulse + share * x_[k], row.lower), row.upper);
+    push(row, now - row.impulse);
+    row.impulse = now;
+  }
+}
+
+// Goes to the minimum over the rows between their bounds, or towards it as far as the energy falls.
+void BoundedRows::minimise_free() {
+  for (BoundedRow& row : rows)
+    row.state = row.impulse <= row.lower   ? BoundedRow::kLower
+                : row.impulse >= row.upper ? BoundedRow::kUpper
+                                           : BoundedRow::kFree;
+  factorise();
+  x_.resize(free_.size());
+  for (int refinement = 0; refinement <= kRefinements; ++refinement) {
+    for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = residual(free_[k]);
+    matrix_.solve(x_.data());
+    double share = 1;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const BoundedRow& row = rows[free_[k]];
+      if (row.impulse + x_[k] < row.lower) share = std::min(share, (row.lower - row.impulse) / x_[k]);
+      if (row.impulse + x_[k] > row.upper) share = std::min(share, (row.upper - row.impulse) / x_[k]);
+    }
+    if (share == 1) {
+      advance(1);
+      continue;
+    }
+    // Try the whole step, clamped at the bounds; keep it if it is better than the step to the first bound.
+    for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
+    advance(share);
+    const double near = energy();
+    for (std::size_t i = 0; i < rows.size(); ++i) std::swap(best_[i], rows[i].impulse);
+    apply_all();
+    advance(1);
+    if (energy() <= near) return;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = best_[i];
+    apply_all();
+    return;
+  }
+}
+
+// Minimises by gradient projection, from the best impulses known.
+void BoundedRows::descend() {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].impulse = std::min(std::max(best_[i], rows[i].lower), rows[i].upper);
+  apply_all();
+  shrink();
+  for (int round = 0; round < kRounds; ++round) {
+    sweep(kSweeps);
+    minimise_free();
+    if (count_wrong() == 0) return;
+  }
+  sweep(kLastSweeps);
+  shrink();
+}
+
+// Runs block pivots; returns true if they end in a solution.
+bool BoundedRows::pivot() {
+  int least = std::numeric_limits<int>::max();
+  for (int pivots = 0; pivots < kPivots; ++pivots) {
+    factorise();
+    find_free();
+    const int wrong = count_wrong();
+    if (wrong == 0) return true;
+    if (wrong < least) {
+      least = wrong;
+      for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+  }
+  return false;
+}
+
+void BoundedRows::solve() {
+  start_.assign(bodies.begin(), bodies.end());
+  find_mobility();
+  assemble();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    BoundedRow& row = rows[i];
+    // Rows that move nothing, or whose bounds leave no room, have nothing to solve.
+    if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
+    if (row.lower >= row.upper) row.state = BoundedRow::kLower;
+  }
+  best_.assign(rows.size(), 0);
+  if (!pivot()) descend();
+}
+
+void BoundedRows::correct(double softening) {
+  find_mobility();
+  for (BoundedRow& row : rows) row.softening = softening;
+  assemble();
+  factorise();
+  shifts.assign(bodies.size(), {});
+  x_.resize(free_.size());
+  for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;
+  matrix_.solve(x_.data());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const BoundedRow& row = rows[free_[k]];
+    const auto add = [&](int body, Vec2d linear, double angular) {
+      const BoundedBody& b = bodies[body];
+      shifts[body].way.x += b.inverse_mass.x * linear.x * x_[k];
+      shifts[body].way.y += b.inverse_mass.y * linear.y * x_[k];
+      shifts[body].turn += b.inverse_inertia * angular * x_[k];
+    };
+    add(row.a, row.linear_a, row.angular_a);
+    add(row.b, row.linear_b, row.angular_b);
+  }
+}
+
+}  // namespace plumb

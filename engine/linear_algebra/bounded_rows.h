@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/linear_algebra/block_order.h"
+#include "engine/linear_algebra/envelope_matrix.h"
+#include "engine/math/vec2.h"
+
+namespace plumb {
+
+/// Velocity and inverse masses of a body, all in double.
+struct BoundedBody {
+  Vec2d inverse_mass{};        ///< 1/kg, along x and y: 0 along a locked axis
+  double inverse_inertia = 0;  ///< 1/(kg m^2)
+  Vec2d velocity{};            ///< m/s
+  double spin = 0;             ///< rad/s
+
+  bool gives_way() const { return inverse_mass.x + inverse_mass.y + inverse_inertia > 0; }
+};
+
+/// One scalar constraint with a bounded impulse x. J v + compliance x is `wanted` while x is between its
+/// bounds, at least that at the lower bound, and at most that at the upper one.
+struct BoundedRow {
+  enum State : std::int8_t { kFree, kLower, kUpper };
+
+  int a = 0, b = 0;              ///< bodies of the system
+  Vec2d linear_a{}, linear_b{};  ///< J
+  double angular_a = 0, angular_b = 0;
+  double wanted = 0;              ///< m/s, target velocity
+  double compliance = 0;          ///< 1/kg
+  double coupled_compliance = 0;  ///< 1/kg, with the impulse of the row before it
+  double lower = 0, upper = 0;    ///< N s
+  double softening = 0;           ///< fraction of its own mobility that is added to the compliance
+  double gap = 0;                 ///< m or rad: closed by `correct`
+  double impulse = 0;             ///< N s, the solution
+  int block = 0;
+  State state = kFree;  ///< initial state; after solving, the final one
+};
+
+/// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
+/// linear complementarity problem with bounds,
+///     w = J (v + M^-1 J^T x) + C x - wanted,   lower <= x <= upper,   w = 0 between,
+/// which states the minimum of the kinetic energy relative to the wanted velocities. Solved first by block
+/// principal pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all rows on the wrong
+/// side change sides at once. If a few pivots do not suffice, by gradient projection with subspace
+/// minimisation (More and Toraldo, SIAM Journal on Optimization 1, 1991). Each step lowers the energy.
+/// Projected Gauss-Seidel identifies the rows at their bounds, and the others are solved together within
+/// their bounds. The free rows are factorised sparsely, with a little compliance, so that redundant rows
+/// share their load.
+class BoundedRows {
+ public:
+  explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
+
+  std::pmr::vector<BoundedBody> bodies;  ///< filled by the caller
+  /// Filled by the caller. Rows of one block (constraints between the same two bodies) are contiguous, and
+  /// blocks ascend; a block may be empty.
+  std::pmr::vector<BoundedRow> rows;
+
+  /// Orders the blocks, given the two bodies of each. Returns the cost of factorising `sizes` rows of each
+  /// block, in multiplications.
+  double order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes);
+
+  /// Solves for the impulses and applies them to the bodies' velocities.
+  void solve();
+
+  /// Finds impulses that move bodies by `shifts` instead of changing their velocities, such that the gaps of
+  /// the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt). Bodies
+  /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that only wide motions could close stay
+  /// open.
+  void correct(double softening);
+  struct Shift {
+    Vec2d way{};      ///< m
+    double turn = 0;  ///< rad
+  };
+  std::pmr::vector<Shift> shifts;  ///< by body, set by `correct`
+
+ private:
+  double along(const BoundedRow& row) const;
+  void push(const BoundedRow& row, double impulse);
+  void find_mobility();
+  void assemble();
+  void factorise();
+  void find_free();
+  void apply_all();
+  double residual(int row) const;
+  bool matters(int row, double speed, double share) const;
+  int count_wrong();
+  bool pivot();
+  void descend();
+  void sweep(int passes);
+  void minimise_free();
+  void advance(double share);
+  struct Work {
+    double wanted = 0, own = 0;  // J
+  };
+  Work work() const;
+  double energy() const;
+  void shrink();
+
+  BlockOrder order_;
+  EnvelopeMatrix all_, matrix_;          // of all rows in elimination order; of the free ones
+  std::pmr::vector<BoundedBody> start_;  // the bodies as given
+  std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
+  std::pmr::vector<int> block_first_;    // by block: index of its first row
+  std::pmr::vector<int> free_;           // free rows in elimination order
+  std::pmr::vector<int> block_place_;    // by block: its first row's place in the elimination order
+  std::pmr::vector<int> sequence_;       // rows in elimination order
+  std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
+  std::pmr::vector<int> first_;
+  std::pmr::vector<double> x_, best_;
+  std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
+  double largest_ = 0;                   // J, the largest v^2 / mobility of a row
+};
+
+}  // namespace plumb

@@ -1,0 +1,66 @@
+#include "engine/linear_algebra/envelope_matrix.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+void EnvelopeMatrix::reset(std::span<const int> first) {
+  first_.assign(first.begin(), first.end());
+  start_.resize(first.size());
+  int next = 0;
+  for (int i = 0; i < size(); ++i) {
+    start_[i] = next;
+    next += i - first_[i] + 1;
+  }
+  values_.assign(static_cast<std::size_t>(next), 0);
+  pivots_.resize(first.size()), inverse_pivots_.resize(first.size());
+}
+
+void EnvelopeMatrix::factorise() {
+  constexpr double kNothing = 1e-12;  // of the diagonal: below it a row is dependent up to rounding
+  for (int i = 0; i < size(); ++i) {
+    double* row = &values_[start_[i]] - first_[i];
+    const double diagonal = row[i];
+    // row[j] <- (L D)_ij = a_ij - sum_k (L D)_ik L_jk
+    for (int j = first_[i]; j < i; ++j) {
+      const double* above = &values_[start_[j]] - first_[j];
+      double sum = row[j];
+      for (int k = std::max(first_[i], first_[j]); k < j; ++k) sum -= row[k] * above[k];
+      row[j] = sum;
+    }
+    double pivot = diagonal;
+    for (int j = first_[i]; j < i; ++j) {
+      const double l = row[j] * inverse_pivots_[j];
+      pivot -= l * row[j];
+      row[j] = l;
+    }
+    const bool independent = pivot > kNothing * diagonal;
+    pivots_[i] = independent ? pivot : 0;
+    inverse_pivots_[i] = independent ? 1 / pivot : 0;
+  }
+}
+
+void EnvelopeMatrix::solve(double* x) const {
+  for (int i = 0; i < size(); ++i) {
+    const double* row = &values_[start_[i]] - first_[i];
+    double sum = x[i];
+    for (int j = first_[i]; j < i; ++j) sum -= row[j] * x[j];
+    x[i] = sum;
+  }
+  for (int i = 0; i < size(); ++i) x[i] *= inverse_pivots_[i];
+  for (int i = size() - 1; i >= 0; --i) {
+    const double* row = &values_[start_[i]] - first_[i];
+    for (int j = first_[i]; j < i; ++j) x[j] -= row[j] * x[i];
+  }
+}
+
+double EnvelopeMatrix::cost(std::span<const int> first) {
+  double sum = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double width = static_cast<double>(i) - first[i];
+    sum += 0.5 * width * width;
+  }
+  return sum;
+}
+
+}  // namespace plumb

@@ -1,0 +1,95 @@
+#include "engine/precise/companion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/driver/snapshot.h"
+#include "engine/scene/error.h"
+
+namespace plumb::precise {
+namespace {
+
+/// The companion's error is a tenth of the run's, so that their difference is the run's error to 10 %. Below
+/// the tolerance at which both would be rounding, it is ten times the run's: an upper estimate.
+constexpr double kFiner = 0.1, kCoarser = 10, kLeastTolerance = 1e-11;
+
+Precise companion_of(Precise precise) {
+  precise.estimate_error = false;
+  precise.tolerance *= precise.tolerance > kLeastTolerance ? kFiner : kCoarser;
+  return precise;
+}
+
+Precise alone(Precise precise) {
+  precise.estimate_error = false;
+  return precise;
+}
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+}  // namespace
+
+CompanionDriver::CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make)
+    : main_(make(alone(precise))),
+      companion_(make(companion_of(precise))),
+      states_(bodies),
+      companion_states_(bodies) {
+  error_.known = true;
+}
+
+void CompanionDriver::step() {
+  main_->step();
+  companion_->step();
+  main_->read(states_);
+  companion_->read(companion_states_);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const BodyState &a = states_[i], &b = companion_states_[i];
+    error_.position = std::max(error_.position, length(a.position - b.position));
+    error_.angle = std::max(error_.angle, std::abs(a.angle - b.angle));
+    error_.velocity = std::max(error_.velocity, length(a.velocity - b.velocity));
+  }
+}
+
+void CompanionDriver::write(std::size_t body, const BodyState& state) {
+  main_->write(body, state);
+  companion_->write(body, state);
+}
+
+Statistics CompanionDriver::statistics() const {
+  Statistics all = main_->statistics();
+  all.error = error_;
+  return all;
+}
+
+std::vector<std::byte> CompanionDriver::save() const {
+  const std::vector<std::byte> main = main_->save(), companion = companion_->save();
+  SnapshotWriter out;
+  for (const double largest : {error_.position, error_.angle, error_.velocity}) out.put(largest);
+  out.put(static_cast<std::uint64_t>(main.size()));
+  for (const std::vector<std::byte>* part : {&main, &companion}) {
+    for (const std::byte byte : *part) out.put(byte);
+  }
+  return out.bytes();
+}
+
+void CompanionDriver::restore(std::span<const std::byte> snapshot) {
+  const std::vector<std::byte> before = save();
+  try {
+    restore_parts(snapshot);
+  } catch (const Error&) {
+    restore_parts(before);
+    throw;
+  }
+}
+
+void CompanionDriver::restore_parts(std::span<const std::byte> snapshot) {
+  SnapshotReader in(snapshot);
+  ErrorEstimate error{.known = true};
+  for (double* largest : {&error.position, &error.angle, &error.velocity}) *largest = in.get<double>();
+  const std::size_t size = in.count(1);
+  const std::span<const std::byte> rest = snapshot.subspan(3 * sizeof(double) + sizeof(std::uint64_t));
+  main_->restore(rest.first(size));
+  companion_->restore(rest.subspan(size));
+  error_ = error;
+}
+
+}  // namespace plumb::precise

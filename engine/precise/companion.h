@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/driver/accuracy.h"
+#include "engine/driver/driver.h"
+
+namespace plumb::precise {
+
+/// A run of `Precise` together with a second one at another tolerance: their difference estimates the first
+/// one's error, including its amplification by the motion.
+class CompanionDriver final : public Driver {
+ public:
+  using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
+  /// `make` creates a driver of the scene; `bodies` is its number of bodies.
+  CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make);
+
+  void step() override;
+  double time() const override { return main_->time(); }
+  void read(std::span<BodyState> out) const override { main_->read(out); }
+  void write(std::size_t body, const BodyState& state) override;
+  std::vector<std::byte> save() const override;
+  void restore(std::span<const std::byte> snapshot) override;
+  Reactions reactions() override { return main_->reactions(); }
+  const Plan& plan() const override { return main_->plan(); }
+  void profile(bool on) override { main_->profile(on); }
+  Statistics statistics() const override;
+
+ private:
+  void restore_parts(std::span<const std::byte> snapshot);
+
+  std::unique_ptr<Driver> main_, companion_;
+  std::vector<BodyState> states_, companion_states_;
+  ErrorEstimate error_{};
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,145 @@
+#include "engine/precise/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/text.h"
+#include "engine/precise/dynamics/clock.h"
+#include "engine/scene/error.h"
+
+// All of the driver but its step: reading and writing, snapshots, errors, costs.
+namespace plumb::precise {
+
+void PreciseDriver::read(std::span<BodyState> out) const {
+  for (const std::size_t body : parts_.flying) out[body] = flight_.at(body, time_).state;
+  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  sampled_ = time_;
+  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
+    out[parts_.integrated[slot]] = EquationsOfMotion::state(sample_.value(), slot);
+  }
+}
+
+Reactions PreciseDriver::reactions() {
+  if (parts_.integrated.empty()) return {};
+  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  sampled_ = time_;
+  return equations_.reactions(time_, sample_.value());
+}
+
+void PreciseDriver::write(std::size_t body, const BodyState& state) {
+  BodyState allowed = state;
+  if (at_rest_[body]) allowed.velocity = {};
+  if (at_rest_[body] || locked_[body]) allowed.angular_velocity = 0;
+  smooth_.rewind(time_);
+  if (flight_.holds(body)) {
+    flight_.restart(body, time_, allowed);
+  } else {
+    EquationsOfMotion::set_state(smooth_.change(), slot_of(body), allowed);
+  }
+  joints_closed_ = false;
+  written_ = true;
+  sampled_ = -1;
+}
+
+void PreciseDriver::profile(bool on) {
+  profiling_ = equations_.cost.on = on;
+  equations_.cost.forces = equations_.cost.joints = smooth_.projection_nanoseconds = 0;
+  for (Stage& stage : plan_.stages) stage.nanoseconds = 0;
+  cost_ = {};
+}
+
+Statistics PreciseDriver::statistics() const {
+  Statistics all = statistics_;
+  all.evaluations = equations_.evaluations();
+  all.rejected = smooth_.rejected();
+  all.implicit = smooth_.implicit_steps();
+  all.leaps = smooth_.leaps();
+  all.redundant_joints = static_cast<std::int64_t>(smooth_.redundant_joints().size());
+  all.contacts = contacts_.events();
+  all.impacts = contacts_.impacts();
+  return all;
+}
+
+void PreciseDriver::check_finite() {
+  const auto check = [&](std::size_t body, const BodyState& s) {
+    const std::pair<const char*, double> parts[] = {
+        {"position.x", s.position.x}, {"position.y", s.position.y}, {"angle", s.angle},
+        {"velocity.x", s.velocity.x}, {"velocity.y", s.velocity.y}, {"angular_velocity", s.angular_velocity}};
+    for (const auto& [field, value] : parts) {
+      if (!std::isfinite(value)) fail("body '" + names_[body] + "'", field, shortest(value), "not finite");
+    }
+  };
+  if (active(kPolynomialFlight)) {
+    const Clock clock(profiling_, cost_[kPolynomialFlight]);
+    for (const std::size_t body : parts_.flying) check(body, flight_.at(body, time_).state);
+  }
+  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
+    check(parts_.integrated[slot], EquationsOfMotion::state(smooth_.state().value(), slot));
+  }
+}
+
+void PreciseDriver::fail(const std::string& subject, const std::string& field, const std::string& value,
+                         const std::string& problem) const {
+  throw Error(Error::Kind::Run, subject, field, value,
+              problem + ", in step " + std::to_string(grid_steps_ + 1) + " at t = " + shortest(time_) +
+                  " s; the world is left at that time");
+}
+
+void PreciseDriver::report_cost() {
+  if (!profiling_) return;
+  cost_[kForces] = equations_.cost.forces;
+  cost_[kJointAccelerations] = equations_.cost.joints;
+  cost_[kProjection] = smooth_.projection_nanoseconds;
+  for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
+  double& rest = plan_.stages[kRungeKutta].nanoseconds;  // the rest, without evaluations and projection
+  rest = std::max(0.0, rest - cost_[kForces] - cost_[kJointAccelerations] - cost_[kProjection]);
+}
+
+/// Writes a snapshot: numbers of 8 bytes, one after the other.
+std::vector<std::byte> PreciseDriver::save() const {
+  SnapshotWriter out;
+  out.put(time_);
+  out.put(last_event_);
+  out.put(last_flight_);
+  out.put(grid_steps_);
+  out.put(std::int64_t{joints_closed_});
+  out.put(statistics_.steps);
+  contacts_.save(out);
+  smooth_.save(time_, out);
+  invariants_.save(out);
+  out.put(equations_.evaluations());
+  for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
+  return out.bytes();
+}
+
+void PreciseDriver::restore(std::span<const std::byte> snapshot) {
+  const std::vector<std::byte> before = save();
+  try {
+    take(snapshot);
+  } catch (const Error&) {
+    take(before);
+    throw;
+  }
+}
+
+void PreciseDriver::take(std::span<const std::byte> snapshot) {
+  SnapshotReader in(snapshot);
+  time_ = in.get<double>();
+  last_event_ = in.get<double>();
+  last_flight_ = in.get<double>();
+  grid_steps_ = in.get<std::int64_t>();
+  joints_closed_ = in.get<std::int64_t>() != 0;
+  statistics_ = {};
+  statistics_.steps = in.get<std::int64_t>();
+  contacts_.restore(in);
+  smooth_.restore(in);
+  invariants_.restore(in);
+  equations_.set_evaluations(in.get<std::int64_t>());
+  for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
+  in.expect_end();
+  written_ = true;  // its initial state no longer matters
+  sampled_ = -1;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/driver/accuracy.h"
+#include "engine/driver/driver.h"
+#include "engine/integrate/compensated.h"
+#include "engine/precise/dynamics/flight.h"
+#include "engine/precise/dynamics/joint_starts.h"
+#include "engine/precise/dynamics/motion.h"
+#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/events/contacts.h"
+#include "engine/precise/integration/smooth.h"
+#include "engine/precise/invariants.h"
+#include "engine/precise/plan.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// The driver that `make_precise_driver` returns.
+class PreciseDriver final : public Driver {
+ public:
+  PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options);
+
+  void step() override;
+  double time() const override { return time_; }
+  void read(std::span<BodyState> out) const override;
+  void write(std::size_t body, const BodyState& state) override;
+  std::vector<std::byte> save() const override;
+  void restore(std::span<const std::byte> snapshot) override;
+  Reactions reactions() override;
+  const Plan& plan() const override { return plan_; }
+  void profile(bool on) override;
+  Statistics statistics() const override;
+
+ private:
+  bool active(StageIndex stage) const { return plan_.stages[stage].active; }
+
+  // The parts of a step, in this order.
+  void close_joints();
+  void go_on(double end);
+  double limit_of_step(double end) const;
+  void arrive();
+
+  // Helpers of these parts.
+  void name_redundant_joints();
+  void refuse_open_joints() const;
+  std::size_t slot_of(std::size_t body) const;
+  void take(std::span<const std::byte> snapshot);
+  void check_finite();
+  void report_cost();
+  [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
+                         const std::string& problem) const;
+
+  const double max_dt_, overlap_;  // s; fraction of the scene's length that shapes may overlap by at the
+                                   // start
+  Parts parts_;
+  Plan plan_;
+  Flight flight_;
+  EquationsOfMotion equations_;
+  mutable SmoothMotion smooth_;  // mutable: its polynomial is made on reading
+  mutable Compensated sample_;   // of the integrated bodies at sampled_, if within the last step
+  mutable double sampled_ = -1;  // s
+  Contacts contacts_;
+  Invariants invariants_;
+  std::vector<std::string> names_;
+  std::vector<char> at_rest_, locked_;  // by body: static; without rotation
+
+  double time_ = 0;  // s, of the states read: within the last step of the motion, or at its end
+  std::int64_t grid_steps_ = 0;
+  bool joints_closed_ = false;
+  bool written_ = false;  // bodies were changed from outside
+  JointStart open_{};     // the joint with the largest gap at the start; gap 0: none
+  Statistics statistics_{};
+  int steps_in_step_ = 0;
+  double last_event_ = 0, last_flight_ = 0;  // s: time of the last event, and the flight before it
+  std::int64_t impacts_before_ = 0;          // at the start of the step
+  bool profiling_ = false;
+  std::array<double, kStageCount> cost_{};
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,163 @@
+#include "engine/precise/dynamics/hanging.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/math/rotations.h"
+#include "engine/precise/dynamics/clock.h"
+
+namespace plumb::precise {
+
+HangingTree::HangingTree(const Scene& scene, const Parts& parts, EquationsOfMotion& equations, bool wanted)
+    : equations_(equations), gravity_(scene.gravity) {
+  if (!wanted || !parts.outlines.empty() || !equations.has_hinges_alone()) return;
+  if (!find_links(scene, parts)) links_.clear();
+  width_ = links_.size() + links_.size() % 2;
+  sums_.resize(links_.size());
+  acceleration_.resize(links_.size());
+  cosines_.resize(links_.size());
+  sines_.resize(links_.size());
+  state_.resize(2 * width_);
+}
+
+/// Adds hinge by hinge from the static bodies, each with one known body and one unknown. Returns false if the
+/// hinges do not form a tree of all bodies.
+bool HangingTree::find_links(const Scene& scene, const Parts& parts) {
+  constexpr int kUnknown = -2, kStands = -1;
+  std::vector<int> link_of(scene.bodies.size(), kUnknown);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].type == BodyType::Static) link_of[i] = kStands;
+  const auto known = [&](int body) { return body == kFixedFrame ? kStands : link_of[body]; };
+  std::vector<Revolute<double>> left = equations_.joints().revolute;
+  if (left.size() != parts.integrated.size()) return false;
+  while (!left.empty()) {
+    const std::size_t before = left.size();
+    std::vector<Revolute<double>> later;
+    for (Revolute<double> hinge : left) {
+      if (known(hinge.a) == kUnknown) {
+        std::swap(hinge.a, hinge.b);
+        std::swap(hinge.anchor_a, hinge.anchor_b);
+      }
+      if (known(hinge.a) == kUnknown) {
+        later.push_back(hinge);
+        continue;
+      }
+      const auto body = static_cast<std::size_t>(hinge.b);
+      if (known(hinge.b) != kUnknown || scene.bodies[body].type != BodyType::Dynamic) return false;
+      Link link{.parent = known(hinge.a), .body = hinge.b, .holder = hinge.a};
+      link.anchor = hinge.anchor_b, link.holder_anchor = hinge.anchor_a;
+      if (link.parent >= 0)
+        link.hinge = hinge.anchor_a - links_[static_cast<std::size_t>(link.parent)].anchor;
+      link.slot =
+          static_cast<std::size_t>(std::lower_bound(parts.integrated.begin(), parts.integrated.end(), body) -
+                                   parts.integrated.begin());
+      link.mass = 1 / equations_.inverse_mass(body);
+      link.moment = -link.mass * link.anchor;
+      link.turns = equations_.inverse_inertia(body) > 0;
+      if (link.turns)
+        link.inertia = 1 / equations_.inverse_inertia(body) + link.mass * length_squared(link.anchor);
+      link_of[body] = static_cast<int>(links_.size());
+      links_.push_back(link);
+    }
+    if (later.size() == before) return false;
+    left = std::move(later);
+  }
+  return true;
+}
+
+void HangingTree::hang(double time, Compensated& y) {
+  equations_.place(time, y.value());
+  const std::span<const Pose<double>> poses = equations_.poses();
+  for (const Link& link : links_) {
+    Vec2d up = link.holder_anchor, place{}, velocity{};
+    if (link.holder != kFixedFrame) {
+      const Pose<double>& pose = poses[link.holder];
+      up = pose.rotation * up;
+      place = pose.position;
+    }
+    if (link.parent >= 0) {
+      const Link& parent = links_[static_cast<std::size_t>(link.parent)];
+      const BodyState holder = EquationsOfMotion::state(y.value(), parent.slot);
+      place = holder.position;
+      velocity = holder.velocity + cross(holder.angular_velocity, up);
+    }
+    const Vec2d own = poses[link.body].rotation * link.anchor;
+    const std::size_t first = EquationsOfMotion::kPerBody * link.slot;
+    const Vec2d at = place + (up - own), moves = velocity - cross(y[first + 5], own);
+    y.set(first, at.x);
+    y.set(first + 1, at.y);
+    y.set(first + 3, moves.x);
+    y.set(first + 4, moves.y);
+  }
+}
+
+std::span<const double> HangingTree::taken_from(std::span<const double> y) {
+  for (std::size_t link = 0; link < links_.size(); ++link) {
+    const double* body = y.data() + EquationsOfMotion::kPerBody * links_[link].slot;
+    state_[link] = body[2];
+    state_[width_ + link] = body[5];
+  }
+  return state_;
+}
+
+void HangingTree::rate(double, std::span<const double> state, std::span<double> out) {
+  equations_.count_evaluation();
+  const Clock clock(equations_.cost.on, equations_.cost.joints);
+  const std::size_t count = links_.size();
+  rotations_of(state.first(count), cosines_, sines_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Link& link = links_[i];
+    Sums& own = sums_[i];
+    const double w = state[width_ + i];
+    const Vec2d moment = Rotation<double>{cosines_[i], sines_[i]} * link.moment;
+    own.spin = w * w;
+    own.xx = own.yy = link.mass;
+    own.xy = own.t = 0;
+    own.j = link.inertia;
+    own.u = {-moment.y, moment.x};
+    own.w = own.spin * moment;
+    const auto parent = static_cast<std::size_t>(link.parent);
+    if (link.parent >= 0) own.e = Rotation<double>{cosines_[parent], sines_[parent]} * link.hinge;
+    out[i] = w;
+  }
+  eliminate();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Link& link = links_[i];
+    const Sums& own = sums_[i];
+    Vec2d a = -gravity_;
+    if (link.parent >= 0) {
+      const auto parent = static_cast<std::size_t>(link.parent);
+      const double turn = out[width_ + parent], spin = sums_[parent].spin;
+      a.x = acceleration_[parent].x - turn * own.e.y - spin * own.e.x;
+      a.y = acceleration_[parent].y + turn * own.e.x - spin * own.e.y;
+    }
+    acceleration_[i] = a;
+    out[width_ + i] = own.t - dot(own.u, a);  // both over J
+  }
+}
+
+/// Eliminates from the tips on: adds each link's inertia and bias at its hinge to its parent. Leaves T / J in
+/// `t` and U / J in `u`.
+void HangingTree::eliminate() {
+  for (std::size_t i = links_.size(); i-- > 0;) {
+    Sums& own = sums_[i];
+    const double share = links_[i].turns ? 1 / own.j : 0;
+    const Vec2d u = own.u;
+    own.u = share * u;
+    own.t *= share;
+    if (links_[i].parent < 0) continue;
+    Sums& to = sums_[static_cast<std::size_t>(links_[i].parent)];
+    const Vec2d e = own.e;
+    const double xx = own.xx - u.x * own.u.x, xy = own.xy - u.x * own.u.y, yy = own.yy - u.y * own.u.y;
+    const Vec2d along{xx * e.x + xy * e.y, xy * e.x + yy * e.y};   // L e
+    const Vec2d across{xy * e.x - xx * e.y, yy * e.x - xy * e.y};  // L e^
+    const Vec2d q{to.spin * along.x + (own.w.x - own.t * u.x), to.spin * along.y + (own.w.y - own.t * u.y)};
+    to.xx += xx, to.xy += xy, to.yy += yy;
+    to.j += e.x * across.y - e.y * across.x;
+    to.u += across;
+    to.w += q;
+    to.t += e.x * q.y - e.y * q.x;
+  }
+}
+
+}  // namespace plumb::precise

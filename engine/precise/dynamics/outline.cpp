@@ -1,0 +1,319 @@
+#include "engine/precise/dynamics/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "engine/geometry/convex_hull.h"
+#include "engine/math/trigonometry.h"
+
+namespace plumb::precise {
+namespace {
+
+using Kind = Feature::Kind;
+
+/// Normals of a chain with a smaller sine between them count as equal.
+constexpr double kAlike = 1e-12;
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
+
+/// A feature relative to its edge: corner and edge in either order are one case.
+struct EdgeView {
+  const Outline *edged, *cornered;
+  const Pose<double>*pose_e, *pose_c;
+  int edge, corner;
+};
+
+EdgeView edge_view(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                   const Pose<double>& pose_b) {
+  if (f.kind == Kind::CornerOfB) return {&a, &b, &pose_a, &pose_b, f.a, f.b};
+  return {&b, &a, &pose_b, &pose_a, f.b, f.a};
+}
+
+/// Returns the height of a corner over the edge's line, both without their radii, m.
+double height(const EdgeView& v, int corner) {
+  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
+  const Vec2d normal = v.pose_e->rotation * v.edged->corners[v.edge].normal;
+  return dot(normal, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+}
+
+double along_edge(const EdgeView& v, int corner) {
+  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
+  const Vec2d direction = perpendicular(v.pose_e->rotation * v.edged->corners[v.edge].normal);
+  return dot(direction, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+}
+
+/// The least height of the corners of `cornered` over an edge of `edged`, and that corner.
+struct Lowest {
+  double height = 0;
+  int corner = 0;
+};
+Lowest lowest_over(const Outline& edged, const Pose<double>& pose_e, int edge, const Outline& cornered,
+                   const Pose<double>& pose_c) {
+  const EdgeView view{&edged, &cornered, &pose_e, &pose_c, edge, 0};
+  Lowest best{std::numeric_limits<double>::infinity(), 0};
+  for (int k = 0; k < cornered.count(); ++k) {
+    const double h = height(view, k);
+    if (h < best.height) best = {h, k};
+  }
+  return best;
+}
+
+struct CornerPair {
+  int a = 0, b = 0;
+  double distance = std::numeric_limits<double>::infinity();
+  Vec2d direction{};
+};
+CornerPair closest_corners(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                           const Pose<double>& pose_b) {
+  CornerPair best;
+  double least = std::numeric_limits<double>::infinity();
+  Vec2d apart{};
+  for (int i = 0; i < a.count(); ++i) {
+    for (int j = 0; j < b.count(); ++j) {
+      const Vec2d d = world(pose_b, b.corners[j].point) - world(pose_a, a.corners[i].point);
+      if (length_squared(d) >= least) continue;
+      least = length_squared(d);
+      best.a = i, best.b = j;
+      apart = d;
+    }
+  }
+  best.distance = std::sqrt(least);
+  best.direction = best.distance > 0 ? (1 / best.distance) * apart : Vec2d{1, 0};
+  return best;
+}
+
+/// Returns the separation of the hulls along a direction from a to b.
+double apart_along(Vec2d n, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                   const Pose<double>& pose_b) {
+  double far_a = -std::numeric_limits<double>::infinity(), near_b = -far_a;
+  for (const Corner<double>& c : a.corners) far_a = std::max(far_a, dot(n, world(pose_a, c.point)));
+  for (const Corner<double>& c : b.corners) near_b = std::min(near_b, dot(n, world(pose_b, c.point)));
+  return near_b - far_a;
+}
+
+template <class Visit>
+void each_edge(const Outline& a, const Outline& b, const Visit& visit) {
+  for (int i = 0; i < a.edges(); ++i) visit(Kind::CornerOfB, i);
+  for (int i = 0; i < b.edges(); ++i) visit(Kind::CornerOfA, i);
+}
+
+Feature feature(Kind kind, int edge, int corner) {
+  return kind == Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
+}
+
+}  // namespace
+
+double Outline::edge_length(int edge) const {
+  return length(corners[next(edge)].point - corners[edge].point);
+}
+
+namespace {
+
+/// Returns the corners of each geometry except chains, in its own frame, and sets its radius.
+struct CornersOf {
+  double& radius;
+
+  Corners operator()(const Circle& circle) const {
+    radius = circle.radius;
+    return disc_corner({});
+  }
+  Corners operator()(const Box& box) const { return box_corners(0.5 * box.width, 0.5 * box.height); }
+  Corners operator()(const Capsule& capsule) const {
+    radius = capsule.radius;
+    return capsule_corners(capsule.start, capsule.end);
+  }
+  Corners operator()(const Polygon& polygon) const {
+    radius = polygon.radius;
+    return convex_hull(polygon.points);
+  }
+  Corners operator()(const Segment& segment) const { return capsule_corners(segment.start, segment.end); }
+  Corners operator()(const Chain&) const { return {}; }
+};
+
+/// Returns the segments of a chain.
+std::vector<Outline> links_of(const Outline& common, const Chain& chain, const Pose<double>& pose) {
+  std::vector<Outline> links;
+  const std::size_t points = chain.points.size(), count = chain.closed ? points : points - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    Outline& link = links.emplace_back(common);
+    const Vec2d from = world(pose, chain.points[i]), to = world(pose, chain.points[(i + 1) % points]);
+    link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the direction of travel
+    link.link.front_only = true;
+    link.link.goes_on[0] = chain.closed || i > 0;
+    link.link.goes_on[1] = chain.closed || i + 1 < count;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!links[i].link.goes_on[1]) continue;
+    const Vec2d own = links[i].corners[0].normal, next = links[(i + 1) % count].corners[0].normal;
+    if (cross(own, next) >= -kAlike) links[i].link.next_normal = next;
+  }
+  return links;
+}
+
+}  // namespace
+
+std::vector<Outline> outlines_of(std::size_t body, const Shape& shape) {
+  Outline outline;
+  outline.body = body;
+  outline.friction = shape.friction;
+  outline.restitution = shape.restitution;
+  outline.filter = shape.filter;
+  const Pose<double> pose{shape.position, shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle)};
+  std::vector<Outline> outlines;
+  if (const Chain* chain = std::get_if<Chain>(&shape.geometry)) {
+    outlines = links_of(outline, *chain, pose);
+  } else {
+    outline.corners = transformed(std::visit(CornersOf{outline.radius}, shape.geometry), pose);
+    outlines = {outline};
+  }
+  for (Outline& o : outlines) {
+    for (const Corner<double>& c : o.corners) o.reach = std::max(o.reach, length(c.point));
+  }
+  return outlines;
+}
+
+Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+           const Pose<double>& pose_b) {
+  Gap gap;
+  const double radii = a.radius + b.radius;
+  if (f.kind == Kind::Corners) {
+    const Vec2d from = world(pose_a, a.corners[f.a].point), to = world(pose_b, b.corners[f.b].point);
+    const double distance = length(to - from);
+    gap.normal = distance > 0 ? (1 / distance) * (to - from) : Vec2d{1, 0};
+    gap.value = distance - radii;
+    gap.point = to - b.radius * gap.normal;
+    return gap;
+  }
+  const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
+  const Vec2d outward = view.pose_e->rotation * view.edged->corners[view.edge].normal;
+  gap.normal = f.kind == Kind::CornerOfB ? outward : -outward;
+  gap.value = height(view, view.corner) - radii;
+  gap.along = along_edge(view, view.corner);
+  gap.length = view.edged->edge_length(view.edge);
+  gap.point =
+      world(*view.pose_c, view.cornered->corners[view.corner].point) - view.cornered->radius * outward;
+  return gap;
+}
+
+bool admits(const Feature& f, const Gap& gap, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+            const Pose<double>& pose_b, double near) {
+  constexpr double kDeep = 64;
+  const auto side = [&](const Outline& o, const Pose<double>& pose, bool edge, int index, Vec2d outward) {
+    if (!o.link.front_only) return true;
+    if (gap.value < -kDeep * near) return false;
+    if (edge) return index == 0;
+    if (!o.link.goes_on[index]) return true;
+    if (index == 0 || o.link.next_normal == Vec2d{}) return false;
+    const Vec2d own = pose.rotation * o.corners[0].normal, next = pose.rotation * o.link.next_normal;
+    return dot(own + next, outward) > 0 && cross(own, outward) >= -kAlike && cross(outward, next) >= -kAlike;
+  };
+  return side(a, pose_a, f.kind == Kind::CornerOfB, f.a, gap.normal) &&
+         side(b, pose_b, f.kind == Kind::CornerOfA, f.b, -gap.normal);
+}
+
+// With the normal n, its turning rate W, the contact point p and the bodies' velocities v, w,
+//   gap' = n . (vb - va) + wb (p - xb) x n - wa (p - xa) x n,      n' = W t,   t' = -W n,
+// and slip the same with t in place of n. p' is the velocity of the contact's corner, including its radius.
+ContactRows rows_of(const Feature& f, const Outline& a, const Pose<double>& pose_a,
+                    const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
+                    const Twist<double>& twist_b) {
+  const Gap gap = gap_of(f, a, pose_a, b, pose_b);
+  const Vec2d n = gap.normal, t = perpendicular(n), p = gap.point;
+  const auto corner_velocity = [](const Outline& o, int corner, const Pose<double>& pose,
+                                  const Twist<double>& twist) {
+    return twist.velocity + cross(twist.angular_velocity, pose.rotation * o.corners[corner].point);
+  };
+  double turning = 0;
+  Vec2d p_rate{};
+  if (f.kind == Kind::Corners) {
+    const Vec2d va = corner_velocity(a, f.a, pose_a, twist_a), vb = corner_velocity(b, f.b, pose_b, twist_b);
+    const double distance = gap.value + a.radius + b.radius;
+    turning = distance > 0 ? dot(t, vb - va) / distance : 0;
+    p_rate = vb - b.radius * turning * t;
+  } else if (f.kind == Kind::CornerOfB) {
+    turning = twist_a.angular_velocity;
+    p_rate = corner_velocity(b, f.b, pose_b, twist_b) - b.radius * turning * t;
+  } else {
+    turning = twist_b.angular_velocity;
+    p_rate = corner_velocity(a, f.a, pose_a, twist_a) + a.radius * turning * t;
+  }
+  const Vec2d arm_a = p - pose_a.position, arm_b = p - pose_b.position;
+  const Vec2d arm_a_rate = p_rate - twist_a.velocity, arm_b_rate = p_rate - twist_b.velocity;
+  const auto row = [&](Vec2d u, Vec2d u_rate) {
+    Row<double> r;
+    r.a = static_cast<int>(a.body), r.b = static_cast<int>(b.body);
+    r.linear_a = -u, r.linear_b = u;
+    r.angular_a = -cross(arm_a, u), r.angular_b = cross(arm_b, u);
+    r.bias_acceleration = dot(u_rate, twist_b.velocity - twist_a.velocity) +
+                          twist_b.angular_velocity * (cross(arm_b_rate, u) + cross(arm_b, u_rate)) -
+                          twist_a.angular_velocity * (cross(arm_a_rate, u) + cross(arm_a, u_rate));
+    return r;
+  };
+  ContactRows rows{row(n, turning * t), row(t, -turning * n)};
+  rows.normal.residual = gap.value;
+  return rows;
+}
+
+Separation separation(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                      const Pose<double>& pose_b) {
+  const double radii = a.radius + b.radius;
+  Separation best;
+  best.distance = -std::numeric_limits<double>::infinity();
+  each_edge(a, b, [&](Kind kind, int edge) {
+    const bool of_a = kind == Kind::CornerOfB;
+    const Lowest low =
+        of_a ? lowest_over(a, pose_a, edge, b, pose_b) : lowest_over(b, pose_b, edge, a, pose_a);
+    if (low.height - radii <= best.distance) return;
+    best.distance = low.height - radii;
+    best.feature = feature(kind, edge, low.corner);
+  });
+  if (best.distance + radii > 0 || (a.edges() == 0 && b.edges() == 0)) {
+    const CornerPair corners = closest_corners(a, pose_a, b, pose_b);
+    const double apart = apart_along(corners.direction, a, pose_a, b, pose_b) - radii;
+    // Sharp corners touch nothing but edges: for them this is only a bound on the distance.
+    const bool touches = radii == 0 && corners.distance < 1e-9 * (a.reach + b.reach);
+    if (apart > best.distance && !touches) {
+      best.distance = apart;
+      best.feature = {Kind::Corners, corners.a, corners.b};
+      best.normal = corners.direction;
+      return best;
+    }
+  }
+  best.normal = gap_of(best.feature, a, pose_a, b, pose_b).normal;
+  return best;
+}
+
+Limits limits_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+                 const Pose<double>& pose_b) {
+  Limits limits;
+  if (f.kind == Kind::Corners) {
+    // The normal must stay within the cones of both corners: it points away from their neighbours.
+    const Vec2d n = gap_of(f, a, pose_a, b, pose_b).normal;
+    const auto cone = [&](const Outline& o, int corner, const Pose<double>& pose, Vec2d outward) {
+      if (o.count() < 2) return;
+      for (const int other : {o.previous(corner), o.next(corner)}) {
+        const Vec2d to = pose.rotation * (o.corners[corner].point - o.corners[other].point);
+        limits.add(dot(outward, to), false);
+        if (o.count() == 2) return;
+      }
+    };
+    cone(a, f.a, pose_a, n);
+    cone(b, f.b, pose_b, -n);
+    return limits;
+  }
+  const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
+  const double along = along_edge(view, view.corner);
+  limits.add(along, false);
+  limits.add(view.edged->edge_length(view.edge) - along, false);
+  if (view.cornered->count() < 2) return limits;
+  const double radii = a.radius + b.radius;
+  limits.add(height(view, view.cornered->previous(view.corner)) - radii, true);
+  if (view.cornered->count() > 2) limits.add(height(view, view.cornered->next(view.corner)) - radii, true);
+  return limits;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "engine/precise/dynamics/outline.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// State of motion of a body, with its acceleration.
+struct Motion {
+  BodyState state{};
+  Vec2d acceleration{};             ///< m/s^2
+  double angular_acceleration = 0;  ///< rad/s^2
+};
+
+/// Partition of the scene's bodies by how they are moved, derived before anything is allocated.
+struct Parts {
+  std::vector<std::size_t> flying;  ///< bodies on polynomials: static, kinematic, under constant forces alone
+  std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
+                                        ///< forces that depend on the motion
+  bool ballistic = false;               ///< contacts apart, only constant forces act on the integrated bodies
+  std::vector<Outline> outlines;        ///< of shapes that may touch another one
+  std::vector<std::pair<std::size_t, std::size_t>>
+      apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
+  std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending
+};
+
+Parts divide(const Scene& scene);
+
+/// Returns the scene with only the laws that act on one of `bodies`, which ascend.
+Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies);
+
+/// Returns true if body types, filters and joints allow the pair's shapes to touch.
+bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const Filter& a, std::size_t body_b,
+              const Filter& b);
+
+/// The scene's own scales, by which errors are measured.
+struct Scales {
+  double length = 1;  ///< m: the largest extent of an integrated body, joint or lever
+  double speed = 1;   ///< m/s: reached by the scene's accelerations over that length
+};
+
+Scales scales_of(const Scene& scene, const Parts& parts);
+
+}  // namespace plumb::precise

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/aabb.h"
+#include "engine/integrate/bernstein.h"
+#include "engine/math/pose.h"
+#include "engine/precise/dynamics/flight.h"
+#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/integration/smooth.h"
+
+namespace plumb::precise {
+
+/// Motion of all bodies during one step, with bounds that hold throughout.
+class StepPaths {
+ public:
+  StepPaths(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
+
+  /// Takes the last step of `motion`; valid until its next one.
+  void take(SmoothMotion& motion);
+
+  double start() const { return start_; }
+  double end() const { return end_; }
+
+  struct Placed {
+    Pose<double> pose{};
+    Twist<double> twist{};
+  };
+  Placed at(std::size_t body, double time) const;
+
+  /// Bounds over the step: on one body's rotation, and on the relative motion of two bodies.
+  struct Turning {
+    double speed = 0;         ///< rad/s
+    double acceleration = 0;  ///< rad/s^2
+  };
+  Turning turning(std::size_t body) const { return turning_[body]; }
+  struct Relative {
+    double speed = 0;         ///< m/s
+    double acceleration = 0;  ///< m/s^2
+  };
+  Relative relative(std::size_t a, std::size_t b) const;
+
+  /// The same for a body that may be `kFixedFrame`.
+  Placed placed(int body, double time) const {
+    return body == kFixedFrame ? Placed{} : at(static_cast<std::size_t>(body), time);
+  }
+  Turning turning_of(int body) const {
+    return body == kFixedFrame ? Turning{} : turning_[static_cast<std::size_t>(body)];
+  }
+  Relative relative_of(int a, int b) const;
+
+  /// Returns a box that contains the outline during the step.
+  Aabb<double> swept(const Outline& outline) const;
+
+ private:
+  static constexpr std::size_t kControls = StepPolynomial::kMostTerms + 1;
+  struct Path {
+    Bernstein<kControls> vx{}, vy{};
+    Aabb<double> hull{};  // of the centre of mass
+    double turned = 0;    // rad, largest rotation away from the start
+  };
+
+  Relative bounds(const Path& p, const Path& q) const;
+  void follow_integrated(std::size_t body, int slot, SmoothMotion& motion);
+  void follow_parabola(std::size_t body, const BodyState& from, const BodyState& to);
+
+  const Flight& flight_;
+  std::vector<int> slot_;  // by body: among the integrated ones, or -1
+  std::vector<Path> paths_;
+  std::vector<Turning> turning_;
+  SmoothMotion* motion_ = nullptr;
+  double start_ = 0, end_ = 0;
+};
+
+}  // namespace plumb::precise

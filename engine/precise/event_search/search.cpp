@@ -1,0 +1,149 @@
+#include "engine/precise/event_search/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/text.h"
+#include "engine/scene/error.h"
+
+namespace plumb::precise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+struct View {
+  const Outline &a, &b;
+  StepPaths::Placed at_a, at_b;
+};
+
+struct CornerMotion {
+  Vec2d position, velocity;
+};
+CornerMotion corner_motion(const Outline& o, int corner, const StepPaths::Placed& at) {
+  const Vec2d arm = at.pose.rotation * o.corners[corner].point;
+  return {at.pose.position + arm, at.twist.velocity + cross(at.twist.angular_velocity, arm)};
+}
+
+/// Time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p). With the
+/// corner's motion relative to the edge's body, r from its centre,
+///   f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
+double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, double left) {
+  const Outline &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
+  const StepPaths::Placed &at_e = of_a ? v.at_a : v.at_b, &at_c = of_a ? v.at_b : v.at_a;
+  const StepPaths::Turning turn_e = paths.turning(e.body), turn_c = paths.turning(c.body);
+  const StepPaths::Relative relative = paths.relative(c.body, e.body);
+  const double speed = relative.speed + turn_c.speed * c.reach;
+  const double acceleration =
+      relative.acceleration + (turn_c.acceleration + turn_c.speed * turn_c.speed) * c.reach;
+  const double far = length(at_c.pose.position - at_e.pose.position) + c.reach + left * speed;
+  const double fall =
+      acceleration + 2 * turn_e.speed * speed + (turn_e.acceleration + turn_e.speed * turn_e.speed) * far;
+  const Vec2d n = at_e.pose.rotation * e.corners[edge].normal;
+  const CornerMotion start = corner_motion(e, edge, at_e);
+  double shortest_time = kInfinity;
+  for (int k = 0; k < c.count(); ++k) {
+    const CornerMotion corner = corner_motion(c, k, at_c);
+    const double f = dot(n, corner.position - start.position) - v.a.radius - v.b.radius;
+    // The edge's own motion at the foot of the corner.
+    const Vec2d carried =
+        at_e.twist.velocity + cross(at_e.twist.angular_velocity, corner.position - at_e.pose.position);
+    shortest_time = std::min(shortest_time, lasts(f, dot(n, corner.velocity - carried), fall));
+  }
+  return shortest_time;
+}
+
+/// The same along a fixed direction, for every corner of b over every corner of a.
+double direction_lasts(const View& v, const StepPaths& paths, Vec2d n) {
+  const auto swing = [&](const Outline& o) {
+    const StepPaths::Turning turn = paths.turning(o.body);
+    return (turn.acceleration + turn.speed * turn.speed) * o.reach;
+  };
+  const double fall = paths.relative(v.a.body, v.b.body).acceleration + swing(v.a) + swing(v.b);
+  double shortest_time = kInfinity;
+  for (int i = 0; i < v.a.count(); ++i) {
+    const CornerMotion p = corner_motion(v.a, i, v.at_a);
+    for (int j = 0; j < v.b.count(); ++j) {
+      const CornerMotion q = corner_motion(v.b, j, v.at_b);
+      const double f = dot(n, q.position - p.position) - v.a.radius - v.b.radius;
+      shortest_time = std::min(shortest_time, lasts(f, dot(n, q.velocity - p.velocity), fall));
+    }
+  }
+  return shortest_time;
+}
+
+}  // namespace
+
+double lasts(double f, double rate, double most_fall) {
+  if (!(f > 0)) return 0;
+  if (most_fall <= 0) return rate < 0 ? f / -rate : kInfinity;
+  const double root = std::sqrt(rate * rate + 2 * most_fall * f);
+  return rate > 0 ? (rate + root) / most_fall : 2 * f / (root - rate);
+}
+
+double ContactSearch::distance(const OutlinePair& pair, double time) const {
+  const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];
+  return separation(a, paths_.at(a.body, time).pose, b, paths_.at(b.body, time).pose).distance;
+}
+
+std::optional<double> ContactSearch::first(const OutlinePair& pair, double from, double until,
+                                           double near) const {
+  const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];
+  double time = from;
+  for (long i = 0;; ++i) {
+    const View view{a, b, paths_.at(a.body, time), paths_.at(b.body, time)};
+    const Separation apart = separation(a, view.at_a.pose, b, view.at_b.pose);
+    if (apart.distance <= near) return time;
+    if (i == most_)
+      throw Error(Error::Kind::Run, "contact search", "steps", std::to_string(most_) + " and more",
+                  "two bodies move past each other too fast or too close for the step: a smaller max_dt or "
+                  "Realtime may do");
+    double step = 0;
+    if (apart.feature.kind == Feature::Kind::Corners) {
+      step = direction_lasts(view, paths_, apart.normal);
+    } else {
+      const bool of_a = apart.feature.kind == Feature::Kind::CornerOfB;
+      step = edge_lasts(view, paths_, of_a, of_a ? apart.feature.a : apart.feature.b, until - time);
+    }
+    const double next = time + step;
+    if (!(next < until)) {
+      // No contact before the step's end; the state there is known.
+      return time < until && distance(pair, until) <= near ? std::optional(until) : std::nullopt;
+    }
+    time = next > time ? next : std::nextafter(time, until);
+  }
+}
+
+ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, double until, double near,
+                                                  Overlap overlap) const {
+  constexpr int kSamples = 14;
+  Departure found;
+  const double start = paths_.start(), h = until - start;
+  const double deepest = std::min(distance(pair, start), 0.0) - near;
+  double before = start, share = 1;
+  for (int i = 0; i < kSamples; ++i) share *= 0.25;
+  for (int i = 0; i <= kSamples; ++i, share *= 4) {
+    const double time = i == kSamples ? until : start + share * h;
+    if (!(time > before)) continue;
+    const double d = distance(pair, time);
+    if (d > near) {
+      found.apart = time;
+      return found;
+    }
+    if (overlap == Overlap::Pressed && d < deepest) {
+      // The first time of this depth, to rounding.
+      double low = before, high = time;
+      for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
+        (distance(pair, middle) < deepest ? high : low) = middle;
+      }
+      found.pressed = high;
+      return found;
+    }
+    before = time;
+  }
+  return found;
+}
+
+}  // namespace plumb::precise

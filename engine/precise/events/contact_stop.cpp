@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/math/trigonometry.h"
+#include "engine/precise/events/contacts.h"
+
+// Locates the first event of a step: shapes that meet, and the end of a contact's mode.
+namespace plumb::precise {
+namespace {
+
+/// Samples of forces and slips per step.
+constexpr int kSamples = 5;
+/// Samples per radian of time-periodic forces: 16 a period.
+constexpr double kSamplesARadian = 2.6;
+/// Force below zero at which a contact opens, as a fraction of the largest force: more than rounding, and
+/// than the difference between a step's polynomial and the step itself.
+constexpr double kForceNoise = 3e-11;
+
+double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b) {
+  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
+         row.angular_b * b.angular_velocity;
+}
+
+/// Returns the feature of the corner that touches next when the limit `index` of a corner on an edge is
+/// reached.
+Feature feature_of_height(const Feature& f, const Outline& a, const Outline& b, int index) {
+  Feature other = f;
+  int& corner = f.kind == Feature::Kind::CornerOfB ? other.b : other.a;
+  const Outline& cornered = f.kind == Feature::Kind::CornerOfB ? b : a;
+  corner = index == 2 ? cornered.previous(corner) : cornered.next(corner);
+  return other;
+}
+
+}  // namespace
+
+void Contacts::stop() {
+  if (empty()) return;
+  paths_.take(smooth_);
+  double until = smooth_.time();
+  std::optional<Event> event;
+  if (!finder_.outlines().empty()) event = first_meeting(until);
+  if (event) until = event->time;
+  if (const auto met = stops_.first_met(paths_, smooth_, until)) {
+    until = met->time;
+    event = Event{until, Quantity::Stop, std::nullopt, std::nullopt, met->limit};
+  }
+  if (const auto change = first_change(until)) event = change;
+  if (!event) {
+    // Pairs that have separated are searched again like any other.
+    const auto apart = [&](const OutlinePair& pair) { return search_.distance(pair, until) > near_; };
+    std::erase_if(touching_, apart);
+    std::erase_if(passing_, apart);
+    return;
+  }
+  smooth_.cut(std::max(event->time, std::nextafter(smooth_.start(), event->time + 1)));
+  refine(*event);
+  switch (event->quantity) {
+    case Quantity::Force:
+      count(ContactEvent::Separation, smooth_.time());
+      break;
+    case Quantity::Cone:
+      count(ContactEvent::SlipStart, smooth_.time());
+      break;
+    case Quantity::Slip:
+      count(ContactEvent::SlipEnd, smooth_.time());
+      break;
+    case Quantity::Range:
+      count(ContactEvent::Change, smooth_.time());
+      break;
+    case Quantity::Height:
+    case Quantity::Stop:
+      break;
+  }
+  stops_.meet(event->limit);
+  settled_ = false;
+}
+
+std::optional<Contacts::Event> Contacts::first_meeting(double until) {
+  std::optional<Event> first;
+  for (const OutlinePair& pair : near_pairs(finder_, paths_)) {
+    if (std::binary_search(held_.begin(), held_.end(), pair)) continue;
+    double from = paths_.start();
+    if (std::binary_search(passing_.begin(), passing_.end(), pair)) {
+      const auto apart = search_.departure(pair, until, near_, ContactSearch::Overlap::Allowed).apart;
+      if (!apart) continue;
+      from = *apart;
+    } else if (std::binary_search(touching_.begin(), touching_.end(), pair)) {
+      const ContactSearch::Departure departure = search_.departure(pair, until, near_);
+      if (departure.pressed) {
+        until = *departure.pressed;
+        first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
+        continue;
+      }
+      if (!departure.apart) continue;
+      from = *departure.apart;
+    }
+    const auto time = search_.first(pair, from, until, near_ / 8);
+    if (!time) continue;
+    until = *time;
+    first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
+  }
+  return first;
+}
+
+void Contacts::list_watched() {
+  watched_.clear();
+  tolerance_.clear();
+  watch_contacts();
+  for (std::size_t k = 0; k < stops_.count(); ++k) {
+    if (stops_.is_free_limit(k)) continue;
+    watched_.push_back({.quantity = Quantity::Stop, .stop = k});
+    tolerance_.push_back(stops_.tolerance(k));
+  }
+}
+
+void Contacts::watch_contacts() {
+  const double acceleration = finder_.scale_of_speed() * finder_.scale_of_speed() / finder_.scale_of_length();
+  const auto watch = [&](Quantity quantity, std::size_t patch, int point, double tolerance,
+                         Feature feature = {}) {
+    watched_.push_back({quantity, patch, point, feature, 0});
+    tolerance_.push_back(tolerance);
+  };
+  for (std::size_t p = 0; p < equations_.held().size(); ++p) {
+    const ActivePatch& patch = equations_.held()[p];
+    const double light = equations_.inverse_mass(patch.a->body) + equations_.inverse_mass(patch.b->body);
+    const double force = kForceNoise * force_scale_ + (light > 0 ? 1e-12 * acceleration / light : 0);
+    const double quiet = 0.25e-12 * finder_.scale_of_speed();
+    for (int i = 0; i < patch.count; ++i) watch(Quantity::Force, p, i, force);
+    if (patch.sticks()) watch(Quantity::Cone, p, 0, force);
+    if (patch.friction > 0 && patch.mode != 0) watch(Quantity::Slip, p, 0, quiet);
+    for (int i = 0; i < patch.count; ++i) {
+      const Feature& f = patch.features[i];
+      const Limits limits = limits_of(f, *patch.a, paths_.at(patch.a->body, paths_.start()).pose, *patch.b,
+                                      paths_.at(patch.b->body, paths_.start()).pose);
+      for (int k = 0; k < limits.count; ++k) {
+        if (!limits.comes_down[k]) {
+          watch(Quantity::Range, p, 4 * i + k, 2 * near_);
+        } else if (patch.count == 1) {
+          watch(Quantity::Height, p, k, near_ / 8, feature_of_height(f, *patch.a, *patch.b, k));
+        }
+      }
+    }
+  }
+}
+
+void Contacts::evaluate(double time, std::span<double> values) {
+  smooth_.at(time, false, sample_);
+  const std::span<const double> y = sample_.value();
+  const std::span<const ActivePatch> held = equations_.held();
+  if (!stops_.empty()) {
+    stop_values_.resize(stops_.count());
+    stops_.evaluate(time, y, stop_values_);
+  }
+  static const ContactForces kNone;
+  const bool forces_known = !stops_.empty() && equations_.holds_anything();
+  const ContactForces& forces = forces_known   ? equations_.last_contact_forces()
+                                : held.empty() ? kNone
+                                               : equations_.contact_forces(time, y);
+  std::vector<std::size_t> first_point(held.size() + 1, 0);
+  for (std::size_t p = 0; p < held.size(); ++p)
+    first_point[p + 1] = first_point[p] + static_cast<std::size_t>(held[p].count);
+  for (std::size_t w = 0; w < watched_.size(); ++w) {
+    const Watched& watched = watched_[w];
+    if (watched.quantity == Quantity::Stop) {
+      values[w] = stop_values_[watched.stop];
+    } else {
+      evaluate_contact(watched, forces, first_point[watched.patch], time, values[w]);
+    }
+  }
+}
+
+void Contacts::evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first,
+                                double time, double& value) {
+  const ActivePatch& patch = equations_.held()[watched.patch];
+  const auto placed = [&](const Outline& o) { return paths_.at(o.body, time); };
+  switch (watched.quantity) {
+    case Quantity::Force:
+      value = forces.normal[first + static_cast<std::size_t>(watched.point)];
+      break;
+    case Quantity::Cone: {
+      double normal = 0;
+      for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
+      value = patch.friction * normal - std::abs(forces.tangent[watched.patch]);
+      break;
+    }
+    case Quantity::Slip: {
+      const StepPaths::Placed a = placed(*patch.a), b = placed(*patch.b);
+      const ContactRows rows =
+          rows_of(patch.features[0], *patch.a, a.pose, a.twist, *patch.b, b.pose, b.twist);
+      value = patch.mode * speed_along(rows.tangent, a.twist, b.twist);
+      break;
+    }
+    case Quantity::Range:
+    case Quantity::Height: {
+      const int index = watched.quantity == Quantity::Height ? 0 : watched.point / 4;
+      const Limits limits =
+          limits_of(patch.features[index], *patch.a, placed(*patch.a).pose, *patch.b, placed(*patch.b).pose);
+      value = limits.value[watched.point % 4];
+      break;
+    }
+    case Quantity::Stop:
+      break;
+  }
+}
+
+std::optional<Contacts::Event> Contacts::first_change(double until) {
+  if (held_.empty() && stops_.empty()) return std::nullopt;
+  list_watched();
+  const auto fall = first_fall([this](double time, std::span<double> values) { evaluate(time, values); },
+                               tolerance_, smooth_.start(), until, samples_until(until));
+  if (!fall) return std::nullopt;
+  const Watched& watched = watched_[fall->index];
+  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
+  if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
+  return event;
+}
+
+/// Step sizes adapt to the motion only. With contacts at rest, time-periodic forces need their own sampling
+/// rate.
+int Contacts::samples_until(double until) const {
+  constexpr double kMost = 65536;
+  const double swings = fastest_force_ * (until - smooth_.start());
+  return std::max(kSamples, static_cast<int>(std::min(std::ceil(kSamplesARadian * swings), kMost)));
+}
+
+/// The step that ends at the event differs from the polynomial on which it was found by the step's error.
+/// Newton's method on the gap, with a step for each iteration, removes the difference.
+void Contacts::refine(const Event& event) {
+  constexpr int kMost = 4;
+  if (event.limit) return refine_limit(*event.limit);
+  if (!event.meet && !event.down) return;
+  const double start = smooth_.start();
+  for (int i = 0; i < kMost; ++i) {
+    look_at_states();
+    const OutlinePair pair = event.meet ? *event.meet : held_[event.down->first];
+    const Outline &a = finder_.outlines()[pair.a], &b = finder_.outlines()[pair.b];
+    const StepPaths::Placed at_a{{states_[a.body].position, rotation_of(states_[a.body].angle)},
+                                 {states_[a.body].velocity, states_[a.body].angular_velocity}};
+    const StepPaths::Placed at_b{{states_[b.body].position, rotation_of(states_[b.body].angle)},
+                                 {states_[b.body].velocity, states_[b.body].angular_velocity}};
+    const Feature feature =
+        event.meet ? touching_features(a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist, near_)[0]
+                   : event.down->second;
+    const Row<double> row = rows_of(feature, a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist).normal;
+    const double closing = speed_along(row, at_a.twist, at_b.twist);
+    if (std::abs(row.residual) <= near_ / 64 || !(closing < -1e-6 * finder_.scale_of_speed())) return;
+    const double time = smooth_.time() - row.residual / closing;
+    if (time == smooth_.time() || time <= start) return;
+    if (time < smooth_.time()) {
+      smooth_.cut(time);
+    } else {
+      smooth_.step(time);
+      if (smooth_.time() < time) return;
+    }
+  }
+}
+
+void Contacts::refine_limit(std::size_t limit) {
+  constexpr int kMost = 4;
+  const double length = finder_.scale_of_length(), start = smooth_.start();
+  for (int i = 0; i < kMost; ++i) {
+    const Stops::Approach at = stops_.approach(limit, smooth_.time(), smooth_.state().value());
+    if (std::abs(at.gap) <= 1e-14 * length || !(at.rate < -1e-6 * finder_.scale_of_speed())) return;
+    const double time = smooth_.time() - at.gap / at.rate;
+    if (time == smooth_.time() || time <= start) return;
+    if (time < smooth_.time()) {
+      smooth_.cut(time);
+    } else {
+      smooth_.step(time);
+      if (smooth_.time() < time) return;
+    }
+  }
+}
+
+void Contacts::save(SnapshotWriter& out) const {
+  out.put(static_cast<std::uint64_t>(held_.size()));
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    const ActivePatch& patch = equations_.held()[p];
+    out.put(held_[p]);
+    out.put(patch.friction);
+    out.put(patch.mode);
+    out.put(patch.count);
+    out.put(patch.features);
+  }
+  out.put(static_cast<std::uint64_t>(touching_.size()));
+  for (const OutlinePair& pair : touching_) out.put(pair);
+  out.put(static_cast<std::uint64_t>(passing_.size()));
+  for (const OutlinePair& pair : passing_) out.put(pair);
+  out.put(near_);
+  out.put(force_scale_);
+  out.put(std::int64_t{settled_});
+  out.put(last_event_);
+  out.put(events_at_once_);
+  out.put(events_);
+  stops_.save(out);
+}
+
+void Contacts::restore(SnapshotReader& in) {
+  const auto pair = [&] {
+    const auto read = in.get<OutlinePair>();
+    in.expect(read.a < finder_.outlines().size() && read.b < finder_.outlines().size());
+    return read;
+  };
+  std::vector<ActivePatch> patches(in.count(sizeof(OutlinePair)));
+  held_.clear();
+  for (ActivePatch& patch : patches) {
+    held_.push_back(pair());
+    patch.a = &finder_.outlines()[held_.back().a];
+    patch.b = &finder_.outlines()[held_.back().b];
+    patch.friction = in.get<double>();
+    patch.mode = in.get<int>();
+    patch.count = in.get<int>();
+    in.expect(patch.count >= 0 && patch.count <= 2);
+    for (Feature& feature : patch.features) {
+      feature = in.get<Feature>();
+      in.expect(feature.a >= 0 && feature.a < patch.a->count() && feature.b >= 0 &&
+                feature.b < patch.b->count());
+    }
+  }
+  touching_.assign(in.count(sizeof(OutlinePair)), {});
+  for (OutlinePair& each : touching_) each = pair();
+  passing_.assign(in.count(sizeof(OutlinePair)), {});
+  for (OutlinePair& each : passing_) each = pair();
+  near_ = in.get<double>();
+  force_scale_ = in.get<double>();
+  settled_ = in.get<std::int64_t>() != 0;
+  last_event_ = in.get<double>();
+  events_at_once_ = in.get<int>();
+  events_ = in.get<std::array<EventCount, kContactEvents>>();
+  equations_.hold_contacts(std::move(patches));
+  stops_.restore(in);
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,346 @@
+#include "engine/precise/events/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "engine/core/text.h"
+#include "engine/scene/error.h"
+
+// Handles events: resolves impacts, then decides which contacts persist.
+namespace plumb::precise {
+namespace {
+
+/// Bouncing ends when the rest of the Zeno cascade takes less than this fraction of the scene's own time, or
+/// rises by less than this many roundings of a gap. In its own time the scene's accelerations cross its
+/// length.
+constexpr double kLeftToBounce = 3e-5, kLowestBounce = 32;
+/// Corners that touch alternately are closed if they return within this fraction of the scene's own time.
+constexpr double kClatter = 1e-7;
+/// Gaps up to this multiple of the rounding of positions count as touching.
+constexpr double kTouching = 8;
+constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
+
+}  // namespace
+
+Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
+                   SmoothMotion& smooth)
+    : flight_(flight),
+      equations_(equations),
+      smooth_(smooth),
+      finder_(scene, parts),
+      law_(finder_, equations),
+      stops_(scene, parts, equations),
+      paths_(flight, parts.integrated, scene.bodies.size()),
+      search_(finder_.outlines(), paths_),
+      states_(scene.bodies.size()),
+      sample_(equations.dimension()),
+      rate_(equations.dimension()) {
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* swinging = std::get_if<SinusoidalForce>(&law))
+      fastest_force_ = std::max(fastest_force_, swinging->angular_frequency);
+  }
+}
+
+void Contacts::count(ContactEvent event, double time, std::int64_t times) {
+  EventCount& e = events_[static_cast<std::size_t>(event)];
+  e.count += times;
+  e.last = time;
+}
+
+void Contacts::look_at_states() {
+  for (std::size_t body = 0; body < states_.size(); ++body) {
+    if (flight_.holds(body)) states_[body] = flight_.at(body, smooth_.time()).state;
+  }
+  for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
+    states_[equations_.bodies()[slot]] = EquationsOfMotion::state(smooth_.state().value(), slot);
+  }
+}
+
+void Contacts::refuse_overlaps(double share) {
+  look_at_states();
+  const double near = kTouching * finder_.near(states_), allowed = share * finder_.scale_of_length() + near;
+  std::vector<OutlinePair> passing;
+  double deepest = allowed;
+  std::string subject;
+  for (const Touch& touch : finder_.touches(states_, near, passing)) {
+    for (int i = 0; i < touch.count; ++i) {
+      const double depth = -touch.rows[i].normal.residual;
+      if (!(depth > deepest)) continue;
+      deepest = depth;
+      const auto name = [&](std::size_t outline) {
+        return "'" + equations_.name(finder_.outlines()[outline].body) + "'";
+      };
+      subject = "bodies " + name(touch.pair.a) + " and " + name(touch.pair.b);
+    }
+  }
+  if (subject.empty()) return;
+  throw Error(
+      Error::Kind::Run, subject, "overlap", shortest(deepest) + " m",
+      "their shapes lie in each other by more than " + shortest(allowed) +
+          " m, and no law says how they part: place them apart, or filter the pair out; Realtime parts them");
+}
+
+void Contacts::settle() {
+  const double now = smooth_.time();
+  events_at_once_ =
+      now - last_event_ <= 4 * std::numeric_limits<double>::epsilon() * now ? events_at_once_ + 1 : 0;
+  last_event_ = now;
+  if (events_at_once_ > kMostEventsAtOnce)
+    throw Error(Error::Kind::Run, "contacts, limits and motors", "events",
+                std::to_string(kMostEventsAtOnce) + " and more",
+                "they change at one instant without end; Realtime may do");
+  equations_.set_window(now, now);
+  look_at_states();
+  near_ = kTouching * finder_.near(states_);
+  for (int round = 0;; ++round) {
+    std::vector<Touch> touches = finder_.touches(states_, near_, passing_);
+    stops_.find(now, smooth_.state().value(), finder_, states_, touches);
+    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion continues as before
+      touching_.clear();
+      settled_ = true;
+      return;
+    }
+    resolve_impacts(touches);
+    if (decide(touches) == Decision::Done) break;
+    if (round == kMostRounds)
+      throw Error(Error::Kind::Run, "contacts", "rounds", std::to_string(round),
+                  "no set of contacts lasts at this instant; Realtime may do");
+    look_at_states();
+  }
+  equations_.project(now, smooth_.change());
+  smooth_.restart();
+  settled_ = true;
+}
+
+bool Contacts::is_held(const Touch& touch, int point) const {
+  if (touch.stop) return false;
+  for (std::size_t p = 0; p < held_.size(); ++p) {
+    if (held_[p] != touch.pair) continue;
+    const ActivePatch& patch = equations_.held()[p];
+    for (int i = 0; i < patch.count; ++i) {
+      if (patch.features[i] == touch.features[point]) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Twist<double>> Contacts::accelerations() {
+  equations_.rate(smooth_.time(), smooth_.state().value(), rate_);
+  std::vector<Twist<double>> result(states_.size());
+  for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
+    const double* rate = rate_.data() + EquationsOfMotion::kPerBody * slot;
+    result[equations_.bodies()[slot]] = {{rate[3], rate[4]}, rate[5]};
+  }
+  return result;
+}
+
+/// Returns how fast each point's gap accelerates towards closing: minus the gap's second derivative, under
+/// the held contacts; without contacts for the points that are held themselves.
+std::vector<std::array<double, 2>> Contacts::pulls(std::span<const Touch> touches) {
+  std::vector<std::array<double, 2>> result(touches.size());
+  const std::vector<Twist<double>> with = accelerations();
+  const std::span<const Twist<double>> without =
+      equations_.accelerations_without_contacts(smooth_.time(), smooth_.state().value());
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    for (int i = 0; i < touches[t].count; ++i) {
+      const Row<double>& row = touches[t].rows[i].normal;
+      result[t][static_cast<std::size_t>(i)] =
+          -(row.bias_acceleration +
+            (is_held(touches[t], i) ? rate_along(row, without) : rate_along(row, with)));
+    }
+  }
+  return result;
+}
+
+void Contacts::resolve_impacts(std::vector<Touch>& touches) {
+  const bool closes = std::any_of(touches.begin(), touches.end(), [](const Touch& touch) {
+    for (int i = 0; i < touch.count; ++i) {
+      if (touch.closing[i] < -touch.quiet) return true;
+    }
+    return false;
+  });
+  if (!closes) return;
+  const double now = smooth_.time();
+  const std::vector<std::array<double, 2>> pull = pulls(touches);
+  const std::vector<Touch> before = touches;
+  const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
+  double limit = 0;
+  bool ends = false;
+  const auto restitution = [&](const Touch& touch, int point) {
+    const double speed = -touch.closing[point];
+    const double e = speed >= finder_.rules().restitution_threshold ? touch.restitution : 0;
+    if (e == 0 || e == 1) return e;
+    const auto place = std::find_if(before.begin(), before.end(),
+                                    [&](const Touch& t) { return !t.stop && t.pair == touch.pair; });
+    const double drawn =
+        pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
+    if (!(drawn > 0)) return e;
+    // A bounce takes 2 v / a, the next one e times as long; the series has this limit. Its impulses add up to
+    // those of a contact that begins now, within the same time.
+    const double left = 2 * e * speed / (drawn * (1 - e)), height = e * e * speed * speed / (2 * drawn);
+    if (left > kLeftToBounce * own_time && height > kLowestBounce * near_) return e;
+    ends = true;
+    limit = std::max(limit, now + left);
+    return 0.0;
+  };
+  const std::int64_t impacts = law_.resolve(now, touches, states_, smooth_.change(), restitution);
+  count(ContactEvent::Impact, now, impacts);
+  if (ends) count(ContactEvent::Rest, limit);
+}
+
+/// Decides which points with zero gap rate have forces, by Coulomb's law for the accelerations, and which
+/// motors at their speed hold it.
+Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
+  const double now = smooth_.time();
+  const std::span<const double> y = smooth_.state().value();
+  const std::vector<Brake> brakes = stops_.push(now, y, states_, touches);
+  TouchProblem p = TouchProblem::of(
+      touches, [&](std::size_t t, int i) { return std::abs(touches[t].closing[i]) <= touches[t].quiet; },
+      brakes, equations_, now, y);
+  const std::span<const Twist<double>> free = equations_.accelerations_without_contacts(now, y);
+  for (std::size_t i = 0; i < p.problem.size(); ++i) {
+    const Row<double>& row = p.response.rows[i];
+    p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
+  }
+  for (std::size_t q = 0; q < p.touches.size(); ++q) {
+    const Touch& touch = touches[p.touches[q]];
+    if (std::abs(touch.slip) > touch.quiet) p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
+  }
+  if (p.problem.size() > 0 &&
+      std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
+    p.problem.rate.assign(p.problem.size(), 0.0);  // no part of it can move
+  const CoulombSolution solution = solve(p.problem, brakes);
+  if (!solution.solved) {
+    if (!law_.jamb(now, touches, states_, smooth_.change())) {
+      throw Error(Error::Kind::Run, "contacts", "forces", std::to_string(p.problem.points()) + " points",
+                  "no forces obey Coulomb's law here, and no impulse either; Realtime may do");
+    }
+    count(ContactEvent::Paradox, now);
+    return Decision::Again;
+  }
+  if (solution.ambiguous) count(ContactEvent::Paradox, now);
+  activate(touches, p, solution);
+  act_on_stops(touches, brakes, p, solution);
+  return end_clatter(touches) ? Decision::Again : Decision::Done;
+}
+
+/// The digits of other forces would be lost beside motors that are far stronger: their bounds are reduced as
+/// long as the weaker motors suffice.
+CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
+  constexpr double kStronger = 1e3;
+  if (brakes.empty()) return solve_coulomb(problem);
+  const std::size_t n = problem.size();
+  double strength = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double own = problem.response[i * n + i];
+    if (own > 0) strength = std::max(strength, std::abs(problem.rate[i]) / own);
+  }
+  const std::size_t first_patch = problem.patches.size() - brakes.size();
+  for (;;) {
+    strength *= kStronger;
+    bool weaker = false, gives_way = false;
+    for (std::size_t b = 0; b < brakes.size(); ++b) {
+      double& bound = problem.patches[first_patch + b].bound;
+      bound = strength > 0 ? std::min(brakes[b].bound, strength) : brakes[b].bound;
+      weaker = weaker || bound < brakes[b].bound;
+    }
+    const CoulombSolution solution = solve_coulomb(problem);
+    for (std::size_t b = 0; b < brakes.size(); ++b)
+      gives_way = gives_way || (solution.mode[first_patch + b] != 0 &&
+                                problem.patches[first_patch + b].bound < brakes[b].bound);
+    if (!weaker || (solution.solved && !gives_way)) return solution;
+  }
+}
+
+void Contacts::act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+                            const TouchProblem& p, const CoulombSolution& solution) {
+  double most = 0;
+  for (std::size_t i = 0; i < p.problem.points(); ++i) {
+    const Touch& touch = touches[p.touch_of[i]];
+    if (!touch.stop || !solution.pushes[i]) continue;
+    stops_.hold(*touch.stop);
+    most = std::max(most, solution.force[i]);
+  }
+  for (std::size_t b = 0; b < brakes.size(); ++b) {
+    const std::size_t patch = p.touches.size() + b;
+    stops_.take(brakes[b], solution.mode[patch]);
+    most = std::max(most, std::abs(solution.force[p.problem.points() + patch]));
+  }
+  stops_.act(most);
+}
+
+void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
+                        const CoulombSolution& solution) {
+  std::vector<ActivePatch> patches;
+  const std::vector<OutlinePair> before = held_;
+  held_.clear();
+  force_scale_ = 0;
+  for (std::size_t q = 0; q < p.touches.size(); ++q) {
+    const Touch& touch = touches[p.touches[q]];
+    if (touch.stop) continue;
+    ActivePatch patch{&finder_.outlines()[touch.pair.a],
+                      &finder_.outlines()[touch.pair.b],
+                      touch.friction,
+                      solution.mode[q],
+                      0,
+                      {}};
+    for (std::size_t i = 0; i < p.problem.points(); ++i) {
+      if (p.touch_of[i] != p.touches[q] || !solution.pushes[i]) continue;
+      patch.features[patch.count++] = touch.features[p.index_of[i]];
+      force_scale_ = std::max(force_scale_, solution.force[i]);
+    }
+    if (patch.count == 0) continue;
+    patches.push_back(patch);
+    held_.push_back(touch.pair);
+    if (!std::binary_search(before.begin(), before.end(), touch.pair))
+      count(ContactEvent::Hold, smooth_.time());
+  }
+  touching_.clear();
+  for (const Touch& touch : touches) {
+    if (!touch.stop && !std::binary_search(held_.begin(), held_.end(), touch.pair))
+      touching_.push_back(touch.pair);
+  }
+  equations_.hold_contacts(std::move(patches));
+}
+
+/// Closes points that open but would return at once, as with corners that touch alternately. Returns true if
+/// there were any.
+bool Contacts::end_clatter(std::vector<Touch>& touches) {
+  const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
+  const auto opens = [](const Touch& touch, int i) { return !touch.stop && touch.closing[i] > touch.quiet; };
+  bool any = false;
+  for (const Touch& touch : touches) {
+    for (int i = 0; i < touch.count; ++i) any = any || opens(touch, i);
+  }
+  if (!any) return false;
+  const std::vector<Twist<double>> now = accelerations();
+  std::vector<ActivePatch> closed;
+  any = false;
+  for (const Touch& touch : touches) {
+    if (touch.stop) continue;
+    ActivePatch patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
+    for (int i = 0; i < touch.count; ++i) {
+      const Row<double>& row = touch.rows[i].normal;
+      const double pull = -(rate_along(row, now) + row.bias_acceleration);
+      const double speed = touch.closing[i];
+      const bool soon =
+          2 * speed < kClatter * own_time * pull || speed * speed < 2 * pull * kLowestBounce * near_;
+      const bool returns = opens(touch, i) && pull > 0 && soon;
+      if (returns || std::abs(touch.closing[i]) <= touch.quiet)
+        patch.features[patch.count++] = touch.features[i];
+      any = any || returns;
+    }
+    if (patch.count > 0) closed.push_back(patch);
+  }
+  if (!any) return false;
+  equations_.hold_contacts(std::move(closed));
+  equations_.project(smooth_.time(), smooth_.change());
+  held_.clear();
+  equations_.hold_contacts({});
+  count(ContactEvent::Rest, smooth_.time());
+  return true;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/driver/driver.h"
+#include "engine/driver/snapshot.h"
+#include "engine/precise/dynamics/flight.h"
+#include "engine/precise/dynamics/motion.h"
+#include "engine/precise/event_search/events.h"
+#include "engine/precise/event_search/paths.h"
+#include "engine/precise/event_search/search.h"
+#include "engine/precise/events/impacts.h"
+#include "engine/precise/events/stops.h"
+#include "engine/precise/events/touch.h"
+#include "engine/precise/integration/smooth.h"
+
+namespace plumb::precise {
+
+/// Contacts of `Precise`, and limits and motors of joints. Between events the persistent ones are constraints
+/// of the equations of motion; at events they are determined anew.
+/// `stop` locates the first event of the last step and cuts the step there.
+/// `settle` resolves impacts, and finds the contact modes (push, stick, slip or open) by a complementarity
+/// problem in the accelerations.
+class Contacts {
+ public:
+  Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
+           SmoothMotion& smooth);
+
+  /// Returns true if no shapes may touch, and joints have neither limits nor motors.
+  bool empty() const { return finder_.outlines().empty() && stops_.empty(); }
+
+  /// Throws `Error` (Run) that names both bodies if shapes overlap by more than `share` of the scene's
+  /// length. For bodies placed from outside.
+  void refuse_overlaps(double share);
+
+  /// Handles the event at the motion's time; also after jumps of forces and changes from outside.
+  void settle();
+  bool settled() const { return settled_; }
+  void unsettle() { settled_ = false; }
+
+  /// Cuts the last step at its first event, and is then unsettled.
+  void stop();
+
+  /// Counts of the events so far.
+  const std::array<EventCount, kContactEvents>& events() const { return events_; }
+  std::int64_t impacts() const { return events_[static_cast<std::size_t>(ContactEvent::Impact)].count; }
+
+  void save(SnapshotWriter& out) const;
+  void restore(SnapshotReader& in);
+
+ private:
+  /// Quantities of persistent contacts that are monitored for events.
+  enum class Quantity { Force, Cone, Slip, Range, Height, Stop };
+  struct Watched {
+    Quantity quantity{};
+    std::size_t patch = 0;
+    int point = 0;
+    Feature feature{};  // of a height: the corner that comes down
+    std::size_t stop = 0;
+  };
+  struct Event {
+    double time = 0;
+    Quantity quantity{};
+    std::optional<OutlinePair> meet;                      // shapes that come into contact
+    std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
+    std::optional<std::size_t> limit;                     // of a joint, when reached
+  };
+
+  void look_at_states();
+  void count(ContactEvent event, double time, std::int64_t times = 1);
+
+  // settle
+  void resolve_impacts(std::vector<Touch>& touches);
+  std::vector<std::array<double, 2>> pulls(std::span<const Touch> touches);
+  bool is_held(const Touch& touch, int point) const;
+  enum class Decision { Done, Again };
+  Decision decide(std::vector<Touch>& touches);
+  CoulombSolution solve(CoulombProblem& problem, std::span<const Brake> brakes);
+  void activate(std::span<const Touch> touches, const TouchProblem& problem, const CoulombSolution& solution);
+  void act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+                    const TouchProblem& problem, const CoulombSolution& solution);
+  bool end_clatter(std::vector<Touch>& touches);
+  std::vector<Twist<double>> accelerations();
+
+  // stop
+  std::optional<Event> first_meeting(double until);
+  std::optional<Event> first_change(double until);
+  int samples_until(double until) const;
+  void list_watched();
+  void evaluate(double time, std::span<double> values);
+  void refine(const Event& event);
+  void refine_limit(std::size_t limit);
+  void watch_contacts();
+  void evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first, double time,
+                        double& value);
+
+  const Flight& flight_;
+  EquationsOfMotion& equations_;
+  SmoothMotion& smooth_;
+  TouchFinder finder_;
+  ImpactLaw law_;
+  Stops stops_;
+  StepPaths paths_;
+  ContactSearch search_;
+  std::vector<BodyState> states_;  // by body, at the motion's time
+  double near_ = 0;                // m: gaps below it count as touching
+  double fastest_force_ = 0;       // rad/s, the largest of time-periodic forces
+  bool settled_ = false;
+
+  std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order
+  std::vector<OutlinePair> touching_;  // touching but not held; ascending
+  std::vector<OutlinePair> passing_;   // touching where a chain does not push; ascending
+  std::vector<Watched> watched_;
+  std::vector<double> tolerance_;
+  double force_scale_ = 0;
+  Compensated sample_;
+  std::vector<double> rate_, stop_values_;
+
+  std::array<EventCount, kContactEvents> events_{};
+  double last_event_ = -1;
+  int events_at_once_ = 0;
+};
+
+}  // namespace plumb::precise

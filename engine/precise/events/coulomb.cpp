@@ -1,0 +1,220 @@
+#include "engine/precise/events/coulomb.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/linear_algebra/complementarity.h"
+
+namespace plumb {
+namespace {
+
+/// The problem in scaled quantities, force = scale * scaled force, as a standard complementarity problem.
+/// With tau = s - m its unknowns z are lambda, s and the negative part of b, and w are a, the positive part
+/// of b and 2 m - s (Ch. Glocker, Set-Valued Force Laws, 2001, ch. 9, in the plane).
+class Pivoting {
+ public:
+  explicit Pivoting(const CoulombProblem& problem)
+      : problem_(problem), n_(problem.points()), size_(problem.size()), scale_(size_, 1.0) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double own = problem.response[i * size_ + i];
+      if (own > 0) scale_[i] = 1 / std::sqrt(own);
+    }
+    for (std::size_t p = 0; p < problem.patches.size(); ++p) {
+      const std::size_t t = n_ + p;
+      const bool may_stick = problem.patches[p].slip == 0 &&
+                             (problem.patches[p].friction > 0 || problem.patches[p].bound > 0) &&
+                             problem.response[t * size_ + t] > 0;
+      place_.push_back(may_stick ? static_cast<int>(free_.size()) : -1);
+      if (may_stick) free_.push_back(p);
+    }
+  }
+
+  CoulombSolution solve() {
+    assemble();
+    const ComplementaritySolution found = solve_complementarity(matrix_, q_);
+    CoulombSolution out = nothing();
+    out.solved = found.status == ComplementaritySolution::Status::Solved;
+    if (!out.solved && !free_.empty()) return solve_split();
+    if (out.solved) take(found, out);
+    return out;
+  }
+
+ private:
+  double response(std::size_t i, std::size_t j) const {
+    return scale_[i] * problem_.response[i * size_ + j] * scale_[j];
+  }
+  /// Returns mu of a point in scaled forces.
+  double cone(std::size_t point) const {
+    const int p = problem_.patch_of[point];
+    return problem_.patches[p].friction * scale_[point] / scale_[n_ + p];
+  }
+  /// Returns the tangential force per unit normal force, before s.
+  double drawn(std::size_t point) const {
+    const int p = problem_.patch_of[point];
+    if (place_[p] >= 0) return -cone(point);
+    return -problem_.patches[p].slip * cone(point);
+  }
+
+  /// Returns m0 in scaled forces; `set`: the tangential force without any normal force, before s.
+  double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
+  double set(std::size_t patch) const {
+    return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
+  }
+
+  /// Solves the same problem with tau = p - m, its parts p, m >= 0, and the slip's magnitude g as unknowns
+  /// (M. Anitescu, F. A. Potra, Nonlinear Dynamics 14, 1997). This has one more unknown per patch, but is
+  /// copositive: Lemke's method reaches a solution if all patches may stick, for any cone width.
+  CoulombSolution solve_split() {
+    const std::size_t f = free_.size(), size = n_ + 3 * f;
+    std::vector<double> matrix(size * size, 0.0), q(size, 0.0);
+    const auto fill = [&](std::size_t row, std::size_t of, double sign) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        const auto patch = static_cast<std::size_t>(problem_.patch_of[j]);
+        const double own = place_[patch] >= 0 ? 0 : drawn(j);
+        matrix[row * size + j] = sign * (response(of, j) + own * response(of, n_ + patch));
+      }
+      for (std::size_t k = 0; k < f; ++k) {
+        matrix[row * size + n_ + k] = sign * response(of, n_ + free_[k]);
+        matrix[row * size + n_ + f + k] = -sign * response(of, n_ + free_[k]);
+      }
+      q[row] = scale_[of] * problem_.rate[of];
+      for (std::size_t p = 0; p < place_.size(); ++p)
+        q[row] += place_[p] < 0 ? set(p) * response(of, n_ + p) : 0;
+      q[row] *= sign;
+    };
+    for (std::size_t i = 0; i < n_; ++i) fill(i, i, 1);
+    for (std::size_t k = 0; k < f; ++k) {
+      const std::size_t plus = n_ + k, minus = n_ + f + k, slip = n_ + 2 * f + k;
+      fill(plus, n_ + free_[k], 1);
+      fill(minus, n_ + free_[k], -1);
+      matrix[plus * size + slip] = matrix[minus * size + slip] = 1;
+      matrix[slip * size + plus] = matrix[slip * size + minus] = -1;
+      q[slip] = bound(free_[k]);
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (problem_.patch_of[j] == static_cast<int>(free_[k])) matrix[slip * size + j] = cone(j);
+      }
+    }
+    unit_ = 0;
+    for (const double x : q) unit_ = std::max(unit_, std::abs(x));
+    for (double& x : q) x /= unit_;
+    const ComplementaritySolution found = solve_complementarity(matrix, q);
+    CoulombSolution out = nothing();
+    out.solved = found.status == ComplementaritySolution::Status::Solved;
+    if (!out.solved) return out;
+    std::vector<double> scaled(size_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const auto patch = static_cast<std::size_t>(problem_.patch_of[i]);
+      scaled[i] = found.z[i];
+      if (place_[patch] < 0) scaled[n_ + patch] += drawn(i) * found.z[i];
+      out.pushes[i] = found.basic[i];
+    }
+    for (std::size_t p = 0; p < place_.size(); ++p) {
+      out.mode[p] = problem_.patches[p].slip;
+      if (place_[p] < 0) {
+        scaled[n_ + p] += set(p) / unit_;
+        continue;
+      }
+      const std::size_t k = static_cast<std::size_t>(place_[p]), slip = n_ + 2 * f + k;
+      scaled[n_ + p] += found.z[n_ + k] - found.z[n_ + f + k];
+      out.mode[p] = !(found.z[slip] > 0) ? 0 : scaled[n_ + p] > 0 ? -1 : 1;
+    }
+    finish(scaled, out);
+    return out;
+  }
+
+  CoulombSolution nothing() const {
+    CoulombSolution out;
+    out.force.assign(size_, 0.0);
+    out.rate = problem_.rate;
+    out.pushes.assign(n_, 0);
+    out.mode.assign(problem_.patches.size(), 0);
+    out.ambiguous = ambiguous_;
+    return out;
+  }
+
+  void finish(const std::vector<double>& scaled, CoulombSolution& out) const {
+    for (std::size_t i = 0; i < size_; ++i) out.force[i] = unit_ * scale_[i] * scaled[i];
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t j = 0; j < size_; ++j) out.rate[i] += problem_.response[i * size_ + j] * out.force[j];
+    }
+  }
+
+  void assemble() {
+    const std::size_t f = free_.size(), size = n_ + 2 * f;
+    matrix_.assign(size * size, 0.0);
+    q_.assign(size, 0.0);
+    const auto fill = [&](std::size_t row, std::size_t of) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        matrix_[row * size + j] = response(of, j) + drawn(j) * response(of, n_ + problem_.patch_of[j]);
+      }
+      for (std::size_t k = 0; k < f; ++k) matrix_[row * size + n_ + k] = response(of, n_ + free_[k]);
+      q_[row] = scale_[of] * problem_.rate[of];
+      for (std::size_t p = 0; p < place_.size(); ++p) q_[row] += set(p) * response(of, n_ + p);
+    };
+    for (std::size_t i = 0; i < n_; ++i) {
+      fill(i, i);
+      ambiguous_ =
+          ambiguous_ || (problem_.patches[problem_.patch_of[i]].slip != 0 && matrix_[i * size + i] < 0);
+    }
+    for (std::size_t k = 0; k < f; ++k) {
+      fill(n_ + k, n_ + free_[k]);
+      matrix_[(n_ + k) * size + n_ + f + k] = 1;
+      matrix_[(n_ + f + k) * size + n_ + k] = -1;
+      q_[n_ + f + k] = 2 * bound(free_[k]);
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (problem_.patch_of[j] == static_cast<int>(free_[k]))
+          matrix_[(n_ + f + k) * size + j] = 2 * cone(j);
+      }
+    }
+    // With wide cones s is as large as they are: scale s and its row by their width.
+    wide_.assign(f, 1.0);
+    for (std::size_t k = 0; k < f; ++k) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (problem_.patch_of[j] == static_cast<int>(free_[k])) wide_[k] = std::max(wide_[k], cone(j));
+      }
+      for (const std::size_t at : {n_ + k, n_ + f + k}) {
+        for (std::size_t i = 0; i < size; ++i) matrix_[i * size + at] *= wide_[k];
+        for (std::size_t j = 0; j < size; ++j) matrix_[at * size + j] /= wide_[k];
+        q_[at] /= wide_[k];
+      }
+    }
+    for (const double x : q_) unit_ = std::max(unit_, std::abs(x));
+    if (unit_ > 0) {
+      for (double& x : q_) x /= unit_;
+    }
+  }
+
+  void take(const ComplementaritySolution& found, CoulombSolution& out) const {
+    const std::size_t f = free_.size();
+    std::vector<double> scaled(size_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      scaled[i] = found.z[i];
+      scaled[n_ + problem_.patch_of[i]] += drawn(i) * found.z[i];
+      out.pushes[i] = found.basic[i];
+    }
+    for (std::size_t k = 0; k < f; ++k) scaled[n_ + free_[k]] += wide_[k] * found.z[n_ + k];
+    for (std::size_t p = 0; unit_ > 0 && p < place_.size(); ++p) scaled[n_ + p] += set(p) / unit_;
+    for (std::size_t p = 0; p < place_.size(); ++p) {
+      out.mode[p] = problem_.patches[p].slip;
+      if (place_[p] < 0) continue;
+      const std::size_t s = n_ + static_cast<std::size_t>(place_[p]);
+      out.mode[p] = found.basic[s + f] ? -1 : found.basic[s] ? 0 : 1;
+    }
+    finish(scaled, out);
+  }
+
+  const CoulombProblem& problem_;
+  std::size_t n_, size_;
+  std::vector<double> scale_;
+  std::vector<std::size_t> free_;  // patches that may stick
+  std::vector<int> place_;         // by patch: its index among these, or -1
+  std::vector<double> matrix_, q_, wide_;
+  double unit_ = 0;
+  bool ambiguous_ = false;
+};
+
+}  // namespace
+
+CoulombSolution solve_coulomb(const CoulombProblem& problem) { return Pivoting(problem).solve(); }
+
+}  // namespace plumb

@@ -1,0 +1,184 @@
+#include "engine/precise/events/impacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.h"
+#include "engine/scene/error.h"
+
+namespace plumb::precise {
+namespace {
+
+/// Maximum number of impacts resolved one after the other. An endless sequence shrinks like a geometric
+/// series: approach that remains is rounding, and is resolved together, with restitution only where it is 1.
+constexpr std::int64_t kMostInSequence = 20000;
+
+bool closes(const Touch& touch) {
+  for (int i = 0; i < touch.count; ++i) {
+    if (touch.closing[i] < -touch.quiet) return true;
+  }
+  return false;
+}
+
+bool closes(const Touch& touch, int point) { return touch.closing[point] < -touch.quiet; }
+
+double fastest(const Touch& touch) {
+  double least = 0;
+  for (int i = 0; i < touch.count; ++i) least = std::min(least, touch.closing[i]);
+  return least;
+}
+
+}  // namespace
+
+TouchProblem TouchProblem::of(std::span<const Touch> touches,
+                              const std::function<bool(std::size_t, int)>& take,
+                              std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
+                              std::span<const double> y) {
+  TouchProblem out;
+  std::vector<Row<double>> normals, tangents;
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    bool any = false;
+    for (int i = 0; i < touches[t].count; ++i) {
+      if (!take(t, i)) continue;
+      if (!any) {
+        out.touches.push_back(t);
+        out.problem.patches.push_back({touches[t].friction, 0, 0});
+        tangents.push_back(touches[t].rows[i].tangent);
+      }
+      any = true;
+      out.touch_of.push_back(t);
+      out.index_of.push_back(static_cast<std::size_t>(i));
+      out.problem.patch_of.push_back(static_cast<int>(out.touches.size()) - 1);
+      normals.push_back(touches[t].rows[i].normal);
+    }
+  }
+  for (const Brake& brake : brakes) {
+    out.problem.patches.push_back({0, 0, brake.bound});
+    tangents.push_back(brake.row);
+  }
+  normals.insert(normals.end(), tangents.begin(), tangents.end());
+  if (!normals.empty()) equations.respond(time, y, std::move(normals), out.response, out.problem.response);
+  return out;
+}
+
+void ImpactLaw::apply(const ContactResponse& response, std::span<const double> impulses,
+                      std::span<Touch> touches, std::span<BodyState> states, Compensated& y) {
+  equations_.push(response, impulses, y);
+  for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
+    states[equations_.bodies()[slot]] = EquationsOfMotion::state(y.value(), slot);
+  }
+  for (Touch& touch : touches) finder_.measure(states, touch);
+}
+
+std::string ImpactLaw::subject(const Touch& touch) const {
+  if (touch.stop) return "joint '" + equations_.kind_joints().stops()[*touch.stop].joint + "'";
+  return "bodies '" + equations_.name(finder_.outlines()[touch.pair.a].body) + "' and '" +
+         equations_.name(finder_.outlines()[touch.pair.b].body) + "'";
+}
+
+void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>& takes_part,
+                       std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+                       const Restitution& restitution) {
+  TouchProblem p = TouchProblem::of(touches, takes_part, {}, equations_, time, y.value());
+  const std::size_t n = p.problem.points();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Touch& touch = touches[p.touch_of[i]];
+    const int index = static_cast<int>(p.index_of[i]);
+    const double closing = touch.closing[index];
+    const double wanted = closing < 0 ? -restitution(touch, index) * closing : 0;
+    p.problem.rate.push_back(closing - wanted);
+  }
+  for (const std::size_t t : p.touches) p.problem.rate.push_back(touches[t].slip);
+  const CoulombSolution solution = solve_coulomb(p.problem);
+  if (!solution.solved) {
+    throw Error(Error::Kind::Run, subject(touches[p.touches[0]]), "effective mass", "infinite",
+                "an impact meets what joints and other contacts hold everything fast: nothing can give way");
+  }
+  apply(p.response, solution.force, touches, states, y);
+}
+
+std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states,
+                                Compensated& y, const Restitution& restitution) {
+  std::int64_t count = 0;
+  const bool together = finder_.rules().simultaneous == Simultaneous::Together;
+  const auto all = [](std::size_t, int) { return true; };
+  const auto to_rest = [&](const Touch& touch, int point) {
+    const double e = restitution(touch, point);
+    return e < 1 ? 0 : e;
+  };
+  for (;;) {
+    std::size_t worst = touches.size();
+    for (std::size_t t = 0; t < touches.size(); ++t) {
+      if (closes(touches[t]) && (worst == touches.size() || fastest(touches[t]) < fastest(touches[worst])))
+        worst = t;
+    }
+    if (worst == touches.size()) return count;
+    if (count >= 2 * kMostInSequence) {
+      throw Error(Error::Kind::Run, subject(touches[worst]), "impacts", std::to_string(count) + " and more",
+                  "they do not stop at one instant");
+    }
+    const bool at_limit = count >= kMostInSequence;
+    if (together || at_limit) {
+      for (const Touch& touch : touches) count += closes(touch) ? 1 : 0;
+      if (at_limit) {
+        strike(time, all, touches, states, y, to_rest);
+      } else {
+        strike(time, all, touches, states, y, restitution);
+      }
+      continue;
+    }
+    ++count;
+    // Corners of one shape that approach together are one impact. If one of them opens, it is resolved after
+    // the other, and so on in turn: the limit of corners that touch at slightly different times.
+    const Touch& struck = touches[worst];
+    bool both = true;
+    for (int i = 0; i < struck.count; ++i) both = both && closes(struck, i);
+    const auto part = [&](std::size_t t, int point) {
+      return touches[t].stop.has_value() || (t == worst && (both || closes(touches[t], point)));
+    };
+    strike(time, part, touches, states, y, restitution);
+  }
+}
+
+bool ImpactLaw::jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y) {
+  std::size_t worst = touches.size();
+  int worst_point = 0, worst_way = 0;
+  double least = 0, response[4] = {};
+  ContactResponse found;
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    const Touch& touch = touches[t];
+    if (std::abs(touch.slip) <= touch.quiet || touch.friction == 0) continue;
+    const int way = touch.slip > 0 ? 1 : -1;
+    for (int i = 0; i < touch.count; ++i) {
+      if (std::abs(touch.closing[i]) > touch.quiet) continue;
+      ContactResponse r;
+      std::vector<double> w;
+      equations_.respond(time, y.value(), {touch.rows[i].normal, touch.rows[i].tangent}, r, w);
+      const double own =
+          w[0] - way * touch.friction * w[1];  // the gap's rate by a normal impulse with its friction
+      if (own / w[0] >= least) continue;
+      least = own / w[0];
+      worst = t, worst_point = i, worst_way = way;
+      std::copy(w.begin(), w.end(), response);
+      found = std::move(r);
+    }
+  }
+  if (worst == touches.size()) return false;
+  const Touch& touch = touches[worst];
+  const double nn = response[0], nt = response[1], tn = response[2], tt = response[3], mu = touch.friction;
+  // Until slip ends: J_t = -mu J_n.
+  const double slowing = tn - worst_way * mu * tt;
+  if (worst_way * slowing >= 0) return false;
+  const double first = -touch.slip / slowing;
+  double closing = touch.closing[worst_point] + (nn - worst_way * mu * nt) * first;
+  // Then without slip, or with reversed slip if friction does not hold, until the gap no longer closes.
+  const double stick = -tn / tt;
+  const double drawn = std::clamp(stick, -mu, mu);
+  const double opening = nn + drawn * nt;
+  const double second = opening > 0 && closing < 0 ? -closing / opening : 0;
+  const double impulses[2] = {first + second, -worst_way * mu * first + drawn * second};
+  apply(found, impulses, touches, states, y);
+  return true;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/precise/dynamics/motion.h"
+#include "engine/precise/events/coulomb.h"
+#include "engine/precise/events/touch.h"
+
+namespace plumb::precise {
+
+/// A motor or a brake at its speed: a force of at most `bound` along its row, N or N m, holds it there.
+struct Brake {
+  std::size_t stop = 0;
+  Row<double> row{};
+  double bound = 0;
+};
+
+/// The Coulomb problem of touches' points: normals first, then one tangent per touch, then the brakes' rows.
+struct TouchProblem {
+  std::vector<std::size_t> touch_of, index_of;  ///< by point: index of the touch, and of the point within it
+  std::vector<std::size_t> touches;             ///< by patch; the brakes' patches follow
+  ContactResponse response;
+  CoulombProblem problem;  ///< with the response; the caller fills the rates
+
+  /// Builds the problem of the points that `take` selects.
+  static TouchProblem of(std::span<const Touch> touches, const std::function<bool(std::size_t, int)>& take,
+                         std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
+                         std::span<const double> y);
+};
+
+/// Impacts at an instant: Newton's restitution and Coulomb's friction for impulses. For a touch with gap
+/// rates u before and u' after,
+///   u' >= -e u if it approaches, u' >= 0 otherwise;  impulses push, and only where equality holds;
+///   tangential impulses oppose the remaining slip, or stop it within Coulomb's cone.
+/// Two corners of one shape that approach an edge of another together are one problem. If only one of them
+/// approaches, they are resolved alternately until neither does: such impacts shrink like a geometric series,
+/// and end at its limit. Simultaneous touches are a sequence, the fastest first, until none approaches, or
+/// one problem (`ContactRules::simultaneous`). Limits of joints that are reached take part in every impact as
+/// joints do, but only push, and have no restitution.
+class ImpactLaw {
+ public:
+  ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
+      : finder_(finder), equations_(equations) {}
+
+  /// Restitution by touch and point; the caller may set it to zero where bouncing ends.
+  using Restitution = std::function<double(const Touch& touch, int point)>;
+
+  /// Resolves all approaching touches. `states` are by body of the scene, of all bodies with outlines; their
+  /// velocities change with `y`. Returns the number of impacts; throws `Error` (Run) if nothing can move.
+  std::int64_t resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y,
+                       const Restitution& restitution);
+
+  /// Painleve's paradox: a slipping touch that no finite force holds. A jamming impulse stops its slip while
+  /// it pushes, then sticks (or slips back) until the gap's rate is zero again. Returns true if one was
+  /// found.
+  bool jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y);
+
+ private:
+  void strike(double time, const std::function<bool(std::size_t touch, int point)>& takes_part,
+              std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+              const Restitution& restitution);
+  std::string subject(const Touch& touch) const;
+  void apply(const ContactResponse& response, std::span<const double> impulses, std::span<Touch> touches,
+             std::span<BodyState> states, Compensated& y);
+
+  const TouchFinder& finder_;
+  EquationsOfMotion& equations_;
+};
+
+}  // namespace plumb::precise

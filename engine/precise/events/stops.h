@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/driver/snapshot.h"
+#include "engine/precise/dynamics/motion.h"
+#include "engine/precise/event_search/paths.h"
+#include "engine/precise/events/impacts.h"
+#include "engine/precise/events/touch.h"
+#include "engine/precise/integration/smooth.h"
+
+namespace plumb::precise {
+
+/// Limits and motors of joints. They take part in the decisions about contacts. A limit that is reached is a
+/// touch without friction and restitution, and a constraint for as long as it pushes. A motor is a constraint
+/// at its speed for as long as its force suffices (a `Brake`), and a constant force otherwise.
+class Stops {
+ public:
+  Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
+
+  bool empty() const { return modes_.empty(); }
+
+  /// Computes the rows at a state, with the bodies' velocities; appends the limits that are reached there to
+  /// `touches`.
+  void find(double time, std::span<const double> y, const TouchFinder& finder,
+            std::span<const BodyState> states, std::vector<Touch>& touches);
+
+  /// After impacts: updates the rows, including those of `touches`. Motors off their speed push from now on;
+  /// returns those at their speed.
+  std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
+                          std::vector<Touch>& touches);
+
+  /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
+  /// `force` is the largest of their forces.
+  void hold(std::size_t limit);
+  void take(const Brake& brake, int mode);
+  void act(double force);
+
+  /// The monitored values: gaps of free limits, force margins of held stops, the speed that motors lack.
+  /// Negative, beyond the tolerance, is an event.
+  double tolerance(std::size_t stop) const;
+  void evaluate(double time, std::span<const double> y, std::span<double> values);
+  std::size_t count() const { return modes_.size(); }
+
+  /// Declares that the last step ended at this limit: it counts as reached whatever rounding says.
+  void meet(std::optional<std::size_t> limit) { met_ = limit; }
+  bool is_free_limit(std::size_t stop) const;
+
+  /// Finds the first limit that is reached within the last step, up to `until`, and the time. C obeys
+  ///   C(t + s) >= C + C' s - A s^2 / 2,
+  /// A a bound on C'' from the step's polynomials. Only limits that are passed and left again within 1/4096
+  /// of a step may be missed.
+  struct Met {
+    double time = 0;
+    std::size_t limit = 0;
+  };
+  std::optional<Met> first_met(const StepPaths& paths, SmoothMotion& smooth, double until);
+
+  /// The gap of a limit at a state, and its rate.
+  struct Approach {
+    double gap = 0, rate = 0;
+  };
+  Approach approach(std::size_t limit, double time, std::span<const double> y);
+
+  void save(SnapshotWriter& out) const;
+  void restore(SnapshotReader& in);
+
+ private:
+  using Mode = EquationsOfMotion::StopMode;
+  const KindJoints::Stop& stop(std::size_t k) const { return equations_.kind_joints().stops()[k]; }
+  std::optional<double> first_time(std::size_t limit, const StepPaths& paths, SmoothMotion& smooth,
+                                   double until);
+  double safe_step(std::size_t limit, const Approach& now, const StepPaths& paths, double time,
+                   double until) const;
+  double lacking(std::size_t motor, std::span<const Twist<double>> twists) const;
+
+  EquationsOfMotion& equations_;
+  double length_, speed_;  // the scene's
+  std::vector<Mode> modes_;
+  std::optional<std::size_t> met_;  // the limit at which the last step ended
+  std::vector<Row<double>> rows_;   // at the motion's time
+  std::vector<Twist<double>> twists_;
+  double force_scale_ = 0;
+  Compensated sample_;
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/precise/dynamics/motion.h"
+#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/event_search/search.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// Two shapes that touch at an instant, in one or two points, with their relative motion there; or a limit of
+/// a joint that is reached, with one point.
+struct Touch {
+  OutlinePair pair{};
+  std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
+  double friction = 0, restitution = 0;
+  int count = 0;
+  Feature features[2] = {};
+  ContactRows rows[2] = {};
+  double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
+  double slip = 0;         ///< m/s, of b against a along the tangent
+  double quiet = 0;        ///< m/s, noise floor of these by rounding
+};
+
+/// The outlines of a scene that may touch; finds those that touch at an instant.
+class TouchFinder {
+ public:
+  TouchFinder(const Scene& scene, const Parts& parts);
+
+  std::span<const Outline> outlines() const { return outlines_; }
+  bool may_meet(std::size_t a, std::size_t b) const;
+  double friction(const OutlinePair& pair) const;
+  double restitution(const OutlinePair& pair) const;
+  const ContactRules& rules() const { return rules_; }
+  double scale_of_speed() const { return speed_; }
+  double scale_of_length() const { return length_; }
+
+  /// Returns the rounding error of a gap, m, with bodies at the given states.
+  double near(std::span<const BodyState> states) const;
+
+  /// Returns the touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs
+  /// that touch where a chain may not push: at its back, and at an end that belongs to the next segment.
+  std::vector<Touch> touches(std::span<const BodyState> states, double near,
+                             std::vector<OutlinePair>& passing) const;
+
+  /// Updates the rates of a touch after velocities have changed.
+  void measure(std::span<const BodyState> states, Touch& touch) const;
+
+ private:
+  void measure_stop(std::span<const BodyState> states, Touch& touch) const;
+
+  Parts parts_;
+  std::vector<Outline> outlines_;
+  std::vector<char> dynamic_;  // by body
+  ContactRules rules_;
+  double speed_ = 1, length_ = 1;
+};
+
+/// Broad phase of a step: returns the pairs whose swept boxes overlap.
+std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepPaths& paths);
+
+}  // namespace plumb::precise

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/text.h"
+#include "engine/precise/integration/smooth.h"
+#include "engine/scene/error.h"
+
+// Steps of closed linkages near kinematic singularities, and across these.
+namespace plumb::precise {
+namespace {
+
+/// Distance in steps beyond which a crossing is ignored.
+constexpr double kNear = 5;
+/// Look-ahead in steps: a step that ends before a crossing leaves room for the one across it.
+constexpr double kAhead = 2.2;
+/// Positions of the crossing within a step across it, as fractions of the step, in order of preference: far
+/// from the method's stages, which rounding spoils near it. kSoon: for steps that start close to one.
+constexpr double kBetween[] = {0.465, 0.45, 0.48, 0.43, 0.5, 0.4, 0.55, 0.715, 0.7, 0.15, 0.16};
+constexpr double kSoon[] = {0.15, 0.16, 0.14, 0.225, 0.065, 0.03, 0.02, 0.465, 0.43, 0.5};
+/// Distances to a crossing, in steps. Within kPass the step goes across it, and within kClose by kSoon's
+/// positions. Farther off it ends before it: by half a step, or beyond kFar by at least half of kFar.
+constexpr double kFar = 1.1, kPass = 0.75, kClose = 0.3;
+/// The shortest and the longest step across a crossing, in steps.
+constexpr double kShortestOver = 0.2, kLongestOver = 2.5;
+/// Error bound of steps near crossings, in their units: the motion so far selects the branch, so it must be
+/// accurate.
+constexpr double kTight = 1e-11;
+/// Error bound of a step across a crossing, in tolerances, if rounding allows no less.
+constexpr double kLoose = 1;
+/// Steps shorter than this fraction of the time that the scene's accelerations take over its length give up.
+constexpr double kShortest = 1e-5;
+
+}  // namespace
+
+/// Returns true if the linkage approaches or leaves a singularity: extrapolated, the strength of its weakest
+/// row would reach zero within a few steps. It is proportional to the distance from there. The last step is
+/// from `start_` to `time_`.
+bool SmoothMotion::is_near_crossing() {
+  if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic || equations_.holds_anything())
+    return false;
+  const double h = time_ - start_;
+  if (!(h > 0) || last_implicit_ || proposed_step_ == 0) return near_;
+  const double now = std::sqrt(rank_at_start_.weakest), before = std::sqrt(weakest_before_);
+  return now * h < std::abs(now - before) * kNear * std::max(proposed_step_, h);
+}
+
+/// Before a step: sets the expected motion from the motion so far.
+void SmoothMotion::expect_passage() {
+  const bool near = is_near_crossing();
+  if (near && !near_) {
+    equations_.weakness(time_, y_.value());
+    equations_.keep_dependent();
+  }
+  if (!near && near_) equations_.release_dependent();
+  near_ = near;
+  expects_ = near && time_ > start_ && !last_implicit_;
+  if (!expects_) return;
+  const StepPolynomial& path = polynomial();
+  passage_.expect(path, start_, time_, y0_.value());
+}
+
+/// Without a last step, decides by the rows themselves.
+void SmoothMotion::look_at_rows() {
+  constexpr double kWeak = 0.01;
+  if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
+      equations_.holds_anything())
+    return;
+  near_ = rank_at_start_.weakest < kWeak || rank_at_start_.dependent > 0;
+}
+
+double SmoothMotion::step_near_crossing(double limit) {
+  if (!expects_) passage_.expect(start_, y0_.value(), rate_at_start());
+  const double shortest_step = kShortest * scales_.length / scales_.speed;
+  double h = proposed_step_;
+  for (;;) {
+    if (!(h > shortest_step) || !(start_ + h > start_)) refuse_crossing();
+    const std::optional<Passage::Crossing> crossing = passage_.crossing(start_, start_ + kAhead * h);
+    const double left = crossing ? crossing->time - start_ : 0;
+    const bool meets = crossing && crossing->meets;
+    const double strict = crossing ? std::min(1.0, kTight / tolerance_) : 1;
+    const double loose = std::max(strict, kLoose * kSteps);
+    double error = std::numeric_limits<double>::infinity();
+    if (!meets || left > kPass * h) {
+      const double end = start_ + (!crossing         ? h
+                                   : !meets          ? std::min(h, 0.5 * left)
+                                   : left > kFar * h ? std::min(h, left - 0.5 * kFar * h)
+                                                     : left - 0.5 * h);
+      error = try_near_crossing(std::min(end, limit));
+      if (error <= strict) return accept_near_crossing(error / strict);
+      h = (std::min(end, limit) - start_) * control_.after_rejection(error / strict);
+    } else {
+      const std::span<const double> places = left > kClose * h ? std::span<const double>(kBetween) : kSoon;
+      double best = loose, best_end = 0;
+      for (const double place : places) {
+        const double length = left / place;
+        if (length < kShortestOver * h || length > kLongestOver * h || start_ + length > limit) continue;
+        error = try_near_crossing(start_ + length);
+        if (error <= strict) break;
+        if (error <= best) best = error, best_end = start_ + length;
+        ++rejected_;
+      }
+      if (error > strict && best_end > 0) error = try_near_crossing(best_end);
+      if (error <= loose) {
+        ++leaps_;
+        return accept_near_crossing(std::min(error / strict, 1.0));
+      }
+      if (limit < start_ + left / 0.55) {  // another event comes first
+        error = try_near_crossing(limit);
+        if (error <= loose) return accept_near_crossing(std::min(error / strict, 1.0));
+      }
+      h *= 0.6;
+    }
+    ++rejected_;
+    y_ = y0_;
+    time_ = start_;
+    rate_known_ = false;
+  }
+}
+
+double SmoothMotion::accept_near_crossing(double error) {
+  equations_.forget_rank();
+  rate_at_end();
+  accept(time_ - start_, error);
+  return time_;
+}
+
+/// Returns the error of a step to `end`, without the part that joints do not allow, which is removed there.
+/// Leaves y at that end.
+double SmoothMotion::try_near_crossing(double end) {
+  const double h = end - start_;
+  constexpr double kLost = std::numeric_limits<double>::infinity();
+  last_near_ = true;
+  last_implicit_ = false;
+  all_.method.step(passage_, start_, h, y0_.value());
+  std::vector<double> fifth(y_.size()), third(y_.size());
+  all_.method.error_vectors(h, fifth, third);
+  double raw_size = 0;
+  for (const double e : fifth) raw_size = std::max(raw_size, std::abs(e));
+  if (!std::isfinite(raw_size)) return kLost;
+  std::vector<double> raw(y0_.value().begin(), y0_.value().end());
+  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] += all_.method.increment()[i];
+  try {
+    take_increment(end);
+  } catch (const Error&) {  // cannot be projected from so far
+    return kLost;
+  }
+  equations_.keep_allowed(fifth);
+  equations_.keep_allowed(third);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    // Beyond the tolerance, the projection may have reached another branch.
+    if (i % EquationsOfMotion::kPerBody < 3 &&
+        !(std::abs(y_[i] - raw[i]) <= kSteps * std::max(1.0, kTight / tolerance_) * all_.error_scale[i]))
+      return kLost;
+  }
+  return Dop853::error(all_.error_scale, fifth, third);
+}
+
+void SmoothMotion::refuse_crossing() const {
+  const std::string joint = equations_.weakest_joint();
+  throw Error(
+      Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",
+      shortest(std::sqrt(rank_at_start_.weakest)),
+      "the linkage is all but singular here, and its way on cannot be told to tolerance " +
+          shortest(tolerance_ * kSteps) +
+          ": joints hardly hold a direction that two branches of its motion share; try a larger "
+          "tolerance, give a link that is as long as another a length that is clearly its own, or use "
+          "Realtime");
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/driver/plan.h"
+#include "engine/precise/dynamics/parts.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// The stages in the order in which a step runs them: indices into the plan.
+enum StageIndex : int {
+  kContacts,
+  kForces,
+  kJointAccelerations,
+  kRungeKutta,
+  kProjection,
+  kPolynomialFlight,
+  kContactSearch,
+  kStageCount,
+};
+
+/// Returns the stages that the scene needs, with reasons; `every_stage` activates all of them.
+Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage);
+
+}  // namespace plumb::precise

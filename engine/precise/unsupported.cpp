@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/core/text.h"
+#include "engine/precise/dynamics/joints.h"
+#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/precise.h"
+#include "engine/scene/features.h"
+
+namespace plumb {
+namespace {
+
+/// Returns the feature of a joint that Precise lacks, or nothing.
+std::string missing_in(const Joint& joint) {
+  std::string found;
+  std::visit(
+      [&](const auto& j) {
+        if (j.break_force != 0) found = "break_force";
+        if (j.break_torque != 0) found = "break_torque";
+      },
+      joint);
+  if (!found.empty()) return "has " + found;
+  if (std::holds_alternative<FrictionJoint>(joint)) return "is a friction joint";
+  if (std::holds_alternative<RatchetJoint>(joint)) return "is a ratchet joint";
+  return {};
+}
+
+}  // namespace
+
+std::string precise_unsupported(const Scene& scene) {
+  constexpr const char* kElsewhere = ", which Precise does not have; 'plumb-world' runs it";
+  Scene bodies = scene;
+  bodies.joints.clear();
+  if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
+  for (const Joint& joint : scene.joints) {
+    const std::string missing = missing_in(joint);
+    if (missing.empty()) continue;
+    return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
+           kElsewhere;
+  }
+  // Every evaluation involves all contacts at once: its cost grows at least with the square of their number.
+  constexpr std::size_t kMostBodies = 300;
+  const precise::Parts parts = precise::divide(scene);
+  std::vector<char> touches(scene.bodies.size(), 0);
+  for (const precise::Outline& outline : parts.outlines) {
+    if (scene.bodies[outline.body].type == BodyType::Dynamic) touches[outline.body] = 1;
+  }
+  const auto count = static_cast<std::size_t>(std::count(touches.begin(), touches.end(), 1));
+  if (count <= kMostBodies) return {};
+  return std::to_string(count) + " dynamic bodies have shapes that may touch, and Precise is meant for " +
+         std::to_string(kMostBodies) +
+         " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8, .iterations = 8}, or filter pairs out";
+}
+
+std::string symplectic_unsupported(const Scene& scene) {
+  for (const ForceLaw& law : scene.forces) {
+    const bool brakes = std::visit(
+        [](const auto& l) {
+          if constexpr (requires { l.coefficient; }) return l.coefficient != 0;
+          if constexpr (requires { l.damping; }) return l.damping != 0;
+          return false;
+        },
+        law);
+    if (brakes) {
+      return "a force depends on velocities: the symplectic method keeps energy only where none is lost; use "
+             "method "
+             "= automatic";
+    }
+  }
+  if (precise::KindJoints(scene).has_springs()) {
+    return "a joint has a spring, whose stiffness changes with its bodies' effective mass; use method = "
+           "automatic";
+  }
+  if (!precise::divide(scene).outlines.empty()) {
+    return "shapes may touch, and impacts would cut the symplectic method's steps; use method = automatic";
+  }
+  return {};
+}
+
+}  // namespace plumb

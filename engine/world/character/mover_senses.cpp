@@ -1,0 +1,155 @@
+#include "engine/world/character/mover_senses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collision/distance/hull_distance.h"
+#include "engine/core/text.h"
+#include "engine/math/trigonometry.h"
+#include "engine/scene/error.h"
+#include "engine/world/queries/placed_shape.h"
+#include "engine/world/state/validate.h"
+
+namespace plumb {
+namespace {
+
+constexpr double kSkinShare = 0.02;
+constexpr double kRightAngle = 0x1.921fb54442d18p+0;
+
+double length(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+Vec2d unit_up(Vec2d up) {
+  require_finite("mover", "up", up);
+  require_positive("mover", "up", length(up));
+  return (1 / length(up)) * up;
+}
+
+double cosine_of(double slope) {
+  require_not_negative("mover", "max_slope", slope);
+  if (slope > kRightAngle) {
+    throw Error(Error::Kind::Value, "mover", "max_slope", shortest(slope), "must be at most pi/2");
+  }
+  return std::max(rotation_of(slope).c, 1e-3);
+}
+
+double skin_of(const MoverOptions& options, double radius) {
+  require_not_negative("mover", "skin", options.skin);
+  return options.skin > 0 ? options.skin : kSkinShare * radius;
+}
+
+Capsule grown(const Capsule& capsule, double by) { return {capsule.start, capsule.end, capsule.radius + by}; }
+
+}  // namespace
+
+template <class Real>
+MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& capsule,
+                               const MoverOptions& options)
+    : world_(world),
+      capsule_(capsule),
+      with_skin_(grown(capsule, skin_of(options, capsule.radius))),
+      with_quarter_(grown(capsule, 0.25 * skin_of(options, capsule.radius))),
+      filter_(options.filter),
+      up_(unit_up(options.up)),
+      radius_(capsule.radius),
+      skin_(skin_of(options, capsule.radius)),
+      step_height_(options.step_height),
+      walkable_(cosine_of(options.max_slope)),
+      lowest_(std::min(dot(capsule.start, up_), dot(capsule.end, up_)) - capsule.radius) {
+  require_not_negative("mover", "step_height", options.step_height);
+  filter_.sensors = false;
+}
+
+template <class Real>
+MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, BodyId except) const {
+  constexpr double kSliding = 1e-9;  // sine of the angle up to which a motion is along a surface, not into it
+  const double whole = length(way);
+  if (!(whole > 0)) return {from, 0, {}};
+  const Vec2d direction = (1 / whole) * way;
+  double fraction = 1;
+  std::optional<MoverContact> first;
+  cast_shape(world_, shape, from, 0, way, filter_, [&](const CastShapeResult& hit) {
+    if (hit.body == except) return 1.0;
+    MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
+    if (hit.overlapped) {
+      // Within the skin already: it may move away from the shape or along it.
+      const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
+      if (!near || near->gap < 0) return 1.0;
+      contact = *near;
+    }
+    if (dot(contact.normal, direction) > -kSliding) return 1.0;
+    const bool sooner = !first || hit.fraction < fraction ||
+                        (hit.fraction == fraction && hit.shape.index < first->shape.index);
+    if (sooner) first = contact, fraction = hit.fraction;
+    return std::max(fraction, std::numeric_limits<double>::min());
+  });
+  return {from + fraction * way, fraction * whole, first};
+}
+
+template <class Real>
+std::optional<MoverGround> MoverSenses<Real>::find_ground(Vec2d& position, double most) const {
+  const MoverWay way = go(position, -most * up_);
+  if (!way.stop) return {};
+  const std::optional<MoverGround> ground = ground_at(way.position, *way.stop);
+  if (ground) position = way.position;
+  return ground;
+}
+
+template <class Real>
+std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const MoverContact& contact) const {
+  constexpr double kUpright = 1e-3;
+  constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, are slopes
+  const double rise = dot(contact.normal, up_);
+  if (!(rise > kUpright)) return {};
+  // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge tells which.
+  const Vec2d across = contact.normal - rise * up_;
+  if (length(across) > kUpright && is_within_step(contact.point, position)) {
+    const Vec2d inward = (-1 / length(across)) * across;
+    const Vec2d above = contact.point + 0.25 * skin_ * inward + skin_ * up_;
+    const std::optional<RayResult> tread = ray_cast_closest(world_, above, -2 * skin_ * up_, filter_);
+    const bool is_edge = tread && is_walkable(tread->normal) && dot(tread->normal, contact.normal) < kEdge;
+    if (is_edge) return MoverGround{contact, tread->normal, true};
+  }
+  if (!is_walkable(contact.normal)) return {};
+  return MoverGround{contact, contact.normal, false};
+}
+
+template <class Real>
+std::optional<MoverContact> MoverSenses<Real>::contact_with(ShapeId shape, Vec2d position,
+                                                            Vec2d velocity) const {
+  const WorldData<Real>& w = world_.data();
+  const int index = static_cast<int>(shape.index);
+  const PlacedShape placed(w, index, position);
+  const Convex<double> other = placed.convex(), own = capsule_.convex();
+  const HullDistance hulls = hull_distance(other, own, Pose<double>{}, nullptr);
+  const double gap = hulls.separation - (other.radius + own.radius);
+  const BodyId body = world_.body(shape);
+  if (w.forms[index].chain) {
+    const Vec2d front = other.corners[0].normal;
+    const bool in_front = hulls.separation > 0 && dot(front, hulls.normal) > 1e-9 &&
+                          dot(front, capsule_.middle() - other.corners[0].point) > 0;
+    if (!in_front || gap < -0.5 * radius_) return {};
+    const Vec2d relative = velocity - world_.velocity_at(body, position + hulls.point_a);
+    if (gap < 0 && dot(relative, front) > 0) return {};
+  }
+  return MoverContact{shape, body, position + hulls.point_a + other.radius * hulls.normal, hulls.normal, gap};
+}
+
+template <class Real>
+std::optional<MoverContact> MoverSenses<Real>::deepest(Vec2d position, Vec2d velocity) const {
+  std::optional<MoverContact> worst;
+  overlap_shape(world_, with_skin_, position, 0, filter_, [&](ShapeId shape) {
+    const std::optional<MoverContact> contact = contact_with(shape, position, velocity);
+    if (!contact || contact->gap >= 0.75 * skin_) return true;
+    const bool deeper = !worst || contact->gap < worst->gap ||
+                        (contact->gap == worst->gap && shape.index < worst->shape.index);
+    if (deeper) worst = contact;
+    return true;
+  });
+  return worst;
+}
+
+template class MoverSenses<float>;
+template class MoverSenses<double>;
+
+}  // namespace plumb

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/world/contact_solver/bounces.h"
+
+namespace plumb {
+
+/// A point with an impact, in one round.
+template <class Real>
+struct StruckPoint {
+  Bounce<Real>* bounce = nullptr;
+  int point = 0;
+  Real time = 0;     ///< s, since the start of the substep
+  Real wanted = 0;   ///< m/s, target velocity along the normal
+  Real before = 0;   ///< m/s, velocity along the normal before the round
+  Real impulse = 0;  ///< N s
+};
+
+/// Scratch memory of `resolve_crowds`, kept to avoid allocations. All but the last two lists are indexed by
+/// body.
+template <class Real>
+struct CrowdRoom {
+  std::vector<char> reached;   ///< impacts may propagate to the body
+  std::vector<Real> earliest;  ///< s, time of its next impact
+  std::vector<Real> last;      ///< s, time of its last impact
+  std::vector<Bounce<Real>*> crowd;
+  std::vector<StruckPoint<Real>> struck;
+};
+
+/// Resolves the impacts of a substep by impact propagation. A body with an impact passes it on to others that
+/// it touches or is about to touch (the break of a rack). Runs before the constraints are solved, in rounds.
+/// Each resolves the earliest impacts; simultaneous ones are resolved together by Newton's law, (n.v)' = -e
+/// n.v. With lambda >= 0 the impulses of a round change its energy by the sum of lambda (n.v + (n.v)') / 2.
+/// Impulses of iterations that have not converged are scaled back until this is not positive, so no round
+/// gains energy. Friction follows, at most as much as stops the sliding.
+///
+/// An impulse at the time t displaces a body by (h - t) times the change in velocity. The excess of the
+/// substep's motion is subtracted from the position.
+///
+/// Returns the number of rounds. If no time passes for many rounds, it stops and leaves the rest to the
+/// constraints. Between two walls that both push, a body would bounce for ever.
+template <class Real>
+int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
+                   const ContactStep<Real>& step, CrowdRoom<Real>& room);
+
+}  // namespace plumb

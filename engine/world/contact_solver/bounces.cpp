@@ -1,0 +1,130 @@
+#include "engine/world/contact_solver/bounces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumb {
+namespace {
+
+// Exchanges the contact's masses with the stored ones.
+template <class Real>
+void swap_masses(Bounce<Real>& bounce) {
+  ContactConstraint<Real>& c = *bounce.contact;
+  std::swap(bounce.masses[0], c.mass[0]), std::swap(bounce.masses[1], c.mass[1]);
+  std::swap(bounce.masses[2], c.inverse_pp), std::swap(bounce.masses[3], c.inverse_pq);
+  std::swap(bounce.masses[4], c.inverse_qq);
+}
+
+// Disables the contact: without masses it gives no impulses.
+template <class Real>
+void let_through(Bounce<Real>& bounce) {
+  bounce.passes = true;
+  for (Real& mass : bounce.masses) mass = 0;
+  swap_masses(bounce);
+}
+
+}  // namespace
+
+template <class Real>
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h) {
+  ContactConstraint<Real>& c = *bounce.contact;
+  if (bounce.radii == 0 || c.normal_impulse[0] > 0) return;
+  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  const Vec2<Real> p = bounce.between + (b.moved - a.moved), v = b.velocity - a.velocity;
+  const Real vv = dot(v, v), pv = dot(p, v), open = dot(p, p) - bounce.radii * bounce.radii;
+  Real t = 0;
+  if (open > 0 && pv < 0) {
+    const Real d = pv * pv - vv * open;
+    t = std::min(d > 0 ? open / (std::sqrt(d) - pv) : -pv / vv, h);
+  }
+  const Vec2<Real> there = p + t * v;
+  const Real length = std::sqrt(dot(there, there));
+  if (!(length > 0)) return;
+  c.normal = (1 / length) * there;
+  c.separation[0] = dot(c.normal, bounce.between) - bounce.radii;
+  c.now[0] = dot(c.normal, p) - bounce.radii;
+}
+
+template <class Real>
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+                     const ContactStep<Real>& step) {
+  bool parted = false;
+  for (Bounce<Real>& bounce : bounces) {
+    ContactConstraint<Real>& c = *bounce.contact;
+    face(motion, bounce, step.h);
+    bool parts = c.restitution > 0;
+    for (int i = 0; i < c.count; ++i) {
+      bounce.before[i] = velocity_along_normal(motion, c, i);
+      parts = parts && bounce.before[i] > Real(0.5) * c.restitution * step.bounce_threshold;
+    }
+    if (!parts) continue;
+    parted = parted || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
+  }
+  return parted;
+}
+
+template <class Real>
+bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+                   const ContactStep<Real>& step) {
+  const Real h = step.h;
+  bool any = false;
+  for (Bounce<Real>& bounce : bounces) {
+    ContactConstraint<Real>& c = *bounce.contact;
+    bounce.closes = false;
+    bool arrives = false;
+    for (int i = 0; i < c.count; ++i) {
+      const Real closing = -velocity_along_normal(motion, c, i), s = std::max(c.now[i], Real(0));
+      const Real u = -bounce.before[i], a = (closing - u) * step.inverse_h;
+      const Real strike = std::sqrt(std::max(u * u + 2 * a * s, Real(0)));
+      bounce.closes = bounce.closes || closing > step.bounce_threshold;
+      // Err on the side of "in time" (factor 0.999): the solved impulse decides in the end, and rounding must
+      // not exclude an impact.
+      const bool in_time = closing * h > Real(0.999) * s;
+      bounce.strikes[i] = in_time && strike > step.bounce_threshold;
+      arrives = arrives || in_time;
+      if (!bounce.strikes[i]) continue;
+      any = true;
+      if (bounce.radii > 0) note_approach(c, i, -strike);
+      const Real left = u + strike > 0 ? std::max(h - 2 * s / (u + strike), Real(0)) : Real(0);
+      const Real rebound = c.restitution * strike;
+      bounce.speed[i] = std::max(rebound - a * left, Real(0));
+    }
+    bounce.closes = bounce.closes && !arrives;
+  }
+  return any;
+}
+
+template <class Real>
+void let_pass(std::vector<Bounce<Real>>& bounces) {
+  for (Bounce<Real>& bounce : bounces) {
+    const ContactConstraint<Real>& c = *bounce.contact;
+    bounce.passes = bounce.closes && !bounce.strikes[0] && !bounce.strikes[1] && c.normal_impulse[0] == 0 &&
+                    c.normal_impulse[1] == 0;
+    if (bounce.passes) let_through(bounce);
+  }
+}
+
+template <class Real>
+void hold_again(std::vector<Bounce<Real>>& bounces) {
+  for (Bounce<Real>& bounce : bounces) {
+    if (!bounce.passes) continue;
+    bounce.passes = false;
+    swap_masses(bounce);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                              \
+  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                  \
+  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&, \
+                                const ContactStep<Real>&);                           \
+  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,   \
+                              const ContactStep<Real>&);                             \
+  template void let_pass(std::vector<Bounce<Real>>&);                                \
+  template void hold_again(std::vector<Bounce<Real>>&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/world/contact_solver/soft_contacts.h"
+
+namespace plumb {
+
+/// A contact with restitution, or of discs that approach fast: time and speed of its bounce in the substep.
+template <class Real>
+struct Bounce {
+  ContactConstraint<Real>* contact = nullptr;
+  Real before[2] = {};  ///< m/s, velocity along the normal at the start of the substep
+  Real speed[2] = {};   ///< m/s, separating speed of the points at the end of the substep
+  bool strikes[2] = {};
+  bool closes = false;  ///< fast enough to bounce
+  bool passes = false;  ///< disabled in this substep; the impact comes in a later one
+  Real radii = 0;  ///< m, sum of the radii of two discs that were apart (centred on their centres of mass); 0
+                   ///< for other shapes
+  Real masses[5] = {};   ///< of the contact, while it is disabled
+  Vec2<Real> between{};  ///< m, between the discs' centres (a to b), at the start of the step
+};
+
+/// Returns the velocity of a contact point along the normal, m/s; negative: closing.
+template <class Real>
+Real velocity_along_normal(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
+  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  return dot(c.normal, b.velocity - a.velocity) +
+         (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
+}
+
+/// Records the approach speed of an impact: the fastest of a step.
+template <class Real>
+void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
+  const bool first = c.peak_impulse[i] == 0;
+  c.approach[i] = first ? rate : std::min(c.approach[i], rate);
+}
+
+/// Turns the normal of two separated discs to that at their contact within `h`, or else at their closest
+/// approach. With p from centre to centre and v its rate, |p + v t| = R. The present normal would deflect
+/// them by the angle that it turns until then.
+template <class Real>
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h);
+
+/// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
+/// be warm started: returns true if one of these had an impulse.
+template <class Real>
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+                     const ContactStep<Real>& step);
+
+/// Sets when and how fast each contact bounces in the substep, once the bodies' accelerations are known.
+/// Returns false if nothing bounces.
+///
+/// A point has separation s and closes at u with acceleration a. Its impact speed is c = sqrt(u^2 + 2 a s),
+/// after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c - a
+/// (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
+template <class Real>
+bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+                   const ContactStep<Real>& step);
+
+/// Disables, before any iteration, contacts that will bounce but stay open in this substep. The solver would
+/// slow them, and the momentum passed on to other bodies could not be recovered.
+template <class Real>
+void let_pass(std::vector<Bounce<Real>>& bounces);
+
+/// Enables the contacts again that `let_pass` disabled. Called after relax_contacts.
+template <class Real>
+void hold_again(std::vector<Bounce<Real>>& bounces);
+
+}  // namespace plumb

@@ -1,0 +1,72 @@
+#include "engine/world/contact_solver/contact_graph.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+// Returns true if a dynamic body of the constraint already has one in this colour.
+bool taken(const BitSet& bodies, int a, bool gives_way_a, int b, bool gives_way_b) {
+  return (gives_way_a && bodies.test(a)) || (gives_way_b && bodies.test(b));
+}
+
+}  // namespace
+
+template <class Real>
+auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b)
+    -> Place {
+  const int a = constraint.body_a, b = constraint.body_b;
+  const bool both = gives_way_a && gives_way_b;
+  int chosen = kOverflow;
+  // Contacts with static or kinematic bodies try their own colours first and then, from the back, the others.
+  for (int i = 0; i < (both ? kDynamicColours : kColours); ++i) {
+    const int c = both ? i : kColours - 1 - i;
+    if (taken(bodies_[c], a, gives_way_a, b, gives_way_b)) continue;
+    chosen = c;
+    break;
+  }
+  // Allocate first, so that a failure changes nothing.
+  if (chosen != kOverflow) bodies_[chosen].ensure(std::max(gives_way_a ? a + 1 : 0, gives_way_b ? b + 1 : 0));
+  colours_[chosen].push_back(constraint);
+  if (chosen != kOverflow) {
+    if (gives_way_a) bodies_[chosen].set(a);
+    if (gives_way_b) bodies_[chosen].set(b);
+  }
+  if (colours_[chosen].size() == 1) find_used();
+  return {chosen, static_cast<int>(colours_[chosen].size()) - 1};
+}
+
+template <class Real>
+int ContactGraph<Real>::remove(Place place, bool gives_way_a, bool gives_way_b) {
+  std::vector<ContactConstraint<Real>>& colour = colours_[place.colour];
+  const ContactConstraint<Real>& gone = colour[place.index];
+  if (place.colour != kOverflow) {
+    if (gives_way_a) bodies_[place.colour].reset(gone.body_a);
+    if (gives_way_b) bodies_[place.colour].reset(gone.body_b);
+  }
+  const bool last = place.index + 1 == static_cast<int>(colour.size());
+  if (!last) colour[place.index] = colour.back();
+  colour.pop_back();
+  if (colour.empty()) find_used();
+  return last ? -1 : colour[place.index].contact;
+}
+
+template <class Real>
+void ContactGraph<Real>::find_used() {
+  used_count_ = 0;
+  for (int i = 0; i <= kColours; ++i) {
+    if (!colours_[order(i)].empty()) used_[used_count_++] = order(i);
+  }
+}
+
+template <class Real>
+std::size_t ContactGraph<Real>::size() const {
+  std::size_t count = 0;
+  for (const auto& colour : colours_) count += colour.size();
+  return count;
+}
+
+template class ContactGraph<float>;
+template class ContactGraph<double>;
+
+}  // namespace plumb

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/core/bit_set.h"
+#include "engine/world/contact_solver/contact_constraint.h"
+
+namespace plumb {
+
+/// Constraint graph: the contact constraints of awake bodies, grouped by graph colouring. No two of a colour
+/// share a dynamic body, so they may be solved in any order, side by side. Contacts with a static or
+/// kinematic body have colours of their own at the end: the constraints solved last hold best, and the ground
+/// should. The colouring is greedy and persistent: a constraint keeps its colour. Constraints without a
+/// colour (of a body with many contacts, as a drum or a wrecking ball) go to the overflow. It is solved in
+/// order, right before the contacts with the ground.
+template <class Real>
+class ContactGraph {
+ public:
+  static constexpr int kDynamicColours = 20, kColours = 24, kOverflow = 24;
+
+  struct Place {
+    int colour = -1, index = -1;
+  };
+
+  /// Adds `constraint`. `gives_way_a/b`: that body is dynamic.
+  Place add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b);
+
+  /// Removes the constraint and moves the last of its colour to `place`, if there is one. Returns the record
+  /// of the moved constraint, else -1.
+  int remove(Place place, bool gives_way_a, bool gives_way_b);
+
+  ContactConstraint<Real>& at(Place place) { return colours_[place.colour][place.index]; }
+  const ContactConstraint<Real>& at(Place place) const { return colours_[place.colour][place.index]; }
+
+  /// Calls `visit(constraint)` for all, in the solver's order.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (int i = 0; i < used_count_; ++i) {
+      for (ContactConstraint<Real>& constraint : colours_[used_[i]]) visit(constraint);
+    }
+  }
+
+  std::vector<ContactConstraint<Real>>& colour(int c) { return colours_[c]; }
+  const std::vector<ContactConstraint<Real>>& colour(int c) const { return colours_[c]; }
+  static constexpr int order(int nth) {
+    return nth < kDynamicColours ? nth : (nth == kDynamicColours ? kOverflow : nth - 1);
+  }
+
+  std::size_t size() const;
+  bool empty() const { return used_count_ == 0; }
+
+  /// Rebuilds each colour's set of bodies and the list of used colours, after constraints were written to the
+  /// colours' lists directly. `gives_way(body)`: true if it is dynamic. Returns false if two constraints of a
+  /// colour share a dynamic body.
+  template <class GivesWay>
+  bool find_bodies(GivesWay&& gives_way) {
+    bool sound = true;
+    for (int c = 0; c < kColours; ++c) {
+      bodies_[c].clear();
+      for (const ContactConstraint<Real>& constraint : colours_[c]) {
+        for (const int body : {constraint.body_a, constraint.body_b}) {
+          if (!gives_way(body)) continue;
+          sound = sound && !bodies_[c].test(body);
+          bodies_[c].set(body);
+        }
+      }
+    }
+    find_used();
+    return sound;
+  }
+
+ private:
+  void find_used();
+
+  int used_[kColours + 1] = {};  // colours that are not empty, ascending
+  int used_count_ = 0;
+  std::vector<ContactConstraint<Real>> colours_[kColours + 1];
+  BitSet bodies_[kColours];
+};
+
+}  // namespace plumb

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+
+#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/contact_constraint.h"
+
+namespace plumb {
+
+/// A contact and its two bodies, for solving one row at a time.
+template <class Real>
+struct ContactPair {
+  ContactPair(BodyMotion<Real>* motion, ContactConstraint<Real>& contact)
+      : c(contact), a(motion[contact.body_a]), b(motion[contact.body_b]) {}
+
+  /// Returns the separation of a point, m, updated from the start of the step to first order.
+  Real separation(int i) const {
+    return c.separation[i] + dot(c.normal, b.moved - a.moved) + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
+  }
+  /// Returns the velocity of a point along the normal, m/s; negative: closing.
+  Real normal_rate(int i) const {
+    return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
+           c.arm_a[i] * a.angular_velocity;
+  }
+  /// Returns the tangential velocity between the points minus the target surface speed, m/s.
+  Real sliding_rate() const {
+    return dot(tangent(), b.velocity - a.velocity) + c.arm_tangent_b * b.angular_velocity -
+           c.arm_tangent_a * a.angular_velocity - c.surface_speed;
+  }
+  Real spin_mass() const {
+    const Real inverse = a.inverse_inertia + b.inverse_inertia;
+    return inverse > 0 ? 1 / inverse : Real(0);
+  }
+
+  /// Applies impulses that bring the chosen points' velocities along n to `wanted`, such that their sums stay
+  /// >= 0. The points are coupled by the bodies' rotation and solved together (Catto, 2007). A point that
+  /// would have to pull gets no impulse, and the other one is solved alone.
+  void press(const Real (&wanted)[2], bool first, bool second) {
+    const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+    Real dp = 0, dq = 0;
+    if (first && second) {
+      const Real rate_p = normal_rate(0) - wanted[0], rate_q = normal_rate(1) - wanted[1];
+      dp = -(c.inverse_pp * rate_p + c.inverse_pq * rate_q);
+      dq = -(c.inverse_pq * rate_p + c.inverse_qq * rate_q);
+      if (p + dp < 0 || q + dq < 0) {
+        if (p + dp < q + dq) {
+          dp = -p;
+          dq = std::max(-c.mass[1] * (rate_q + c.between * dp), -q);
+        } else {
+          dq = -q;
+          dp = std::max(-c.mass[0] * (rate_p + c.between * dq), -p);
+        }
+      }
+    } else if (first) {
+      dp = std::max(-c.mass[0] * (normal_rate(0) - wanted[0]), -p);
+    } else if (second) {
+      dq = std::max(-c.mass[1] * (normal_rate(1) - wanted[1]), -q);
+    }
+    push(dp, dq);
+  }
+  void push(Real first, Real second) {
+    c.normal_impulse[0] += first, c.normal_impulse[1] += second;
+    apply((first + second) * c.normal, first * c.arm_a[0] + second * c.arm_a[1],
+          first * c.arm_b[0] + second * c.arm_b[1]);
+  }
+  /// Returns the total friction impulse that would stop the sliding.
+  Real holding_impulse() const { return c.tangent_impulse - c.tangent_mass * sliding_rate(); }
+  Real holding_torque() const {
+    return c.rolling_impulse - spin_mass() * (b.angular_velocity - a.angular_velocity);
+  }
+  void rub(Real impulse) {
+    const Real d = impulse - c.tangent_impulse;
+    c.tangent_impulse = impulse;
+    apply(d * tangent(), d * c.arm_tangent_a, d * c.arm_tangent_b);
+  }
+  void roll(Real impulse) {
+    const Real d = impulse - c.rolling_impulse;
+    c.rolling_impulse = impulse;
+    apply({}, d, d);
+  }
+  /// Applies Coulomb friction, |friction| <= mu pressure, and likewise the rolling resistance torque.
+  void rub_and_roll() {
+    const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
+    rub(std::clamp(holding_impulse(), -c.friction * pressure, c.friction * pressure));
+    if (c.rolling_arm > 0)
+      roll(std::clamp(holding_torque(), -c.rolling_arm * pressure, c.rolling_arm * pressure));
+  }
+  void note_peaks() {
+    if (!c.watched) return;
+    for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
+  }
+
+  ContactConstraint<Real>& c;
+  BodyMotion<Real>&a, &b;
+
+ private:
+  Vec2<Real> tangent() const { return {c.normal.y, -c.normal.x}; }
+  void apply(Vec2<Real> impulse, Real angular_a, Real angular_b) {
+    a.velocity -= a.inverse_mass * impulse;
+    a.angular_velocity -= a.inverse_inertia * angular_a;
+    b.velocity += b.inverse_mass * impulse;
+    b.angular_velocity += b.inverse_inertia * angular_b;
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,388 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "engine/geometry/convex_bounds.h"
+#include "engine/world/continuous/meetings.h"
+#include "engine/world/continuous/rebound.h"
+#include "engine/world/continuous/swept_pair.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/shape_boxes.h"
+#include "engine/world/step/step.h"
+
+namespace plumb {
+namespace {
+
+// Prefetches the contacts of the next 8 flights' bodies, one of each flight at a time, because contact
+// records are scattered in memory.
+class ContactsAhead {
+ public:
+  ContactsAhead() { edges_.fill(kNone); }
+
+  template <class Real>
+  void advance(const WorldData<Real>& w, std::size_t place) {
+    const auto ask_for = [&](int edge) {
+      if (edge != kNone) __builtin_prefetch(&w.contacts[edge / 2]);
+      return edge;
+    };
+    for (int& edge : edges_)
+      if (edge != kNone) edge = ask_for(w.contacts[edge / 2].next[edge & 1]);
+    const std::size_t coming = place + edges_.size();
+    if (coming < w.scratch.flights.size())
+      edges_[place % edges_.size()] = ask_for(w.bodies[w.scratch.flights[coming].body].first_contact);
+  }
+
+ private:
+  std::array<int, 8> edges_;
+};
+
+// Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
+// line.
+template <class Real>
+void set_arm(const WorldData<Real>& w, Flight& flight) {
+  const BodyRecord<Real>& record = w.bodies[flight.body];
+  if (record.type != BodyType::Dynamic || flight.turn == 0 || record.lock_x || record.lock_y) return;
+  for_each_edge(w.joints, record.first_joint, [&](int edge, const JointRecord& joint) {
+    const bool is_a = (edge & 1) == 0;
+    if (!joint.active || w.gives_way(is_a ? joint.body_b : joint.body_a)) return;
+    const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
+    if (hinge != nullptr)
+      flight.arm = (is_a ? hinge->anchor_a : hinge->anchor_b) - record.centre.template as<double>();
+  });
+}
+
+// Stores the whole swept AABB of a fast body in the tree, so that queries of others find it.
+template <class Real>
+void show_way(WorldData<Real>& w, Flight& flight) {
+  const int body = flight.body;
+  flight.shown = true;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (w.shapes[shape].proxy == kNone) continue;
+    DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
+    tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, flight), tree.box(w.shapes[shape].proxy)));
+  }
+}
+
+// Restores the fat AABB, and adds the shapes to the move buffer.
+template <class Real>
+void hide_way(WorldData<Real>& w, int body, Real dt) {
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    if (w.shapes[shape].proxy == kNone) continue;
+    w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, stored_box(w, shape, dt));
+    w.enlarged[body] = 1;
+    if (!w.shapes[shape].moved) append(w.moved_shapes, shape);
+    w.shapes[shape].moved = true;
+  }
+}
+
+// Orders a heap with the earliest time of impact on top. No two entries are equal.
+bool is_later(const Meeting& a, const Meeting& b) {
+  return a.fraction != b.fraction ? a.fraction > b.fraction
+                                  : (a.flight != b.flight ? a.flight > b.flight : a.version > b.version);
+}
+
+template <class Real>
+void expect(WorldData<Real>& w, const Meeting& meeting) {
+  if (!(meeting.fraction < 1)) return;
+  w.scratch.meetings.push_back(meeting);
+  std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
+}
+
+template <class Real>
+void look_ahead(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
+  expect(w, first_meeting(w, place, from, search));
+}
+
+// Returns the index of a body's flight. If it has none, adds one with the motion that the solver found.
+template <class Real>
+int flight_place(WorldData<Real>& w, int body, double dt) {
+  int& place = w.scratch.flight_places[body];
+  if (place == kNone) {
+    place = static_cast<int>(w.scratch.flights.size());
+    w.scratch.flights.push_back(flight_of(w, body, dt));
+    set_arm(w, w.scratch.flights.back());
+    w.scratch.flights.back().covered = true;
+  }
+  return place;
+}
+
+// Returns the flight of the body that is hit, or null if the body is static.
+template <class Real>
+Flight* flight_met(WorldData<Real>& w, int body, double dt) {
+  if (w.bodies[body].type == BodyType::Static) return nullptr;
+  return &w.scratch.flights[flight_place(w, body, dt)];
+}
+
+// Searches impacts of other fast bodies with this one, whose trajectory has changed from a fraction of the
+// step on.
+template <class Real>
+void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
+  const Flight flight = w.scratch.flights[place];
+  const Rotation<double> q = flight.rotation_at(from);
+  const Pose<Real> pose{flight.start_at(from).template as<Real>(),
+                        {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
+  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  pairs.clear();
+  for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
+    w.moving_tree.query(convex_bounds(w.convex(shape), pose), mask, [&](int other, int) {
+      if (flight_in(w, w.shapes[other].body) != nullptr && may_collide(w, shape, other))
+        pairs.emplace_back(shape, other);
+      return true;
+    });
+  }
+  for (const auto& [shape, other] : pairs) {
+    const int other_place = w.scratch.flight_places[w.shapes[other].body];
+    const Flight& comer = w.scratch.flights[other_place];
+    if (comer.stands || go_together(w, flight, comer.body) || comer.carrier == flight.body) continue;
+    // A kinematic body is not stopped, but pushes this one along.
+    const bool pushes = !w.gives_way(comer.body);
+    if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
+    const Way way(pushes ? w.scratch.flights[place] : comer, from, search);
+    const int moving = pushes ? shape : other, met = pushes ? other : shape;
+    Meeting found{.flight = pushes ? place : other_place, .version = way.flight.version};
+    note_meeting(w, way, {moving, met, nullptr, !pushes}, found);
+    expect(w, as_it_is(w, found));
+  }
+}
+
+// Calls visit(place) for the flights of a body and of all dynamic bodies connected to it by joints.
+template <class Real, class Visit>
+void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit) {
+  std::vector<int>& queue = w.scratch.queue;
+  std::vector<char>& seen = w.scratch.restless;
+  const int body = w.scratch.flights[place].body;
+  if (w.bodies[body].first_joint == kNone) return visit(place);
+  queue.assign(1, body);
+  seen.assign(w.bodies.size(), 0);
+  seen[body] = 1;
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    visit(flight_place(w, queue[next], dt));
+    for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
+      const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
+      if (!joint.active || !w.gives_way(other) || seen[other]) return;
+      seen[other] = 1;
+      queue.push_back(other);
+    });
+  }
+  queue.clear();
+}
+
+// Stops a body and all bodies connected to it by joints, so that they stay together.
+template <class Real>
+void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
+  for_each_tied(w, place, search.dt, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.stands) return;
+    flight.squeezed = flight.carrier != kNone;
+    flight.stop(fraction);
+    look_back(w, tied, fraction, search);
+  });
+}
+
+// Lets a kinematic body push a body along, with all bodies connected to that by joints.
+template <class Real>
+void push_along(WorldData<Real>& w, int place, int pusher, double fraction, ImpactSearch& search) {
+  for_each_tied(w, place, search.dt, [&](int tied) {
+    Flight& flight = w.scratch.flights[tied];
+    if (flight.carrier != kNone) return;
+    flight.go_along(w.scratch.flights[pusher], fraction, w.bodies[flight.body].locks());
+    show_way(w, flight);
+    look_ahead(w, tied, fraction, search);
+    look_back(w, tied, fraction, search);
+  });
+}
+
+// Processes the next impact. A stale one, of a body whose trajectory has changed since it was found, is
+// dropped or searched again.
+template <class Real>
+void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
+  std::vector<Flight>& flights = w.scratch.flights;
+  if (flights[next.flight].version != next.version) return;
+  const int other_body = w.shapes[next.other].body;
+  Flight* other = flight_met(w, other_body, search.dt);
+  Flight& flight = flights[next.flight];
+  if (other != nullptr && other->version != next.other_version) {
+    look_ahead(w, next.flight, next.fraction, search);
+    return;
+  }
+  const int other_place = other == nullptr ? kNone : w.scratch.flight_places[other_body];
+  if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
+    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
+    if (!thrown) flight.yields = false;  // they do not approach
+    if (thrown) show_way(w, flight);
+    const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
+    if (other_too) show_way(w, *other);
+    look_ahead(w, next.flight, next.fraction, search);
+    if (other_too) look_ahead(w, other_place, next.fraction, search);
+    if (thrown) look_back(w, next.flight, next.fraction, search);
+    if (other_too) look_back(w, other_place, next.fraction, search);
+    return;
+  }
+  const bool pushed = other != nullptr && !w.gives_way(other_body);
+  if (pushed && flight.carrier == kNone) {
+    push_along(w, next.flight, other_place, next.fraction, search);
+    return;
+  }
+  const int carrier = flight.carrier;
+  if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
+    // The pushed body pushes the other one along too.
+    push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, search);
+    look_ahead(w, next.flight, next.fraction, search);
+    return;
+  }
+  // The other body waits too, or it would push this one on.
+  const bool too_many = flight.impacts >= tuning::kImpactsInFlight && other != nullptr && !pushed;
+  if (too_many) stop_island(w, other_place, next.fraction, search);
+  stop_island(w, next.flight, next.fraction, search);
+}
+
+// Processes impacts in the order of time until the step ends.
+template <class Real>
+void fly_on(WorldData<Real>& w, ImpactSearch& search) {
+  std::vector<Meeting>& meetings = w.scratch.meetings;
+  std::make_heap(meetings.begin(), meetings.end(), is_later);
+  while (!meetings.empty()) {
+    std::pop_heap(meetings.begin(), meetings.end(), is_later);
+    const Meeting next = meetings.back();
+    meetings.pop_back();
+    meet(w, next, search);
+  }
+}
+
+// Finds impacts of dynamic bodies, even slow ones, with a fast kinematic body that passes them.
+template <class Real>
+void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
+  const Flight pusher = w.scratch.flights[place];
+  const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
+    const int body = w.shapes[shape].body;
+    if (!pass_fast(w, body, pusher.body)) return;
+    const int met = flight_place(w, body, search.dt);
+    const Way way(w.scratch.flights[met], 0, search);
+    Meeting found{.flight = met, .version = way.flight.version};
+    note_meeting(w, way, {shape, other, contact}, found);
+    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+  };
+  if (pusher.covered) {
+    for_each_edge(w.contacts, w.bodies[pusher.body].first_contact,
+                  [&](int edge, const ContactRecord& contact) {
+                    const bool is_a = (edge & 1) == 0;
+                    note(is_a ? contact.shape_b : contact.shape_a, is_a ? contact.shape_a : contact.shape_b,
+                         constraint_in(w, contact));
+                  });
+    return;
+  }
+  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  pairs.clear();
+  const Aabb<Real> swept = way_of(w, pusher);
+  for (int shape = w.bodies[pusher.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
+    w.moving_tree.query(swept, mask, [&](int other, int) {
+      if (may_collide(w, shape, other)) pairs.emplace_back(other, shape);
+      return true;
+    });
+  }
+  for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
+}
+
+// Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
+template <class Real>
+void find_deep_contacts(WorldData<Real>& w) {
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const Real depth = -std::min(c.now[0], c.now[1]);
+    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool a_yields = w.gives_way(c.body_a), b_yields = w.gives_way(c.body_b);
+    const Real limit =
+        (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
+    if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
+  });
+}
+
+// Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion, and does not hold
+// the path there.
+template <class Real>
+void show_ways(WorldData<Real>& w) {
+  for (Flight& flight : w.scratch.flights)
+    if (!flight.shown && w.enlarged[flight.body]) show_way(w, flight);
+}
+
+template <class Real>
+void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
+  for (const int id : w.scratch.deep_contacts) {
+    const ContactRecord& contact = w.contacts[id];
+    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
+    const bool is_a =
+        w.gives_way(contact.body_a) &&
+        (!w.gives_way(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
+    const int met = flight_place(w, is_a ? contact.body_a : contact.body_b, search.dt);
+    const Way way(w.scratch.flights[met], 0, search);
+    Meeting found{.flight = met, .version = way.flight.version};
+    const int shape = is_a ? contact.shape_a : contact.shape_b,
+              other = is_a ? contact.shape_b : contact.shape_a;
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, found);
+    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void stop_at_impacts(WorldData<Real>& w, Real dt) {
+  w.scratch.deep_contacts.clear();
+  if (w.settings.continuous) find_deep_contacts(w);
+  if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
+  const double time = static_cast<double>(dt);
+  std::vector<Flight>& flights = w.scratch.flights;
+  flights.clear(), w.scratch.meetings.clear();
+  w.scratch.flight_places.assign(w.bodies.size(), kNone);
+  bool all_covered = true;
+  for (const FastBody& fast : w.scratch.fast_bodies) {
+    if (!w.settings.continuous && !fast.expected) continue;
+    Flight& flight = flights[flight_place(w, fast.body, time)];
+    flight.covered = fast.covered, flight.expected = fast.expected;
+    all_covered = all_covered && fast.covered;
+  }
+  for (Flight& flight : flights)
+    if (!flight.covered) show_way(w, flight);
+  if (!all_covered) show_ways(w);
+  // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
+  ImpactSearch search{.dt = time, .long_searches = tuning::kLongSearches};
+  ContactsAhead ahead;
+  const std::size_t fast_count = flights.size();
+  for (std::size_t i = 0; i < fast_count; ++i) {
+    ahead.advance(w, i);
+    const int place = static_cast<int>(i);
+    if (!w.gives_way(flights[i].body)) {
+      meet_pushers(w, place, search);
+      continue;
+    }
+    const Meeting first = first_meeting(w, place, 0, search);
+    if (first.fraction < 1) w.scratch.meetings.push_back(first);
+  }
+  meet_deep_contacts(w, search);
+  if (!w.scratch.meetings.empty()) {
+    show_ways(w);
+    fly_on(w, search);
+  }
+  for (const Flight& flight : flights) {
+    if (flight.changed) {
+      land(w, flight);
+      for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+        refresh_box(w, shape, dt, Real(0));
+    }
+    if (flight.shown) hide_way(w, flight.body, dt);
+  }
+  w.scratch.flight_places.clear();
+}
+
+template void stop_at_impacts(WorldData<float>&, float);
+template void stop_at_impacts(WorldData<double>&, double);
+
+}  // namespace plumb

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/geometry/aabb.h"
+#include "engine/world/continuous/swept_pair.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/step/step.h"
+
+/// Finds the first impact of a flight within the step. For continuous.cpp alone.
+namespace plumb {
+
+/// Returns true if two bodies move fast relative to each other, so that one could pass through the other.
+template <class Real>
+bool pass_fast(const WorldData<Real>& w, int a, int b) {
+  const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
+  const Real turned =
+      std::abs(w.motion[a].turned) * w.extents[a] + std::abs(w.motion[b].turned) * w.extents[b];
+  return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
+}
+
+/// Returns true if another body may be an obstacle: it is fast relative to this one, or its motion differs
+/// from the solver's.
+template <class Real>
+bool may_block(const WorldData<Real>& w, int body, int other) {
+  if (pass_fast(w, body, other)) return true;
+  const Flight* met = flight_in(w, other);
+  return met != nullptr && met->changed;
+}
+
+/// Returns an AABB of the body's motion until the step's end.
+template <class Real>
+Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
+  const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
+                   end = flight.straight_at(1).template as<Real>();
+  const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
+  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm + aside);
+}
+
+/// Returns the solver's constraint of a contact, or null if it had none.
+template <class Real>
+const ContactConstraint<Real>* constraint_in(const WorldData<Real>& w, const ContactRecord& contact) {
+  if (contact.home != ContactHome::Graph) return nullptr;
+  return &w.graph.at({contact.colour, contact.index});
+}
+
+template <class Real>
+const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int shape, int other) {
+  const int body = w.shapes[shape].body, other_body = w.shapes[other].body;
+  const ContactConstraint<Real>* found = nullptr;
+  const auto is_theirs = [&](const ContactRecord& contact) {
+    if ((contact.shape_a != shape || contact.shape_b != other) &&
+        (contact.shape_a != other || contact.shape_b != shape))
+      return false;
+    found = constraint_in(w, contact);
+    return true;
+  };
+  any_between(w.contacts, w.bodies[body].first_contact, w.bodies[other_body].first_contact, body, other_body,
+              is_theirs);
+  return found;
+}
+
+/// Replaces the first impact by a pair's impact if that is earlier.
+template <class Real>
+void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
+  const double fraction = fraction_of_impact(w, way, pair);
+  if (fraction < first.fraction)
+    first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
+}
+
+/// Finds the first impact of a body whose obstacles all have a contact with it.
+template <class Real>
+void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
+  const int body = way.flight.body;
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
+    const bool is_a = (edge & 1) == 0;
+    if (!way.flight.expected && !may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    const int shape = is_a ? contact.shape_a : contact.shape_b,
+              other = is_a ? contact.shape_b : contact.shape_a;
+    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
+  });
+}
+
+/// Returns true if the same body pushes both along.
+template <class Real>
+bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
+  if (flight.carrier == kNone) return false;
+  if (flight.carrier == other) return true;
+  const Flight* met = flight_in(w, other);
+  return met != nullptr && met->carrier == flight.carrier;
+}
+
+/// Finds the first impact by queries of the trees: after an impact the solver has no contacts along the new
+/// trajectory.
+template <class Real>
+void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
+  const int body = way.flight.body;
+  const bool as_solved = !way.flight.changed;
+  const Aabb<Real> swept = way_of(w, way.flight);
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    if (w.forms[shape].sensor || mask == 0) continue;
+    const auto visit = [&](int other, int) {
+      const int other_body = w.shapes[other].body;
+      if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
+      if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
+      note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
+      return true;
+    };
+    w.still_tree.query(swept, mask, visit);
+    w.moving_tree.query(swept, mask, visit);
+  }
+}
+
+/// Stores the current version of the other body's trajectory.
+template <class Real>
+Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
+  if (found.other == kNone) return found;
+  if (const Flight* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
+  return found;
+}
+
+/// Returns the first impact of a flight from a fraction of the step on.
+template <class Real>
+Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
+  const Flight& flight = w.scratch.flights[place];
+  Meeting first{.flight = place, .version = flight.version};
+  if (!w.gives_way(flight.body)) return first;
+  const Way way(flight, from, search);
+  if (flight.covered && !flight.changed) {
+    meet_pairs(w, way, first);
+  } else {
+    meet_all(w, way, first);
+  }
+  return as_it_is(w, first);
+}
+
+}  // namespace plumb

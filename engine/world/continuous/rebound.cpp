@@ -1,0 +1,247 @@
+#include "engine/world/continuous/rebound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/world/contact_solver/contact_rows.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/step/contact_reading.h"
+#include "engine/world/step/expected_impacts.h"
+
+namespace plumb {
+namespace {
+
+// Returns true if only gravity acts on the body.
+template <class Real>
+bool is_free(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.type != BodyType::Dynamic) return true;
+  if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
+  if (record.constraints == 0) return true;
+  bool presses = false;
+  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return;
+    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
+    presses = presses || holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
+  });
+  return !presses;
+}
+
+// For constant acceleration the displacement is (v0 + v1) dt / 2. An acceleration below rounding error counts
+// as zero.
+template <class Real>
+void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
+  const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * flight.way);
+  const double rounding =
+      8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
+  if (std::abs(gain.x) + std::abs(gain.y) <= rounding) return;
+  flight.gain = gain, flight.velocity = end - gain;
+  flight.curve = (0.5 * dt) * gain, flight.way -= flight.curve;
+}
+
+// Saves the body state that is overwritten while testing an impact, and restores it if there is none.
+template <class Real>
+struct Kept {
+  Kept(WorldData<Real>& world, const Flight* flight)
+      : w(world), body(flight == nullptr ? kNone : flight->body) {
+    if (body == kNone) return;
+    position = w.position[body], rotation = w.rotation[body];
+    velocity = w.motion[body].velocity, spin = w.motion[body].angular_velocity;
+  }
+  void restore() {
+    if (body == kNone) return;
+    w.position[body] = position, w.rotation[body] = rotation;
+    w.motion[body].velocity = velocity, w.motion[body].angular_velocity = spin;
+  }
+  WorldData<Real>& w;
+  int body;
+  Vec2d position{};
+  Rotation<Real> rotation{};
+  Vec2<Real> velocity{};
+  Real spin = 0;
+};
+
+template <class Real>
+void place(WorldData<Real>& w, const Flight& flight, double fraction) {
+  const Rotation<double> q = flight.rotation_at(fraction);
+  w.position[flight.body] = flight.start_at(fraction);
+  w.rotation[flight.body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+}
+
+template <class Real>
+void set_velocity(WorldData<Real>& w, const Flight& flight, double fraction) {
+  w.motion[flight.body].velocity = flight.velocity_at(fraction).template as<Real>();
+  w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
+}
+
+// Solves Newton's and Coulomb's laws together at one point, because the friction of an off-centre impact also
+// changes the normal velocity. Returns false and does nothing if that would gain energy or reverse the
+// sliding.
+template <class Real>
+bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
+  const ContactConstraint<Real>& c = pair.c;
+  if (!(c.mass[i] > 0) || !(c.tangent_mass > 0)) return false;
+  const Real nn = 1 / c.mass[i], tt = 1 / c.tangent_mass;
+  const Real nt = pair.a.inverse_inertia * c.arm_a[i] * c.arm_tangent_a +
+                  pair.b.inverse_inertia * c.arm_b[i] * c.arm_tangent_b;
+  const Real vn = pair.normal_rate(i), vt = pair.sliding_rate(), gain = wanted - vn;
+  const Real determinant = nn * tt - nt * nt;
+  Real normal = 0, friction = 0;
+  const bool determined = determinant > Real(1e-6) * nn * tt;
+  if (determined) {
+    normal = (tt * gain + nt * vt) / determinant;
+    friction = -(nn * vt + nt * gain) / determinant;
+  }
+  if (!determined || !(std::abs(friction) <= c.friction * normal)) {
+    const Real direction = vt > 0 || (vt == 0 && friction < 0) ? Real(-1) : Real(1);
+    const Real share = direction * c.friction, pressed = nn + share * nt;
+    if (!(pressed > Real(1e-3) * nn)) return false;
+    normal = gain / pressed, friction = share * normal;
+    if (direction * (vt + nt * normal + tt * friction) > 0) return false;
+  }
+  const Real after = vt + nt * normal + tt * friction;
+  if (!(normal > 0) || normal * (vn + wanted) + friction * (vt + after) > 0) return false;
+  i == 0 ? pair.push(normal, 0) : pair.push(0, normal);
+  pair.rub(friction);
+  return true;
+}
+
+enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
+
+// Resolves an impact of two bodies: Newton's law at the touching points, with friction. Normal impulses alone
+// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0. Friction that at most stops sliding also
+// removes energy, so none is ever gained.
+template <class Real>
+Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
+  ContactPair<Real> pair(w.motion.data(), c);
+  const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
+  // Gaps by rounding: points that are indistinguishable in time are resolved together.
+  const Real rounding =
+      Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
+  const Real threshold = bounce_threshold(w, static_cast<double>(dt));
+  bool strikes[2] = {}, fast = false;
+  Real wanted[2] = {};
+  for (int i = 0; i < c.count; ++i) {
+    c.normal_impulse[i] = c.peak_impulse[i] = 0;
+    c.approach[i] = pair.normal_rate(i);
+    strikes[i] = c.approach[i] < 0 && c.separation[i] <= nearest + rounding;
+    fast = fast || (strikes[i] && c.approach[i] < -threshold);
+  }
+  if (!strikes[0] && !strikes[1]) return Throw::None;
+  fast = fast && may_bounce;
+  for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -c.restitution * c.approach[i] : Real(0);
+  c.tangent_impulse = c.rolling_impulse = 0;
+  const bool one = !strikes[0] || !strikes[1];
+  const int point = strikes[0] ? 0 : 1;
+  if (!(c.friction > 0) || !one || !strike_and_rub(pair, point, wanted[point])) {
+    // Solve twice: the second pass removes the rounding residual of the first, which would otherwise
+    // dissipate energy.
+    pair.press(wanted, strikes[0], strikes[1]);
+    pair.press(wanted, strikes[0], strikes[1]);
+  }
+  pair.rub_and_roll();
+  c.watched = true;
+  pair.note_peaks();
+  return fast ? Throw::Bounce : Throw::Slide;
+}
+
+// Reports that the shapes touched; they are apart again at the end of the step.
+template <class Real>
+void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  const ContactReading reading = reading_of(w, contact, c);
+  const auto touches = [&](const ContactRecord& record) {
+    return record.touching && record.shape_a == contact.shape_a && record.shape_b == contact.shape_b;
+  };
+  if (!any_between(w.contacts, w.bodies[contact.body_a].first_contact, w.bodies[contact.body_b].first_contact,
+                   contact.body_a, contact.body_b, touches)) {
+    w.log().begin.push_back({reading.shape_a, reading.shape_b});
+    w.log().end.push_back({reading.shape_a, reading.shape_b});
+  }
+  const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
+  const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
+  if (!contact.hit_events || c.approach[hardest] > -least) return;
+  w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
+                          -static_cast<double>(c.approach[hardest])});
+}
+
+}  // namespace
+
+template <class Real>
+Flight flight_of(const WorldData<Real>& w, int body, double dt) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  Flight flight;
+  flight.body = body;
+  flight.way = motion.moved.template as<double>();
+  flight.start = flight.first = w.position[body] - flight.way;
+  flight.turn = static_cast<double>(motion.turned);
+  flight.velocity = motion.velocity.template as<double>();
+  flight.angular_velocity = static_cast<double>(motion.angular_velocity);
+  const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
+  const Rotation<double> back = rotation_of(-flight.turn);
+  flight.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
+  if (w.gives_way(body) && is_free(w, body)) note_parabola(motion, flight, dt);
+  return flight;
+}
+
+template <class Real>
+bool may_rebound(const WorldData<Real>& w, int shape, int other) {
+  const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
+  if (a.pre_solve || b.pre_solve || !(restitution_between(w, shape, other) > 0)) return false;
+  return is_free(w, a.body) && is_free(w, b.body);
+}
+
+template <class Real>
+bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt) {
+  Kept<Real> kept_a(w, &a), kept_b(w, b);
+  place(w, a, fraction), set_velocity(w, a, fraction);
+  if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
+  const ContactRecord contact = contact_of(w, shape, other);
+  ContactConstraint<Real> c = constraint_between(w, contact);
+  // Ends a cascade of impacts that loses energy each time.
+  const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
+  const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  if (thrown != Throw::None) report(w, contact, c);
+  const Vec2d normal = c.normal.template as<double>();
+  const auto go_on = [&](Flight* flight, Kept<Real>& kept) {
+    if (flight == nullptr || thrown == Throw::None || !w.gives_way(flight->body)) return kept.restore();
+    const BodyMotion<Real>& motion = w.motion[flight->body];
+    // The surface supports the pressing acceleration.
+    if (thrown == Throw::Slide) {
+      const double side = flight->body == contact.body_a ? 1 : -1;
+      flight->gain -= (side * std::max(side * dot(flight->gain, normal), 0.0)) * normal;
+    }
+    flight->go_on(fraction, motion.velocity.template as<double>(),
+                  static_cast<double>(motion.angular_velocity), dt);
+  };
+  go_on(&a, kept_a);
+  go_on(b, kept_b);
+  return thrown != Throw::None;
+}
+
+template <class Real>
+void land(WorldData<Real>& w, const Flight& flight) {
+  BodyMotion<Real>& motion = w.motion[flight.body];
+  const double turned = flight.turned_before + flight.turn;
+  w.bodies[flight.body].angle += turned - static_cast<double>(motion.turned);
+  place(w, flight, 1);
+  motion.moved = (w.position[flight.body] - flight.first).template as<Real>();
+  motion.turned = static_cast<Real>(turned);
+  if (flight.impacts == 0) return;
+  motion.velocity = flight.velocity_at(1).template as<Real>();
+  motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
+}
+
+#define PLUMB_FOR(Real)                                                                \
+  template Flight flight_of(const WorldData<Real>&, int, double);                      \
+  template bool may_rebound(const WorldData<Real>&, int, int);                         \
+  template bool rebound(WorldData<Real>&, Flight&, int, Flight*, int, double, double); \
+  template void land(WorldData<Real>&, const Flight&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,254 @@
+#include "engine/world/continuous/swept_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/collision/distance/hull_distance.h"
+#include "engine/collision/distance/time_of_impact.h"
+#include "engine/geometry/convex_core.h"
+#include "engine/world/continuous/rebound.h"
+#include "engine/world/continuous/swept_bound.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+// A body's motion for the rest of the step. `arm` as in Flight.
+struct Motion {
+  Sweep<double> sweep;
+  Vec2d arm{};
+};
+
+template <class Real>
+Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, double dt) {
+  if (const Flight* flight = flight_in(w, body)) return {flight->sweep(from, origin), flight->arm};
+  const BodyMotion<Real>& motion = w.motion[body];
+  if (motion.turned == 0 && !w.gives_way(body)) {
+    const Vec2d way = motion.moved.template as<double>();
+    const Rotation<Real> q = w.rotation[body];
+    return {{w.position[body] - (1 - from) * way - origin,
+             (1 - from) * way,
+             {static_cast<double>(q.c), static_cast<double>(q.s)}}};
+  }
+  return {flight_of(w, body, dt).sweep(from, origin)};
+}
+
+// A shape relative to the point of its body that moves straight.
+template <class Real>
+class Seen {
+ public:
+  Seen(const Convex<Real>& shape, Vec2d arm) : convex_(shape) {
+    if (arm == Vec2d{}) return;
+    for (int i = 0; i < shape.count; ++i)
+      corners_[i] = {shape.corners[i].point - arm.as<Real>(), shape.corners[i].normal};
+    convex_.corners = corners_.data();
+  }
+  Seen(const Seen&) = delete;
+  Seen& operator=(const Seen&) = delete;
+  const Convex<Real>& convex() const { return convex_; }
+
+ private:
+  std::array<Corner<Real>, kMaxCorners> corners_;
+  Convex<Real> convex_;
+};
+
+// Returns half the width of a shape's body, the unit of core depths.
+template <class Real>
+Real half_width_of(const WorldData<Real>& w, int shape) {
+  return w.bodies[w.shapes[shape].body].half_width;
+}
+
+// A pair of shapes and their remaining motions.
+template <class Real>
+class Encountering {
+ public:
+  using Result = ImpactResult<Real>;
+
+  Encountering(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair)
+      : w_(w),
+        way_(way),
+        pair_(pair),
+        of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin, way.search.dt)),
+        whole_(w.convex(pair.shape), way.flight.arm),
+        obstacle_(w.convex(pair.other), of_other_.arm),
+        tolerance_(Real(tuning::kImpactTolerance) *
+                   std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent)) {}
+
+  const Convex<Real>& whole() const { return whole_.convex(); }
+  bool flies_on() const { return way_.flight.impacts > 0; }
+  const Convex<Real>& obstacle() const { return obstacle_.convex(); }
+
+  Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    return meet(moving, standing, tolerance_, tolerance_);
+  }
+  // Finds the impact with the smallest tolerance above rounding, for bounces.
+  Result meet_closely() const {
+    const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
+    const double bodies =
+        static_cast<double>(w_.extents[way_.flight.body] + w_.extents[w_.shapes[pair_.other].body]);
+    const Sweep<double>&own = way_.sweep, &others = of_other_.sweep;
+    const double ways = size(others.start) + size(others.motion) + size(own.motion) +
+                        bodies * (std::abs(own.turn) + std::abs(others.turn));
+    const Real near = static_cast<Real>(tuning::kReboundTolerance * (bodies + ways));
+    return meet(whole(), obstacle(), near, near);
+  }
+  // Finds the impact of shapes that may start closer than the stopping distance: these must not come closer.
+  Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    // Without a contact they are apart, and their cores farther.
+    if (pair_.contact == nullptr && !way_.flight.changed && !pair_.stands) return meet(moving, standing);
+    const double apart = distance(moving, standing);
+    if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
+    const Real start = static_cast<Real>(apart);
+    if (start > 2 * tolerance_) return meet(moving, standing);
+    return meet(moving, standing, Real(kHeld) * start, Real((1 - kHeld) / 2) * start);
+  }
+  double fraction(const Result& result) const { return way_.from + result.exact_fraction * (1 - way_.from); }
+  // Returns true for an impact on the back of a chain's segment, which lets it pass.
+  bool passes_behind(const Result& at) const {
+    const bool moves = w_.forms[pair_.shape].chain;
+    if (!moves && !w_.forms[pair_.other].chain) return false;
+    const Sweep<double>& sweep = moves ? way_.sweep : of_other_.sweep;
+    const Rotation<double> q = pose_at(sweep, at.exact_fraction).rotation;
+    const Vec2d front = q * (moves ? whole() : obstacle()).corners[0].normal.template as<double>(),
+                normal = at.normal.template as<double>();
+    return dot(front, moves ? -normal : normal) < 0;
+  }
+
+ private:
+  static constexpr double kHeld = 0.999;
+
+  Result meet(const Convex<Real>& moving, const Convex<Real>& standing, Real target, Real tolerance) const {
+    const Result found = time_of_impact(standing, of_other_.sweep, moving, way_.sweep, target, tolerance,
+                                        tuning::kImpactIterations + way_.search.long_searches);
+    way_.search.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
+    return found;
+  }
+  double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    const Rotation<double> back = of_other_.sweep.start_rotation.inverse(), q = way_.sweep.start_rotation;
+    const Pose<double> pose{back * (way_.sweep.start - of_other_.sweep.start),
+                            {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
+    return hull_distance(standing, moving, pose, nullptr).separation -
+           static_cast<double>(moving.radius + standing.radius);
+  }
+
+  const WorldData<Real>& w_;
+  const Way& way_;
+  const SweptPair<Real>& pair_;
+  Motion of_other_;
+  Seen<Real> whole_, obstacle_;
+  Real tolerance_;
+};
+
+// Returns true if both bodies are dynamic and have, or will have, a contact, which separates them unless
+// their inner cores pass. In a pile that is hit, bodies stopped earlier would be overrun.
+template <class Real>
+bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
+  return (pair.contact != nullptr || pair.stands) && w.gives_way(w.shapes[pair.shape].body) &&
+         w.gives_way(w.shapes[pair.other].body);
+}
+
+// Returns the time of impact of a core with the other shape. If it starts deeper and would penetrate further,
+// tests first the cores of both, then smaller inner cores.
+template <class Real>
+ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real>& at,
+                               const SweptPair<Real>& pair) {
+  using State = typename ImpactResult<Real>::State;
+  const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
+  const Real own = half_width_of(w, pair.shape), others = half_width_of(w, pair.other);
+  // Two discs may not graze each other unnoticed.
+  const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
+  const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
+                           : Real(tuning::kCoreDepth) * own;
+  // After an impact in flight no contact supports it: in front of a stopped body it stops at the surface.
+  const Flight* met = flight_in(w, w.shapes[pair.other].body);
+  if (at.flies_on() && met != nullptr && met->stands) {
+    const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
+    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+    if (found.state != State::Overlapped) return found;
+  }
+  if (both_yield(w, pair)) {
+    const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * own),
+        other_core(at.obstacle(), Real(tuning::kInnerDepth) * others);
+    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+    return found.state == State::Overlapped ? ImpactResult<Real>{} : found;
+  }
+  const bool others_core = form.chain || (pair.stands && others > own);
+  if (others_core) {
+    const Core<Real> core(at.obstacle(), Real(tuning::kCoreDepth) * others);
+    const ImpactResult<Real> found = at.hold(at.whole(), core.convex());
+    if (found.state != State::Overlapped) return found;
+  } else {
+    const Core<Real> core(at.whole(), depth);
+    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+    if (found.state != State::Overlapped) return found;
+  }
+  for (const double share :
+       {tuning::kCoreDepth, 0.5 * (tuning::kCoreDepth + tuning::kInnerDepth), tuning::kInnerDepth}) {
+    const Core<Real> core(at.whole(), Real(share) * own), other_core(at.obstacle(), Real(share) * others);
+    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+    if (found.state != State::Overlapped) return found;
+  }
+  return {};
+}
+
+// Returns true if a quick bound shows that a pair of shapes does not collide on the solver's motions.
+template <class Real>
+bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+  const auto is_straight = [](const Flight& flight) { return !flight.changed && flight.arm == Vec2d{}; };
+  // A parabola deviates from its chord by at most a quarter of its curve.
+  const auto bend = [&](int body) {
+    const BodyMotion<Real>& motion = w.motion[body];
+    const Vec2<Real> curve = static_cast<Real>(way.search.dt) * motion.velocity - motion.moved;
+    return w.gives_way(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
+  };
+  if (pair.stands || !is_straight(way.flight)) return false;
+  const int other_body = w.shapes[pair.other].body;
+  if (const Flight* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
+    return false;
+  const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
+  const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent) +
+                     bend(way.flight.body) + bend(other_body);
+  const bool discs = form.count == 1 && other_form.count == 1;
+  const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
+  const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);
+  const Real deepest =
+      both_yield(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
+  const Real enough = pair.contact == nullptr && discs ? apart : apart - deepest;
+  SweptBound<Real> bound(w, pair.shape, pair.other, enough);
+  const auto try_all = [&] {
+    if (pair.contact == nullptr) return bound.try_edges();
+    return bound.try_along(pair.contact->body_b == way.flight.body ? pair.contact->normal
+                                                                   : -pair.contact->normal) ||
+           bound.try_edges();
+  };
+  if (!try_all()) return false;
+  return pair.contact != nullptr || bound.least() >= apart || !may_rebound(w, pair.shape, pair.other);
+}
+
+}  // namespace
+
+template <class Real>
+double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+  using Result = ImpactResult<Real>;
+  if (is_clear(w, way, pair)) return 1;
+  const Encountering<Real> at(w, way, pair);
+  const bool flies_on = way.flight.impacts > 0;
+  if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
+    if (w.forms[pair.shape].chain && !pair.stands) return 1;  // found by the other shape's search
+    const Result first = at.meet_closely();
+    if (first.state == Result::State::Separated) return 1;
+    if (first.state != Result::State::Overlapped) return at.passes_behind(first) ? 1 : at.fraction(first);
+  }
+  const Result through = core_impact(w, at, pair);
+  if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
+  const Result first = at.meet(at.whole(), at.obstacle());
+  // Shapes that touch at the start are held by their contact until the core comes too near.
+  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? at.fraction(through)
+                                                                               : at.fraction(first);
+}
+
+template double fraction_of_impact(const WorldData<float>&, const Way&, const SweptPair<float>&);
+template double fraction_of_impact(const WorldData<double>&, const Way&, const SweptPair<double>&);
+
+}  // namespace plumb

@@ -1,0 +1,183 @@
+#include "engine/world/force_laws.h"
+
+#include "engine/forces/fluid_drag.h"
+#include "engine/scene/error.h"
+#include "engine/world/forces/law_bodies.h"
+#include "engine/world/state/lock.h"
+
+namespace plumb {
+
+void report_not_finite(const std::string& name, int body, const char* field) {
+  const std::string subject = name.empty() ? "body " + std::to_string(body) : "body '" + name + "'";
+  throw Error(Error::Kind::Value, subject, field, "",
+              "is not finite or beyond 1e12; check what the law divides by");
+}
+
+namespace {
+
+template <class Real>
+LawBody view_of(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  const BodyMotion<Real>& motion = w.motion[body];
+  return {{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
+          w.position[body],
+          record.angle,
+          motion.velocity.template as<double>(),
+          static_cast<double>(motion.angular_velocity),
+          static_cast<double>(record.mass),
+          static_cast<double>(record.inertia),
+          w.body_data.get(body)};
+}
+
+// Returns weight and applied forces of a body in free flight. A body with constraints gets none, because
+// their forces are not known before the step.
+template <class Real>
+Wrench<double> known_load(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.constraints > 0) return {};
+  const Real scale = w.uncommon_of(body).gravity_scale;
+  const Load<Real> load = w.loads.get(body);
+  const Vec2d weight = static_cast<double>(record.mass * scale) * w.settings.gravity;
+  return {weight + load.force.template as<double>(), static_cast<double>(load.torque)};
+}
+
+template <class Real>
+Vec2d place_of(const WorldData<Real>& w, int body, double dt) {
+  return w.position[body] + (place_share(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
+}
+
+void check(const Attraction& law, double dt) {
+  require_finite("attraction", "strength", law.strength);
+  if (law.falloff != Attraction::Falloff::InverseSquare && law.falloff != Attraction::Falloff::Linear) {
+    throw Error(Error::Kind::Value, "attraction", "falloff", std::to_string(static_cast<int>(law.falloff)),
+                "is no member of its enumeration");
+  }
+  require_positive("attraction", "softening", law.softening);
+  require_positive("attraction", "dt", dt);
+}
+
+}  // namespace
+
+template <class Real>
+void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options) {
+  WorldData<Real>& w = settled(world);
+  const Lock<Real> lock(w);
+  apply_to_bodies(w, options.wakes, [&](int body) { return law(view_of(w, body)); });
+}
+
+template <class Real>
+void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, double dt, LawOptions options) {
+  require_not_negative("linear drag", "linear", rates.linear);
+  require_not_negative("linear drag", "angular", rates.angular);
+  require_positive("linear drag", "dt", dt);
+  WorldData<Real>& w = settled(world);
+  apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
+    const BodyMotion<Real>& motion = w.motion[body];
+    const Wrench<double> load = known_load(w, body);
+    return {mean_linear_drag(motion.velocity.template as<double>(), rates.linear,
+                             static_cast<double>(motion.inverse_mass), load.force, dt),
+            mean_linear_drag(static_cast<double>(motion.angular_velocity), rates.angular,
+                             static_cast<double>(motion.inverse_inertia), load.torque, dt)};
+  });
+}
+
+template <class Real>
+void apply_quadratic_drag(BasicWorld<Real>& world, double coefficient, double dt, LawOptions options) {
+  require_not_negative("quadratic drag", "coefficient", coefficient);
+  require_positive("quadratic drag", "dt", dt);
+  WorldData<Real>& w = settled(world);
+  apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
+    const BodyMotion<Real>& motion = w.motion[body];
+    return {mean_quadratic_drag(motion.velocity.template as<double>(), coefficient,
+                                static_cast<double>(motion.inverse_mass), known_load(w, body).force, dt),
+            0};
+  });
+}
+
+template <class Real>
+void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& law, double dt,
+                      LawOptions options) {
+  check(law, dt);
+  require_finite("attraction", "centre", centre);
+  WorldData<Real>& w = settled(world);
+  apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
+    const double mass = static_cast<double>(w.bodies[body].mass);
+    return {attraction_force(law, mass, place_of(w, body, dt) - centre), 0};
+  });
+}
+
+template <class Real>
+void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attraction& law, double dt,
+                              LawOptions options) {
+  check(law, dt);
+  world.position(centre);  // throws for an invalid handle
+  WorldData<Real>& w = settled(world);
+  const int source = static_cast<int>(centre.index);
+  const Vec2d place = place_of(w, source, dt);
+  WrenchList list;
+  Vec2d reaction{};
+  for_each_law_body(w, options.wakes, [&](int body) {
+    if (body == source) return;
+    const double mass = static_cast<double>(w.bodies[body].mass);
+    const Vec2d force = attraction_force(law, mass, place_of(w, body, dt) - place);
+    list.add(body, {force, 0});
+    if (is_sound(Wrench<double>{force, 0})) reaction -= force;
+  });
+  if (w.gives_way(source)) list.add(source, {reaction, 0});
+  add_wrenches(w, list);
+}
+
+template <class Real>
+void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Vec2d point_b,
+                  const ElasticSpring& spring, double dt, LawOptions options) {
+  require_not_negative("spring", "stiffness", spring.stiffness);
+  require_not_negative("spring", "damping", spring.damping);
+  require_not_negative("spring", "rest_length", spring.rest_length);
+  require_finite("spring", "point_a", point_a);
+  require_finite("spring", "point_b", point_b);
+  require_positive("spring", "dt", dt);
+  WorldData<Real>& w = settled(world);
+  const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);
+  const int body_a = static_cast<int>(a.index), body_b = static_cast<int>(b.index);
+  const bool moves_a = w.gives_way(body_a), moves_b = w.gives_way(body_b);
+  const bool awake = (moves_a && w.bodies[body_a].awake) || (moves_b && w.bodies[body_b].awake);
+  if (!awake && !options.wakes) return;
+
+  const Vec2d way = end_b - end_a;
+  const double length = std::sqrt(length_squared(way));
+  if (length == 0) return;  // the direction is undefined
+  const Vec2d axis = (1 / length) * way;
+  const double rate = dot(axis, world.velocity_at(b, end_b) - world.velocity_at(a, end_a));
+  const Vec2d arm_a = end_a - w.position[body_a], arm_b = end_b - w.position[body_b];
+  const auto mobility = [&](int body, Vec2d arm) {
+    const double turn = cross(arm, axis);
+    return static_cast<double>(w.motion[body].inverse_mass) +
+           static_cast<double>(w.motion[body].inverse_inertia) * turn * turn;
+  };
+  const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
+  // spring_tension extrapolates to the middle of the step. The length is shifted so that the bodies'
+  // positions are those at place_share.
+  const auto shift = [&](BodyId body, int index, Vec2d end) {
+    return (place_share(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
+  };
+  const double length_then = length + shift(b, body_b, end_b) - shift(a, body_a, end_a);
+  const Vec2d pull = spring_tension(spring, length_then, rate, inverse_mass, dt) * axis;
+  WrenchList list;
+  if (moves_a) list.add(body_a, {pull, cross(arm_a, pull)});
+  if (moves_b) list.add(body_b, {-pull, -cross(arm_b, pull)});
+  add_wrenches(w, list);
+}
+
+#define PLUMB_INSTANTIATE(Real)                                                                             \
+  template void apply_law(BasicWorld<Real>&, BodyLaw, LawOptions);                                          \
+  template void apply_linear_drag(BasicWorld<Real>&, const LinearDragRates&, double, LawOptions);           \
+  template void apply_quadratic_drag(BasicWorld<Real>&, double, double, LawOptions);                        \
+  template void apply_attraction(BasicWorld<Real>&, Vec2d, const Attraction&, double, LawOptions);          \
+  template void apply_attraction_to_body(BasicWorld<Real>&, BodyId, const Attraction&, double, LawOptions); \
+  template void apply_spring(BasicWorld<Real>&, BodyId, Vec2d, BodyId, Vec2d, const ElasticSpring&, double, \
+                             LawOptions);
+PLUMB_INSTANTIATE(float)
+PLUMB_INSTANTIATE(double)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb

@@ -1,0 +1,196 @@
+#include "engine/world/integration/free_motion.h"
+
+#include <cmath>
+
+#include "engine/math/small_turn.h"
+#include "engine/world/state/awake_ahead.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+// Returns exp(-x) for x >= 0 without a library: exp(-x / 2^k)^(2^k), where x / 2^k is small enough for the
+// series.
+double decay(double x) {
+  int halvings = 0;
+  for (; x > 0.125; x *= 0.5) ++halvings;
+  // 1 - x + x^2/2 - ... to x^9/9!: below rounding for x <= 1/8.
+  double sum = 1;
+  for (int n = 9; n >= 1; --n) sum = 1 - x / n * sum;
+  for (; halvings > 0; --halvings) sum *= sum;
+  return sum;
+}
+
+// Returns the velocity increments and damping factors of a body for a time, s.
+template <class Real>
+Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real t = static_cast<Real>(time);
+  Kick<Real> kick;
+  kick.body = body;
+  if (record.type != BodyType::Dynamic) return kick;
+  const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
+  const UncommonBody<Real>& own = w.uncommon_of(body);
+  const Load<Real> load = w.loads.get(body);
+  kick.velocity = t * (own.gravity_scale * gravity + motion.inverse_mass * load.force);
+  kick.spin = t * motion.inverse_inertia * load.torque;
+  if (own.linear_damping > 0) kick.keep = static_cast<Real>(decay(time * double(own.linear_damping)));
+  if (own.angular_damping > 0) kick.keep_spin = static_cast<Real>(decay(time * double(own.angular_damping)));
+  kick.locked_x = record.lock_x, kick.locked_y = record.lock_y;
+  return kick;
+}
+
+template <class Real>
+void apply(const Kick<Real>& kick, BodyMotion<Real>& motion) {
+  motion.velocity = kick.keep * (motion.velocity + kick.velocity);
+  motion.angular_velocity = kick.keep_spin * (motion.angular_velocity + kick.spin);
+  if (kick.locked_x) motion.velocity.x = 0;
+  if (kick.locked_y) motion.velocity.y = 0;
+}
+
+// Moves a body in free flight. Exact for constant acceleration: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2)
+// t.
+template <class Real>
+void fly(WorldData<Real>& w, int body, double dt) {
+  const Kick<Real> kick = kick_of(w, body, dt);
+  BodyMotion<Real>& motion = w.motion[body];
+  const Real t = static_cast<Real>(dt);
+  const Vec2<Real> before = motion.velocity;
+  const Real spin_before = motion.angular_velocity;
+  apply(kick, motion);
+  // The mean of both ends: exact for constant acceleration, of second order with damping.
+  motion.moved = (Real(0.5) * t) * (before + motion.velocity);
+  if (kick.locked_x) motion.moved.x = 0;
+  if (kick.locked_y) motion.moved.y = 0;
+  motion.turned = Real(0.5) * t * (spin_before + motion.angular_velocity);
+  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+}
+
+// Returns true if gravity alone acts on a body in free flight, unless it has a load.
+template <class Real>
+bool falls_only(const BodyRecord<Real>& record) {
+  return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
+}
+
+// Moves a body in free flight under gravity alone, which adds `gain` to its velocity.
+template <class Real>
+void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const Vec2<Real> before = motion.velocity;
+  motion.velocity += gain;
+  motion.moved = (Real(0.5) * dt) * (before + motion.velocity);
+  motion.turned = Real(0.5) * dt * (motion.angular_velocity + motion.angular_velocity);
+  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+}
+
+}  // namespace
+
+template <class Real>
+void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight) {
+  w.scratch.kicks.clear(), w.scratch.starts.clear();
+  const double dt = h * substeps;
+  const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
+  const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
+  const AwakeAhead<Real> ahead(w);
+  const std::size_t count = w.awake.size();
+  for (std::size_t place = 0; place < count; ++place) {
+    ahead.ask_for_motion(place);
+    const int body = w.awake[place];
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (flight == FreeFlight::Exact && record.constraints == 0) {
+      if (!loaded && falls_only(record)) {
+        fall(w, body, gain, static_cast<Real>(dt));
+      } else {
+        fly(w, body, dt);
+      }
+      continue;
+    }
+    BodyMotion<Real>& motion = w.motion[body];
+    motion.moved = {}, motion.turned = 0;
+    w.scratch.starts.push_back({motion.velocity, motion.angular_velocity});
+    w.scratch.kicks.push_back(kick_of(w, body, h));
+    w.scratch.kicks.back().in_tree = articulated && w.scratch.trees.holds[body];
+  }
+}
+
+template <class Real>
+void integrate_velocities(WorldData<Real>& w) {
+  for (Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    apply(kick, motion);
+    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+  }
+}
+
+template <class Real>
+void repeat_velocities(WorldData<Real>& w) {
+  for (Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    const Vec2<Real> gained = motion.velocity - kick.velocity_before;
+    const Real spin_gained = motion.angular_velocity - kick.spin_before;
+    apply(kick, motion);
+    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+    motion.velocity += gained, motion.angular_velocity += spin_gained;
+  }
+}
+
+template <class Real>
+void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight) {
+  const bool exact = flight == FreeFlight::Exact;
+  for (const Kick<Real>& kick : w.scratch.kicks) {
+    if (kick.in_tree) continue;
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    if (kick.locked_x) motion.velocity.x = 0;
+    if (kick.locked_y) motion.velocity.y = 0;
+    motion.moved += h * motion.velocity;
+    Real turn = h * motion.angular_velocity;
+    if (exact && motion.velocity == kick.velocity_before && motion.angular_velocity == kick.spin_before &&
+        kick.keep == 1 && kick.keep_spin == 1 && w.bodies[kick.body].first_joint == kNone) {
+      motion.moved -= (Real(0.5) * h) * kick.velocity;
+      turn -= (Real(0.5) * h) * kick.spin;
+      if (kick.locked_x) motion.moved.x = 0;
+      if (kick.locked_y) motion.moved.y = 0;
+    }
+    if (turn == 0) continue;
+    motion.turned += turn;
+    w.rotation[kick.body] = turned_by(w.rotation[kick.body], turn);
+  }
+}
+
+template <class Real>
+void hold_locks(WorldData<Real>& w) {
+  for (const Kick<Real>& kick : w.scratch.kicks) {
+    BodyMotion<Real>& motion = w.motion[kick.body];
+    if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
+    if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
+  }
+}
+
+template <class Real>
+Vec2d free_acceleration(const WorldData<Real>& w, int body) {
+  const double share = static_cast<double>(w.uncommon_of(body).gravity_scale);
+  const Vec2<Real> force = w.motion[body].inverse_mass * w.loads.get(body).force;
+  return share * w.settings.gravity + force.template as<double>();
+}
+
+template <class Real>
+Real bounce_threshold(const WorldData<Real>& w, double dt) {
+  return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
+}
+
+#define PLUMB_FOR(Real)                                                   \
+  template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
+  template void integrate_velocities(WorldData<Real>&);                   \
+  template void repeat_velocities(WorldData<Real>&);                      \
+  template void integrate_positions(WorldData<Real>&, Real, FreeFlight);  \
+  template void hold_locks(WorldData<Real>&);                             \
+  template Vec2d free_acceleration(const WorldData<Real>&, int);          \
+  template Real bounce_threshold(const WorldData<Real>&, double);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,250 @@
+#include "engine/world/islands/direct_islands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/union_find.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/islands/hinge_trees.h"
+#include "engine/world/islands/jointed_islands.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+// Returns a contact's hardness outside of direct islands.
+template <class Real>
+ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+}
+
+template <class Real>
+bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
+  const bool a = w.gives_way(joint.body_a), b = w.gives_way(joint.body_b);
+  return joint.active && (a || b) && !in_hinge_tree(w, a ? joint.body_a : joint.body_b);
+}
+
+// Returns the number of active joints that are not part of hinge trees.
+template <class Real>
+int swept_joints(const WorldData<Real>& w) {
+  return w.joint_set.active_count() - w.scratch.trees.hinges;
+}
+
+// Markers in island_size of an island with joints: solved by iterations; solved as one.
+constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
+
+// Chooses the islands with joints that are solved as one: those with a large mass ratio, or all with
+// Solver::Direct.
+template <class Real>
+void choose_jointed(WorldData<Real>& w) {
+  Scratch<Real>& s = w.scratch;
+  s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  s.heaviest.assign(w.bodies.size(), 0);
+  s.island_joints.assign(w.bodies.size(), 0);
+  for (const int body : w.awake) {
+    const Real mass = w.bodies[body].mass;
+    if (!w.gives_way(body)) continue;
+    const int root = s.island_of[body];
+    s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
+  }
+  const auto root_of = [&](const JointRecord& joint) {
+    return s.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+  };
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (is_swept(w, joint)) ++s.island_joints[root_of(joint)];
+  });
+  for (const int body : w.awake) {
+    if (!w.gives_way(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
+    // Each contact counts two rows in island_size.
+    const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
+                       s.island_size[body] <= 2 * tuning::kJointedContacts;
+    const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
+    s.island_size[body] = small && (!alike || w.settings.solver == Solver::Direct) ? kJointed : kSwept;
+  }
+}
+
+// Includes towers and other slender heaps, however high: with few loops and few contacts on any body the
+// factorisation has linear cost.
+template <class Real>
+void choose_slender(WorldData<Real>& w) {
+  std::vector<int>& room = w.scratch.island_room;
+  room.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
+  for (const int body : w.awake) {
+    if (!w.gives_way(body)) continue;
+    int& left = room[w.scratch.island_of[body]];
+    left = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : left + 2;
+  }
+  for (const int body : w.awake) {
+    int& size = w.scratch.island_size[body];
+    if (size > tuning::kDirectRows && size <= tuning::kSlenderRows && size <= room[body])
+      size = tuning::kDirectRows;
+  }
+}
+
+// Finds the islands, by their root body, and an upper bound of the rows of each in `w.scratch.island_size`.
+// Above tuning::kDirectRows an island is solved by iterations alone.
+template <class Real>
+void find_islands(WorldData<Real>& w) {
+  UnionFind islands(w.scratch.island_of, w.bodies.size());
+  const auto tie = [&](int a, int b) {
+    if (w.gives_way(a) && w.gives_way(b)) islands.join(a, b);
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (is_swept(w, joint)) tie(joint.body_a, joint.body_b);
+  });
+  w.scratch.island_size.assign(w.bodies.size(), 0);
+  w.scratch.island_place.assign(w.bodies.size(), kNone);
+  const auto count = [&](int a, int b, int rows) {
+    w.scratch.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
+  for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
+  choose_slender(w);
+  if (swept_joints(w) == 0) return;
+  choose_jointed(w);
+}
+
+template <class Island, class Real>
+Island& island_at(WorldData<Real>& w, std::vector<Island>& islands, int& count, int root) {
+  int& place = w.scratch.island_place[root];
+  if (place == kNone) {
+    place = count++;
+    if (count > static_cast<int>(islands.size())) islands.emplace_back(&w.scratch.room);
+    islands[place].contacts.clear();
+    islands[place].root = root;
+  }
+  return islands[place];
+}
+
+template <class Real>
+void add_rows(DirectIsland<Real>& island) {
+  std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
+  rows.clear();
+  int block = 0;
+  for (ContactConstraint<Real>* c : island.contacts) {
+    const int before = static_cast<int>(rows.size());
+    for (int i = 0; i < c->count; ++i) {
+      // Points without impulse that are separated are left to the iterations.
+      if (c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
+      DirectRow<Real> row;
+      row.a = c->body_a, row.b = c->body_b;
+      row.linear_a = -c->normal, row.linear_b = c->normal;
+      row.angular_a = -c->arm_a[i], row.angular_b = c->arm_b[i];
+      row.impulse = &c->normal_impulse[i];
+      row.one_sided = true;
+      row.block = block;
+      rows.push_back(row);
+    }
+    if (static_cast<int>(rows.size()) > before) ++block;
+  }
+}
+
+// Collects the contacts and joints of the chosen islands.
+template <class Real>
+void fill_islands(WorldData<Real>& w) {
+  Scratch<Real>& s = w.scratch;
+  const auto root_of = [&](int a, int b) { return s.island_of[w.gives_way(a) ? a : b]; };
+  const auto jointed_at = [&](int root) -> JointedIsland<Real>& {
+    const bool is_new = s.island_place[root] == kNone;
+    JointedIsland<Real>& island = island_at(w, s.jointed, s.jointed_count, root);
+    if (is_new) island.joints.clear();
+    return island;
+  };
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
+    if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
+    if (rows > 2 && rows <= tuning::kDirectRows)
+      island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
+  });
+  if (swept_joints(w) == 0) return;
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (!is_swept(w, joint)) return;
+    const int root = root_of(joint.body_a, joint.body_b);
+    if (s.island_size[root] == kJointed) jointed_at(root).joints.push_back(joint.slot);
+  });
+}
+
+// Leaves an island to the iterations for the rest of the step.
+template <class Real>
+void give_up(WorldData<Real>& w, DirectIsland<Real>& island) {
+  for (ContactConstraint<Real>* c : island.contacts) c->hardness = hardness_of(w, *c);
+  island.contacts.clear(), island.system.rows.clear();
+}
+
+template <class Real>
+Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, Real at_start) {
+  const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
+  return at_start + dot(row.linear_b, b.moved - a.moved) + row.angular_a * a.turned +
+         row.angular_b * b.turned;
+}
+
+}  // namespace
+
+template <class Real>
+void prepare_direct_islands(WorldData<Real>& w) {
+  w.scratch.direct_count = w.scratch.jointed_count = 0;
+  const bool articulated = w.settings.solver == Solver::Direct;
+  if (!articulated && !w.settings.direct_islands) return;
+  if (w.graph.empty() && swept_joints(w) == 0) return;
+  if (!w.scratch.islands_known) find_islands(w);
+  w.scratch.islands_known = true;
+  fill_islands(w);
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    DirectIsland<Real>& island = w.scratch.direct[i];
+    add_rows(island);
+    if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
+      give_up(w, island);
+      continue;
+    }
+    for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
+    island.system.factorise(w.motion.data());
+  }
+  prepare_jointed_islands(w);
+}
+
+template <class Real>
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    DirectIsland<Real>& island = w.scratch.direct[i];
+    if (island.system.rows.empty()) continue;  // solved by iterations
+    std::size_t next = 0;
+    double push_speed = 0;
+    for (ContactConstraint<Real>* c : island.contacts) {
+      push_speed = std::max(push_speed, static_cast<double>(c->push_speed));
+      for (int k = 0; k < c->count; ++k) {
+        if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
+          continue;
+        DirectRow<Real>& row = island.system.rows[next++];
+        const Real s = separation_now(w.motion.data(), row, c->separation[k]);
+        const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)][0].bias_rate;
+        row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
+      }
+    }
+    if (island.system.find(w.motion.data(), push_speed)) {
+      island.system.apply(w.motion.data());
+    } else if (island.system.contradicted()) {
+      give_up(w, island);
+    }
+  }
+}
+
+template <class Real>
+void finish_direct_islands(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.direct_count; ++i) {
+    for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
+    w.scratch.island_place[w.scratch.direct[i].root] = kNone;
+  }
+  for (int i = 0; i < w.scratch.jointed_count; ++i) w.scratch.island_place[w.scratch.jointed[i].root] = kNone;
+}
+
+#define PLUMB_FOR(Real)                                                                 \
+  template void prepare_direct_islands(WorldData<Real>&);                               \
+  template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
+  template void finish_direct_islands(WorldData<Real>&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/world/contact_solver/soft_contacts.h"
+#include "engine/world/world_data.h"
+
+/// Direct solve of small islands of contacts, in addition to the iterations. Towers and heavy loads on light
+/// bodies then hold as well as a single contact. Islands with joints are chosen here too, and solved in
+/// engine/world/jointed_islands.h. Larger islands are solved by iterations alone.
+namespace plumb {
+
+/// Finds the islands and factorises their systems, at the start of a step. Joints must be prepared.
+template <class Real>
+void prepare_direct_islands(WorldData<Real>& w);
+
+/// Finds impulses with which all rows of each island hold: with depenetration before bodies move (`push`),
+/// without it afterwards.
+template <class Real>
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push);
+
+/// Makes contacts soft again.
+template <class Real>
+void finish_direct_islands(WorldData<Real>& w);
+
+}  // namespace plumb

@@ -1,0 +1,422 @@
+#include "engine/world/islands/jointed_islands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/math/small_turn.h"
+#include "engine/world/contact_solver/contact_pair.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+enum class Stage { Hold, Close, Relax };
+
+template <class Real>
+int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
+  int& place = w.scratch.link_of[body];
+  if (place < static_cast<int>(island.links.size()) && island.links[place].body == body) return place;
+  place = static_cast<int>(island.links.size());
+  const BodyMotion<Real>& motion = w.motion[body];
+  const BodyRecord<Real>& record = w.bodies[body];
+  const double inverse_mass = motion.inverse_mass;
+  island.links.push_back({body});
+  island.system.bodies.push_back(
+      {.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
+       .inverse_inertia = motion.inverse_inertia});
+  return place;
+}
+
+// Typical number of a contact's rows, to estimate the cost of the factorisation.
+constexpr int kContactRows = 3;
+
+template <class Real>
+double order(WorldData<Real>& w, JointedIsland<Real>& island) {
+  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
+  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  for (const int joint : island.joints) {
+    const auto [a, b] = w.joint_set.bodies(joint);
+    const int link_a = link_at(w, island, a);
+    island.blocks.emplace_back(link_a, link_at(w, island, b));
+    rows.clear();
+    w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
+    const auto limits =
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
+    island.sizes.push_back(static_cast<int>(rows.size() - limits + (limits > 0 ? 1 : 0)));
+  }
+  for (const ContactConstraint<Real>* c : island.contacts) {
+    const int link_a = link_at(w, island, c->body_a);
+    island.blocks.emplace_back(link_a, link_at(w, island, c->body_b));
+    island.sizes.push_back(kContactRows);
+  }
+  return island.system.order(island.blocks, island.sizes);
+}
+
+BoundedRow::State state_of(double impulse, double lower, double upper) {
+  if (impulse <= lower) return BoundedRow::kLower;
+  return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
+}
+
+// Computes the rows of an island at the current positions, for one stage of a substep.
+template <class Real>
+class RowMaker {
+ public:
+  RowMaker(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, Stage stage)
+      : w_(w), island_(island), h_(step.h), hold_(stage == Stage::Hold), close_(stage == Stage::Close) {}
+
+  void make() {
+    island_.system.rows.clear(), island_.ties.clear();
+    for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
+      add_joint(island_.joints[block_]);
+    island_.contact_row = static_cast<int>(island_.ties.size());
+    for (ContactConstraint<Real>* c : island_.contacts) {
+      add_contact(*c);
+      ++block_;
+    }
+  }
+
+ private:
+  double velocity_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.before) + row.angular_a * a.spin_before + dot(row.linear_b, b.before) +
+           row.angular_b * b.spin_before;
+  }
+
+  // Rate of a row's coordinate after the first solve.
+  double held_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
+           row.angular_b * b.spin;
+  }
+
+  // `applied` is the impulse of the first solve; the second one adds to it.
+  void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
+    const std::size_t place = island_.ties.size();
+    if (close_) {
+      // Springs and motors correct no positions. Unilateral rows that are open and have no impulse may stay
+      // so.
+      const bool holds = lower < 0 ? row.gap != 0 || rigid_ : row.gap < 0 || island_.impulses[place] > 0;
+      row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
+      row.compliance = row.coupled_compliance = 0;
+      island_.system.rows.push_back(row);
+      island_.ties.push_back(tie);
+      return;
+    }
+    if (place >= island_.impulses.size()) island_.impulses.push_back(double(*tie.impulse));
+    const double guess = island_.impulses[place], applied = hold_ ? 0 : guess;
+    row.lower = lower - applied, row.upper = upper - applied;
+    row.state = state_of(guess, lower, upper);
+    row.wanted -= row.compliance * applied;
+    island_.system.rows.push_back(row);
+    island_.ties.push_back(tie);
+  }
+
+  // Returns the target rate of a unilateral row with `gap`: as the mean of the displacement, or as the
+  // velocity at its end. The latter closes no faster than it does already: impulses that are taken back until
+  // a gap closes would gain energy.
+  double closing(double gap, const BoundedRow& row) const {
+    const double rate = -std::max(gap, 0.0) / h_;
+    return hold_ ? 2 * rate - velocity_along(row) : std::max(rate, std::min(held_along(row), 0.0));
+  }
+
+  void add_joint(int joint) {
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    rows.clear();
+    w_.joint_set.solver_rows(joint, w_.solver_bodies(), rows);
+    const auto [link_a, link_b] = island_.blocks[block_];
+    for (const JointSolverRow<Real>& from : rows) {
+      BoundedRow row{.a = link_a, .b = link_b};
+      row.linear_a = from.row.linear_a.template as<double>(),
+      row.linear_b = from.row.linear_b.template as<double>();
+      row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+      row.block = block_;
+      const double most = from.most, gap = from.row.residual;
+      // Gap at the substep's start, from which springs pull and limits are measured.
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
+      double lower = -most;
+      rigid_ = from.role == RowRole::Rigid;
+      switch (from.role) {
+        case RowRole::Rigid:
+          row.wanted = hold_ ? -velocity_along(row) : 0;
+          row.gap = gap;
+          break;
+        case RowRole::Spring:
+          row.compliance = from.compliance, row.coupled_compliance = from.coupled_compliance;
+          row.wanted = -double(from.rate) * (hold_ ? start : start - h_ * moved_along(row));
+          break;
+        case RowRole::Limit:
+          lower = 0;
+          row.wanted = closing(start, row);
+          row.gap = std::min(gap, 0.0);
+          break;
+        case RowRole::Motor:
+          row.wanted = from.speed;
+          row.softening = kDriven;
+          break;
+      }
+      add(row, {.impulse = from.impulse, .most = from.most, .pair = from.pair}, lower, most);
+      if (!hold_ && from.coupled_compliance != 0) {
+        const std::size_t last = island_.ties.size() - 1;
+        std::pmr::vector<BoundedRow>& all = island_.system.rows;
+        all[last].wanted -= from.coupled_compliance * island_.impulses[last - 1];
+        all[last - 1].wanted -= from.coupled_compliance * island_.impulses[last];
+      }
+    }
+  }
+
+  // Rate at which a row's coordinate has changed in the substep, m/s.
+  double moved_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
+           row.angular_b * b.turn;
+  }
+
+  void add_contact(ContactConstraint<Real>& c) {
+    const auto [link_a, link_b] = island_.blocks[block_];
+    const BodyMotion<Real>&a = w_.motion[c.body_a], &b = w_.motion[c.body_b];
+    const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
+    BoundedRow row{.a = link_a, .b = link_b};
+    row.block = block_;
+    const auto along = [&](Vec2d d, Real arm_a, Real arm_b) {
+      row.linear_a = -d, row.linear_b = d, row.angular_a = -double(arm_a), row.angular_b = arm_b;
+      row.wanted = row.gap = 0;
+    };
+    const double closed = dot(n, (b.moved - a.moved).template as<double>());
+    const int first = static_cast<int>(island_.system.rows.size());
+    double pressure = 0;
+    rigid_ = false;
+    for (int i = 0; i < c.count; ++i) {
+      along(n, c.arm_a[i], c.arm_b[i]);
+      const double gap =
+          double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
+      row.wanted = closing(start, row);
+      row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
+      // A contact that bounces is disabled until its time of impact.
+      const bool passes = !(c.mass[i] > 0);
+      add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
+      if (passes) island_.impulses[island_.ties.size() - 1] = 0;
+      pressure += island_.impulses[island_.ties.size() - 1];
+    }
+    if (c.friction > 0) {
+      along(t, c.arm_tangent_a, c.arm_tangent_b);
+      row.wanted = hold_ ? 2 * double(c.surface_speed) - velocity_along(row) : double(c.surface_speed);
+      add(row, {.impulse = &c.tangent_impulse, .first = first, .count = c.count, .friction = c.friction},
+          -c.friction * pressure, c.friction * pressure);
+    }
+    if (c.rolling_arm > 0) {
+      along({}, 1, 1);
+      row.wanted = hold_ ? -velocity_along(row) : 0;
+      add(row, {.impulse = &c.rolling_impulse, .first = first, .count = c.count, .friction = c.rolling_arm},
+          -c.rolling_arm * pressure, c.rolling_arm * pressure);
+    }
+  }
+
+  // Compliance of motors relative to their mobility: limits and rigid rows prevail over them.
+  static constexpr double kDriven = 1e-6;
+
+  WorldData<Real>& w_;
+  JointedIsland<Real>& island_;
+  const double h_;
+  const bool hold_, close_;
+  int block_ = 0;
+  bool rigid_ = false;
+};
+
+// Updates bounds that depend on other impulses: Coulomb friction, and pairs of rows bounded as a vector.
+// Returns true if a bound has changed so much that another solve is needed.
+template <class Real>
+bool renew_bounds(JointedIsland<Real>& island, bool hold) {
+  bool changed = false;
+  auto& rows = island.system.rows;
+  const auto total = [&](int i) { return rows[i].impulse + (hold ? 0 : island.impulses[i]); };
+  const auto set = [&](int i, double most) {
+    BoundedRow& row = rows[i];
+    const double applied = hold ? 0 : island.impulses[i];
+    const double lower = -most - applied, upper = most - applied;
+    constexpr double kSame = 1e-3;
+    const bool matters = row.state != BoundedRow::kFree || std::abs(total(i)) > most;
+    if (matters && std::abs(upper - row.upper) > kSame * most) changed = true;
+    if (row.lower >= row.upper && most > 0) row.state = BoundedRow::kFree;
+    row.lower = lower, row.upper = upper;
+  };
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+    const RowTie<Real>& tie = island.ties[i];
+    if (tie.first >= 0) {
+      double pressure = 0;
+      for (int k = 0; k < tie.count; ++k) pressure += std::max(total(tie.first + k), 0.0);
+      set(i, tie.friction * pressure);
+    } else if (tie.pair && tie.most < std::numeric_limits<Real>::infinity()) {
+      const double x = total(i - 1), y = total(i), size = std::hypot(x, y), most = tie.most;
+      if (size > most * 1.001) set(i - 1, most * std::abs(x) / size), set(i, most * std::abs(y) / size);
+    }
+  }
+  return changed;
+}
+
+template <class Real>
+void solve(JointedIsland<Real>& island, bool hold) {
+  constexpr int kRenewals = 1;
+  const auto load = [&] {
+    for (std::size_t i = 0; i < island.links.size(); ++i) {
+      BoundedBody& body = island.system.bodies[i];
+      body.velocity = island.links[i].velocity, body.spin = island.links[i].spin;
+    }
+  };
+  load();
+  island.system.solve();
+  for (int i = 0; i < kRenewals && renew_bounds(island, hold); ++i) {
+    load();
+    island.system.solve();
+  }
+  for (std::size_t i = 0; i < island.ties.size(); ++i) {
+    const double x = island.system.rows[i].impulse;
+    island.impulses[i] = hold ? x : island.impulses[i] + x;
+    *island.ties[i].impulse = static_cast<Real>(island.impulses[i]);
+  }
+}
+
+template <class Real>
+void put_velocity(BodyMotion<Real>& motion, Vec2d velocity, double spin) {
+  if (!gives_way(motion)) return;
+  motion.velocity = velocity.template as<Real>();
+  motion.angular_velocity = static_cast<Real>(spin);
+}
+
+template <class Real>
+void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
+  BodyMotion<Real>& motion = w.motion[body];
+  motion.moved += way.template as<Real>();
+  if (turn == 0) return;
+  motion.turned += static_cast<Real>(turn);
+  w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
+}
+
+// Moves bodies to close a fraction of the gaps.
+template <class Real>
+void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
+  RowMaker<Real>(w, island, step, Stage::Close).make();
+  BoundedRows& system = island.system;
+  const bool direct = w.settings.solver == Solver::Direct;
+  const double joint_share = direct ? tuning::kDirectJointShare : tuning::kJointShare;
+  for (std::size_t i = 0; i < system.rows.size(); ++i)
+    system.rows[i].gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
+  system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
+  double most = 0;
+  for (const BoundedRows::Shift& s : system.shifts) most = std::max(most, std::abs(s.turn));
+  const double share = most > tuning::kLinkTurn ? tuning::kLinkTurn / most : 1;
+  for (std::size_t i = 0; i < island.links.size(); ++i) {
+    if (!w.gives_way(island.links[i].body)) continue;
+    shift(w, island.links[i].body, share * system.shifts[i].way, share * system.shifts[i].turn);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void prepare_jointed_islands(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.jointed[i];
+    island.solved = order(w, island) <= tuning::kJointedCost;
+    island.impulses.clear();
+  }
+}
+
+template <class Real>
+void begin_jointed_substep(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.jointed[i].links) {
+      const BodyMotion<Real>& motion = w.motion[link.body];
+      link.before = motion.velocity.template as<double>();
+      link.spin_before = motion.angular_velocity;
+    }
+  }
+}
+
+template <class Real>
+void note_free_velocities(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.jointed[i].links) {
+      const BodyMotion<Real>& motion = w.motion[link.body];
+      link.velocity = motion.velocity.template as<double>();
+      link.spin = motion.angular_velocity;
+    }
+  }
+}
+
+template <class Real>
+void note_blows(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.jointed[i].links) {
+      const BodyMotion<Real>& motion = w.motion[link.body];
+      const Vec2d velocity = motion.velocity.template as<double>();
+      const double spin = motion.angular_velocity;
+      link.before += velocity - link.velocity, link.spin_before += spin - link.spin;
+      link.velocity = velocity, link.spin = spin;
+    }
+  }
+}
+
+template <class Real>
+void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
+  const double h = step.h;
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.jointed[i];
+    if (!island.solved) continue;
+    for (JointedLink& link : island.links) {
+      BodyMotion<Real>& motion = w.motion[link.body];
+      link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
+      link.rotation_c = w.rotation[link.body].c, link.rotation_s = w.rotation[link.body].s;
+      link.way = link.before, link.turn = link.spin_before;
+    }
+    for (const JointedLink& link : island.links) shift(w, link.body, 0.5 * h * link.way, 0.5 * h * link.turn);
+    RowMaker<Real>(w, island, step, Stage::Hold).make();
+    solve(island, true);
+    for (std::size_t k = 0; k < island.links.size(); ++k) {
+      JointedLink& link = island.links[k];
+      const BoundedBody& body = island.system.bodies[k];
+      BodyMotion<Real>& motion = w.motion[link.body];
+      motion.moved = link.moved.template as<Real>(), motion.turned = static_cast<Real>(link.turned);
+      w.rotation[link.body] = {static_cast<Real>(link.rotation_c), static_cast<Real>(link.rotation_s)};
+      link.way = 0.5 * (link.before + body.velocity), link.turn = 0.5 * (link.spin_before + body.spin);
+    }
+    for (std::size_t k = 0; k < island.links.size(); ++k) {
+      JointedLink& link = island.links[k];
+      link.velocity = island.system.bodies[k].velocity, link.spin = island.system.bodies[k].spin;
+      put_velocity(w.motion[link.body], link.way, link.turn);
+    }
+  }
+}
+
+template <class Real>
+void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool close) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.jointed[i];
+    if (!island.solved) continue;
+    if (close) close_gaps(w, island, step);
+    RowMaker<Real>(w, island, step, Stage::Relax).make();
+    solve(island, false);
+    for (std::size_t k = 0; k < island.links.size(); ++k) {
+      const BoundedBody& body = island.system.bodies[k];
+      put_velocity(w.motion[island.links[k].body], body.velocity, body.spin);
+    }
+    for (ContactConstraint<Real>* c : island.contacts)
+      if (c->watched) note_peaks(*c);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                           \
+  template void prepare_jointed_islands(WorldData<Real>&);                        \
+  template void begin_jointed_substep(WorldData<Real>&);                          \
+  template void note_free_velocities(WorldData<Real>&);                           \
+  template void note_blows(WorldData<Real>&);                                     \
+  template void hold_jointed_islands(WorldData<Real>&, const ContactStep<Real>&); \
+  template void relax_jointed_islands(WorldData<Real>&, const ContactStep<Real>&, bool);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

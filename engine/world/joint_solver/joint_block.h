@@ -1,0 +1,58 @@
+#pragma once
+
+#include <limits>
+
+#include "engine/world/joint_solver/joint_rule.h"
+#include "engine/world/joint_solver/joint_velocities.h"
+
+namespace plumb {
+
+/// N rigid rows solved together: K = J M^-1 J^T = L D L^T. A row that depends on those before it is left out.
+template <class Real, int N>
+struct JointBlock {
+  JointRow<Real> row[N]{};
+  Real lower[N][N]{};  ///< L below its diagonal of ones
+  Real inverse_pivot[N]{};
+  Real impulse[N]{};
+
+  /// Factorises for the present rows.
+  void factorise(const JointVelocities<Real>& v) {
+    constexpr Real kNothing = 32 * std::numeric_limits<Real>::epsilon();
+    Real pivot[N];
+    for (int i = 0; i < N; ++i) {
+      const Real diagonal = v.inverse_mass(row[i], row[i]);
+      Real rest = diagonal;
+      for (int j = 0; j < i; ++j) {
+        Real sum = v.inverse_mass(row[i], row[j]);
+        for (int k = 0; k < j; ++k) sum -= lower[i][k] * pivot[k] * lower[j][k];
+        lower[i][j] = sum * inverse_pivot[j];
+        rest -= lower[i][j] * lower[i][j] * pivot[j];
+      }
+      const bool free = rest > kNothing * diagonal;
+      pivot[i] = free ? rest : 0;
+      inverse_pivot[i] = free ? 1 / rest : 0;
+    }
+  }
+  void warm_start(JointVelocities<Real>& v) const {
+    for (int i = 0; i < N; ++i) v.apply(row[i], impulse[i]);
+  }
+
+  void solve(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass pass, Real share) {
+    const bool soft = pass == kSolve;
+    const Softness<Real> s = soft ? step.softness : Softness<Real>{};
+    Real x[N];
+    for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + share * s.bias_rate * row[i].residual;
+    for (int i = 1; i < N; ++i)
+      for (int j = 0; j < i; ++j) x[i] -= lower[i][j] * x[j];
+    for (int i = 0; i < N; ++i) x[i] *= inverse_pivot[i];
+    for (int i = N - 2; i >= 0; --i)
+      for (int j = i + 1; j < N; ++j) x[i] -= lower[j][i] * x[j];
+    for (int i = 0; i < N; ++i) {
+      const Real delta = -share * s.mass_scale * x[i] - s.impulse_scale * impulse[i];
+      impulse[i] += delta;
+      v.apply(row[i], delta);
+    }
+  }
+};
+
+}  // namespace plumb

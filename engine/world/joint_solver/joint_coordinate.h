@@ -1,0 +1,126 @@
+#pragma once
+
+#include <algorithm>
+
+#include "engine/world/joint_solver/joint_rule.h"
+#include "engine/world/joint_solver/joint_velocities.h"
+
+namespace plumb {
+
+/// A scalar coordinate with up to four rules. They share one Jacobian, so J v is evaluated once and the
+/// impulses are applied once.
+template <class Real, bool kAngular>
+struct JointCoordinate {
+  struct Solved {
+    RowTerm<Real> term[2];
+  };
+  int count = 0;
+  Real inverse_mass = 0;  ///< J M^-1 J^T, reduced by rigid rows that hold at the same time
+  JointRow<Real> row{};   ///< not used if kAngular
+  SolverRule<Real> rule[RowRules::kMost]{};
+  Solved solved[RowRules::kMost]{};
+
+  void load(const RowRules& rules) {
+    for (int i = 0; i < RowRules::kMost; ++i) {
+      if (i >= rules.count) {
+        rule[i] = {};
+      } else {
+        if (i >= count) rule[i] = {};
+        rule[i].load(rules.rule[i]);
+      }
+    }
+    count = rules.count;
+  }
+  void set_substep(const RowRules& rules, double h) {
+    for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], h);
+  }
+  void scale(Real factor) {
+    for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
+  }
+
+  /// Record the coordinate at the start of a step, and at the end of each substep.
+  void start_at(Real q) {
+    for (int i = 0; i < count; ++i) rule[i].last = q;
+  }
+  void follow(Real q, Real h) {
+    for (int i = 0; i < count; ++i) rule[i].follow(q, h);
+  }
+
+  /// Returns the sum of all rules' lambda along +q.
+  Real impulse() const {
+    Real sum = 0;
+    for (int i = 0; i < count; ++i) sum += rule[i].sign * rule[i].impulse;
+    return sum;
+  }
+
+  bool has(RowRole role) const {
+    for (int i = 0; i < count; ++i)
+      if (rule[i].role == role) return true;
+    return false;
+  }
+
+  /// Returns J M^-1 J^T.
+  Real mobility(const JointVelocities<Real>& v) const {
+    if constexpr (kAngular) {
+      return v.i_a + v.i_b;
+    } else {
+      return v.inverse_mass(row, row);
+    }
+  }
+
+  /// Evaluates the rules at the coordinate `q`, at the pose of `row`.
+  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, JointShare<Real> part) {
+    if (count == 0) return;
+    inverse_mass = mobility(v);
+    evaluate(q, inverse_mass, step, part);
+  }
+  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. The reduced value is
+  /// its response if the joint is solved alone, with these rows before and after the spring.
+  void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held, const JointStep<Real>& step,
+                             JointShare<Real> part) {
+    inverse_mass = part.share == 1 ? held : mobility(v);
+    evaluate(q, held, step, part);
+  }
+  void warm_start(JointVelocities<Real>& v) const {
+    if (count > 0) apply(v, impulse());
+  }
+
+  void solve(JointVelocities<Real>& v, JointPass pass) {
+    if (count == 0) return;
+    Real rate = along(v), sum = 0;
+    for (int i = 0; i < count; ++i) {
+      SolverRule<Real>& r = rule[i];
+      const RowTerm<Real>& t = solved[i].term[pass];
+      const Real wanted = r.impulse - t.mass * (r.sign * rate + t.bias) - t.scale * r.impulse;
+      const Real total = std::min(std::max(wanted, r.lower()), r.most);
+      const Real delta = r.sign * (total - r.impulse);
+      r.impulse = total;
+      rate += inverse_mass * delta;
+      sum += delta;
+    }
+    apply(v, sum);
+  }
+
+ private:
+  void evaluate(Real q, Real spring_mobility, const JointStep<Real>& step, JointShare<Real> part) {
+    for (int i = 0; i < count; ++i)
+      rule[i].terms(q, inverse_mass, spring_mobility, part, step, solved[i].term);
+  }
+  Real along(const JointVelocities<Real>& v) const {
+    if constexpr (kAngular) {
+      return v.w_b - v.w_a;
+    } else {
+      return v.along(row);
+    }
+  }
+  void apply(JointVelocities<Real>& v, Real impulse) const {
+    if constexpr (kAngular) {
+      v.w_a -= v.i_a * impulse;
+      v.w_b += v.i_b * impulse;
+    } else {
+      v.apply(row, impulse);
+    }
+  }
+};
+
+}  // namespace plumb

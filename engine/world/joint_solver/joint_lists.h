@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "engine/joints/distance_joint.h"
+#include "engine/joints/friction_joint.h"
+#include "engine/joints/gear_joint.h"
+#include "engine/joints/motor_joint.h"
+#include "engine/joints/mouse_joint.h"
+#include "engine/joints/prismatic_joint.h"
+#include "engine/joints/weld_joint.h"
+#include "engine/joints/wheel_joint.h"
+#include "engine/world/joint_solver/joint_constraint.h"
+#include "engine/world/joint_solver/joint_hinge.h"
+
+namespace plumb {
+
+/// Number of joint colours. One more list, the last, is the overflow, solved in order; another holds joints
+/// that are not active.
+inline constexpr int kJointColours = 24;
+inline constexpr int kOverflowColour = kJointColours, kParked = kJointColours + 1;
+
+/// Form in which a joint is solved. Two kinds have a plain form and a general one.
+enum JointForm : int {
+  kHinge,
+  kDistance,
+  kRevolute,
+  kPrismatic,
+  kWeld,
+  kSoftWeld,
+  kWheel,
+  kMotor,
+  kMouse,
+  kGear,
+  kPulley,
+  kRatchet,
+  kFriction,
+  kForms
+};
+
+inline JointForm form_of(const JointKind& definition) {
+  static constexpr JointForm kByKind[] = {kDistance, kRevolute, kPrismatic, kWeld,    kWheel,   kMotor,
+                                          kMouse,    kGear,     kPulley,    kRatchet, kFriction};
+  if (const auto* revolute = std::get_if<RevoluteDefinition>(&definition))
+    return revolute->limits || revolute->motor || revolute->spring ? kRevolute : kHinge;
+  if (const auto* weld = std::get_if<WeldDefinition>(&definition))
+    return weld->linear_spring || weld->angular_spring ? kSoftWeld : kWeld;
+  return kByKind[definition.index()];
+}
+
+/// One list per colour, for joints of one form.
+template <class Constraint>
+using JointLists = std::array<std::vector<Constraint>, kJointColours + 2>;
+
+/// Lists by form.
+template <class Real>
+using JointStore =
+    std::tuple<JointLists<HingeConstraint<Real>>, JointLists<JointConstraint<Real, DistanceRows>>,
+               JointLists<JointConstraint<Real, RevoluteRows>>,
+               JointLists<JointConstraint<Real, PrismaticRows>>, JointLists<JointConstraint<Real, WeldRows>>,
+               JointLists<JointConstraint<Real, SoftWeldRows>>, JointLists<JointConstraint<Real, WheelRows>>,
+               JointLists<JointConstraint<Real, MotorRows>>, JointLists<JointConstraint<Real, MouseRows>>,
+               JointLists<JointConstraint<Real, GearRows>>, JointLists<JointConstraint<Real, PulleyRows>>,
+               JointLists<JointConstraint<Real, RatchetRows>>,
+               JointLists<JointConstraint<Real, FrictionRows>>>;
+
+}  // namespace plumb

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/world/joint_solver/joint_lists.h"
+#include "engine/world/joint_solver/joint_set.h"
+
+namespace plumb {
+
+/// Description of a joint, not used in the solver's passes.
+struct JointSlot {
+  JointKind definition{};
+  int a = -1, b = -1;  ///< bodies
+  Vec2d centre_a{}, centre_b{};
+  bool used = false, dynamic_a = false, dynamic_b = false, active = false;
+  JointForm form = kHinge;
+  int colour = 0, index = 0;  ///< colour and index of its constraint
+
+  /// A mouse joint does not move body a.
+  bool moves_a() const { return dynamic_a && form != kMouse; }
+};
+
+/// The active joints of a dynamic body.
+struct BodyJoints {
+  std::uint32_t colours = 0;  ///< one bit each
+  std::int32_t count = 0;
+
+  bool operator==(const BodyJoints&) const = default;
+};
+
+/// A non-empty list of joints to solve.
+struct JointRun {
+  JointForm form;
+  int colour;
+};
+
+template <class Real>
+struct JointSet<Real>::Parts {
+  std::vector<JointSlot> slots;
+  std::vector<int> free;
+  std::vector<BodyJoints> taken;  ///< by body: its active joints and their colours
+  std::vector<JointRun> runs;     ///< in the order of solving
+  JointStore<Real> store;
+  int count = 0, active = 0;
+
+  const JointSlot& slot(int joint) const { return slots[static_cast<std::size_t>(joint)]; }
+  JointSlot& slot(int joint) { return slots[static_cast<std::size_t>(joint)]; }
+
+  /// Calls f with the lists of a form.
+  template <class F>
+  decltype(auto) with(JointForm form, F&& f) {
+    return dispatch(store, form, std::forward<F>(f));
+  }
+  template <class F>
+  decltype(auto) with(JointForm form, F&& f) const {
+    return dispatch(store, form, std::forward<F>(f));
+  }
+  /// Calls f with the constraint of a joint.
+  template <class F>
+  decltype(auto) at(int joint, F&& f) const {
+    const JointSlot& s = slot(joint);
+    return with(s.form, [&](const auto& lists) -> decltype(auto) { return f(lists[s.colour][s.index]); });
+  }
+  template <class F>
+  decltype(auto) at(int joint, F&& f) {
+    const JointSlot& s = slot(joint);
+    return with(s.form, [&](auto& lists) -> decltype(auto) { return f(lists[s.colour][s.index]); });
+  }
+
+  /// Visits active joints in the order of solving.
+  template <class F>
+  void for_each_active(F&& f) {
+    for (const JointRun& run : runs) {
+      with(run.form, [&](auto& lists) {
+        for (auto& constraint : lists[run.colour]) f(constraint);
+      });
+    }
+  }
+
+  /// Returns the first colour that no joint of its dynamic bodies has.
+  int free_colour(const JointSlot& s) const;
+  /// Sets or clears the joint's colour at its dynamic bodies.
+  void mark(const JointSlot& s, bool here);
+  /// Creates a constraint from the slot's definition.
+  void create(int joint);
+  /// Removes the joint's constraint from its list.
+  void take_out(int joint);
+  /// Reserves memory for the constraint of a joint whose colour is not marked, so that adding it does not
+  /// allocate.
+  void make_room(JointForm form, const JointSlot& s);
+  /// Adds a constraint at the slot's colour.
+  template <class Constraint>
+  void put(int joint, const Constraint& constraint);
+  /// Removes the constraint and adds it again by the slot's new state. Its colour must not be marked.
+  void put_anew(int joint);
+  void find_runs();
+
+ private:
+  template <class Store, class F>
+  static decltype(auto) dispatch(Store& store, JointForm form, F&& f) {
+    switch (form) {
+      case kHinge:
+        return f(std::get<kHinge>(store));
+      case kDistance:
+        return f(std::get<kDistance>(store));
+      case kRevolute:
+        return f(std::get<kRevolute>(store));
+      case kPrismatic:
+        return f(std::get<kPrismatic>(store));
+      case kWeld:
+        return f(std::get<kWeld>(store));
+      case kSoftWeld:
+        return f(std::get<kSoftWeld>(store));
+      case kWheel:
+        return f(std::get<kWheel>(store));
+      case kMotor:
+        return f(std::get<kMotor>(store));
+      case kMouse:
+        return f(std::get<kMouse>(store));
+      case kGear:
+        return f(std::get<kGear>(store));
+      case kPulley:
+        return f(std::get<kPulley>(store));
+      case kRatchet:
+        return f(std::get<kRatchet>(store));
+      default:
+        return f(std::get<kFriction>(store));
+    }
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/world/joint_solver/joint_rule.h"
+#include "engine/world/joint_solver/joint_velocities.h"
+
+namespace plumb {
+
+/// A symmetric 2x2 matrix.
+template <class Real>
+struct Symmetric2 {
+  Real xx = 0, xy = 0, yy = 0;
+  friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
+    return {m.xx * v.x + m.xy * v.y, m.xy * v.x + m.yy * v.y};
+  }
+};
+
+/// Inverse effective mass of a point that two bodies share:
+///     K = m 1 + i_a p_a p_a^T + i_b p_b p_b^T,  m = m_a + m_b, p = (-arm.y, arm.x).
+/// Its determinant m^2 + m (i_a |p_a|^2 + i_b |p_b|^2) + i_a i_b (p_a x p_b)^2 is a sum of squares: nothing
+/// cancels.
+template <class Number>
+struct PointResponse {
+  Number xx, xy, yy, determinant;
+};
+
+template <class Number>
+[[gnu::always_inline]] inline PointResponse<Number> point_response(const JointVelocities<Number>& v,
+                                                                   Vec2<Number> arm_a, Vec2<Number> arm_b) {
+  const Number m = v.m_a + v.m_b;
+  const Vec2<Number> a = v.i_a * arm_a, b = v.i_b * arm_b;
+  const Number xx = m + (a.y * arm_a.y + b.y * arm_b.y);
+  const Number yy = m + (a.x * arm_a.x + b.x * arm_b.x);
+  const Number xy = -(a.x * arm_a.y + b.x * arm_b.y);
+  return {xx, xy, yy, m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b)};
+}
+
+/// Returns `share` of the effective mass, the inverse of K. If the determinant vanishes to rounding (only
+/// rotation is free, about one arm), it divides by the trace instead: a short step.
+template <class Real>
+[[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real share) {
+  const Real trace = k.xx + k.yy;
+  if (k.determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
+    const Real inverse = share / k.determinant;
+    return {inverse * k.yy, -inverse * k.xy, inverse * k.xx};
+  }
+  const Real inverse = trace > 0 ? share / trace : 0;
+  return {inverse, 0, inverse};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
+                                                          Vec2<Real> arm_b, Real share) {
+  return mass_of(point_response(v, arm_a, arm_b), share);
+}
+
+/// Both components of the gap between two anchors, solved together, by a rule that bounds the vector's
+/// length.
+template <class Real>
+struct JointPoint {
+  SolverRule<Real> rule{};  ///< without sign and origin
+  Vec2<Real> impulse{};     ///< N s, on b
+  Vec2<Real> drift{};       ///< m, see SolverRule
+  AnchorPoint<Real> point{};
+  Symmetric2<Real> mass{};
+  Symmetric2<Real> compliance{};  ///< of a spring: its compliance matrix
+  Vec2<Real> bias[2]{};
+  Real mass_scale[2]{1, 1}, impulse_scale[2]{};
+
+  void load(const RowRule& r) {
+    if (r.role != rule.role) impulse = drift = {};
+    rule.load(r);
+  }
+  void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
+
+  /// Records the gap at the end of a substep; the gap at its start is that of `point`.
+  void follow(Vec2<Real> gap) {
+    if (rule.role != RowRole::Motor) return;
+    const bool suffices = length_squared(impulse) < rule.most * rule.most;
+    drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
+  }
+
+  bool rigid() const {
+    return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
+  }
+
+  void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step,
+                JointShare<Real> part) {
+    const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
+    point = at;
+    if (rule.role == RowRole::Spring) {
+      evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
+      return;
+    }
+    mass = mass_of(k, Real(1));
+    RowTerm<Real> term[2]{};
+    rule.drift = 1;
+    rule.terms(1, 1, 1, part, step, term);
+    for (int pass = 0; pass < 2; ++pass) {
+      bias[pass] = term[pass].bias * (rule.role == RowRole::Motor ? drift : at.gap);
+      mass_scale[pass] = term[pass].mass;
+      impulse_scale[pass] = term[pass].scale;
+    }
+  }
+  /// Evaluates likewise a spring beside a rigid angle, which reduces the point's mobility to `held`.
+  void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
+                             const Symmetric2<Real>& held, const JointStep<Real>& step,
+                             JointShare<Real> part) {
+    PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
+    point = at;
+    if (part.share == 1) k = {held.xx, held.xy, held.yy, held.xx * held.yy - held.xy * held.xy};
+    evaluate_spring(held, k, step, part);
+  }
+  void warm_start(JointVelocities<Real>& v) const { v.apply(impulse, point.arm_a, point.arm_b); }
+
+  void solve(JointVelocities<Real>& v, JointPass pass) {
+    const Vec2<Real> before = impulse;
+    Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
+    if (rule.role == RowRole::Spring) rate += compliance * before;
+    impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
+    const Real size = length_squared(impulse);
+    if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
+    v.apply(impulse - before, point.arm_a, point.arm_b);
+  }
+
+ private:
+  // See SolverRule::terms. The spring refers to the mobility `held`; the point responds with `k`.
+  void evaluate_spring(const Symmetric2<Real>& held, const PointResponse<Real>& k,
+                       const JointStep<Real>& step, JointShare<Real> part) {
+    const Real share = part.share;
+    const SpringTerm<Real>& spring = rule.spring;
+    const Real trace = k.xx + k.yy;
+    compliance = {spring.compliance * held.xx, spring.compliance * held.xy, spring.compliance * held.yy};
+    constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
+    const Real gives = std::max(compliance.xx + compliance.yy, trace / kFirmest);
+    if (!(trace > part.stiffest(step.stiffest) * gives)) {
+      const Real xx = k.xx + compliance.xx, xy = k.xy + compliance.xy, yy = k.yy + compliance.yy;
+      // If proportional to K, as without rigid rows beside the spring, nothing cancels.
+      const Real times = 1 + rule.spring.compliance;
+      const bool in_proportion = held.xx == k.xx && held.xy == k.xy && held.yy == k.yy;
+      mass =
+          mass_of({xx, xy, yy, in_proportion ? times * times * k.determinant : xx * yy - xy * xy}, Real(1));
+      bias[kRelax] = bias[kSolve];
+      bias[kSolve] = spring.rate * point.gap;
+      mass_scale[kSolve] = mass_scale[kRelax] = 1;
+      impulse_scale[kSolve] = impulse_scale[kRelax] = 0;
+      return;
+    }
+    const StiffSpring<Real> stiff(spring, trace / gives, share, step);
+    compliance = {};
+    mass = mass_of(k, share);
+    bias[kSolve] = (share * stiff.rate) * point.gap;
+    bias[kRelax] = {};
+    mass_scale[kSolve] = stiff.mass_scale, impulse_scale[kSolve] = stiff.impulse_scale;
+    mass_scale[kRelax] = 1, impulse_scale[kRelax] = 0;
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "engine/world/contact_solver/follow.h"
+#include "engine/world/joint_solver/joint_constraint.h"
+#include "engine/world/joint_solver/joint_hinge.h"
+
+/// Position-based joint solver. Within a substep a body's velocity is its displacement since the substep's
+/// start over h. A projection by dx therefore changes the velocity by dx / h at once. The rules of a joint
+/// are then the same as for velocities, with the residual at the substep's start: C(x) - h J v. Rigid rows
+/// get C(x + dx) = 0 to first order. A spring gets lambda = -(k C + c dC/dt) at the end, which is a
+/// compliance 1 / k (Macklin, Mueller and Chentanez, XPBD, 2016, eq. 18 and 26). Motors, limits and bounds
+/// apply unchanged to the substep's impulse.
+namespace plumb {
+
+/// Writes back velocities and the corresponding positions.
+template <class Real>
+void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, BodyMotion<Real>& a,
+                     BodyMotion<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
+  v.store(a, b);
+  if (v.m_a + v.i_a > 0) follow(a, rotation_a, before.v_a, before.w_a, h);
+  if (v.m_b + v.i_b > 0) follow(b, rotation_b, before.v_b, before.w_b, h);
+}
+
+/// Clears the joint's impulses at the start of a substep.
+template <class Real, template <class> class Kind>
+void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
+                      const JointStep<Real>& step) {
+  using Constraint = JointConstraint<Real, Kind>;
+  if constexpr (Kind<Real>::kTurn) joint.turn.scale(0);
+  for (auto& coordinate : joint.axial) coordinate.scale(0);
+  if constexpr (Constraint::kBlock > 0)
+    for (Real& impulse : joint.block.impulse) impulse = 0;
+  if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
+  // A ratchet advances at reached positions, not at predicted ones.
+  if constexpr (Constraint::kRatchet) joint.evaluate(bodies, step);
+}
+
+template <class Real>
+void begin_projection(HingeConstraint<Real>& hinge, const SolverBodies<Real>&, const JointStep<Real>&) {
+  hinge.impulse = {};
+}
+
+/// Moves the two bodies such that the joint's rules hold at the new positions.
+template <class Real, template <class> class Kind>
+void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
+             const JointStep<Real>& step) {
+  using Constraint = JointConstraint<Real, Kind>;
+  BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  JointVelocities<Real> v(a, b);
+  if constexpr (Constraint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  const JointVelocities<Real> before = v;
+  const Real h = step.h;
+
+  const JointPose<Real> at = joint.pose(bodies);
+  JointRows<Real> rows;
+  joint.kind.evaluate(at, rows);
+  joint.arm_b = rows.arm_b;
+  JointPose<Real> start = at;
+  start.angle -= h * (v.w_b - v.w_a);
+  if constexpr (Constraint::kBlock > 0) {
+    for (int i = 0; i < Constraint::kBlock; ++i) {
+      joint.block.row[i] = rows.block[i];
+      joint.block.row[i].residual -= h * v.along(rows.block[i]);
+    }
+    joint.block.factorise(v);
+  }
+  for (int i = 0; i < Constraint::kAxial; ++i) rows.axial[i].residual -= h * v.along(rows.axial[i]);
+  if constexpr (Kind<Real>::kPoint) rows.point.gap -= h * v.at(rows.point.arm_a, rows.point.arm_b);
+  joint.evaluate_coordinates(start, rows, v, step, {});
+  joint.solve_coordinates(v, step, kSolve, Real(1));
+  store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
+}
+
+template <class Real>
+void project(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
+             const JointStep<Real>& step) {
+  BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
+  JointVelocities<Real> v(a, b);
+  const JointVelocities<Real> before = v;
+  const JointPose<Real> pose{.offset = hinge.offset + (b.moved - a.moved),
+                             .rotation_a = bodies.rotation[hinge.a],
+                             .rotation_b = bodies.rotation[hinge.b]};
+  const AnchorPoint<Real> point = anchor_point(pose, hinge.anchor_a, hinge.anchor_b).middle();
+  hinge.arm_a = point.arm_a, hinge.arm_b = point.arm_b;
+  const Vec2<Real> delta =
+      -(point_mass(v, point.arm_a, point.arm_b, Real(1)) * (step.softness.bias_rate * point.gap));
+  hinge.impulse += delta;
+  v.apply(delta, point.arm_a, point.arm_b);
+  store_projected(v, before, a, b, rotation[hinge.a], rotation[hinge.b], step.h);
+}
+
+}  // namespace plumb

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/joints/joint_row.h"
+#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/joint_solver/joint_set.h"
+
+namespace plumb {
+
+/// The two solutions of a substep: with bias, or without.
+enum JointPass { kSolve = 0, kRelax = 1 };
+
+/// Coefficients of a row in one solution: delta = -mass (J v + bias) - scale impulse.
+template <class Real>
+struct RowTerm {
+  Real bias = 0, mass = 0, scale = 0;
+};
+
+/// Under-relaxation of a joint that shares bodies with others.
+template <class Real>
+struct JointShare {
+  Real share = 1;      ///< fraction of its impulses that is applied at a time
+  bool alone = false;  ///< no other joint moves its bodies
+
+  Real stiffest(Real shared) const { return alone ? std::numeric_limits<Real>::infinity() : shared * share; }
+};
+
+/// A damped spring in a substep h, implicit Euler: J v' + rate C + compliance lambda' = 0 along its row,
+/// which is lambda' = -h (k (C + h J v') + c J v').
+template <class Real>
+struct SpringTerm {
+  Real rate = 0;        ///< 1/s: k / (c + h k)
+  Real compliance = 0;  ///< 1 / (h (c + h k)), divided by the mobility that it refers to
+};
+
+/// Computes it with omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility.
+template <class Real>
+SpringTerm<Real> spring_term(const Spring& spring, double h) {
+  const double omega = 2 * 3.14159265358979323846 * spring.hertz;
+  const double a = 2 * spring.damping_ratio + h * omega;
+  return {static_cast<Real>(omega / a), static_cast<Real>(1 / (h * omega * a))};
+}
+
+/// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above `JointStep::stiffest`.
+/// The error of an iteration would return through the gap with equal force, and grow from substep to substep.
+/// So it is held like rigid rows: bias limited to theirs and relaxed. While it is softer than they are, it
+/// rests at the deflection of its load.
+template <class Real>
+struct StiffSpring {
+  Real rate = 0, mass_scale = 1, impulse_scale = 0;
+
+  StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share, const JointStep<Real>& step) {
+    const Softness<Real>& rigid = step.softness;
+    // h^2 k and h c, times the mobility.
+    const Real most = rigid.impulse_scale > 0
+                          ? step.h * rigid.bias_rate * rigid.mass_scale / rigid.impulse_scale
+                          : step.stiffest;
+    const Real elastic = step.h * spring.rate * firmness;
+    const Real k = std::min(elastic, most);
+    // Keeps the settling time c / k if k was reduced.
+    Real c = elastic > 0 ? std::max(firmness - elastic, Real(0)) * (k / elastic) : Real(0);
+    // Largest damping for which a star of a hundred is stable.
+    constexpr Real kMostDamping = 10;
+    if (share < 1) c = std::min(c, 2 * kMostDamping * std::sqrt(k));
+    const Real held = std::max(k + c, k / (step.h * rigid.bias_rate));
+    rate = k / (step.h * held);
+    mass_scale = held / (1 + held);
+    impulse_scale = 1 / (1 + held);
+  }
+};
+
+/// A rule prepared for its role: parameters rounded to Real, and its spring for the substep.
+template <class Real>
+struct SolverRule {
+  RowRole role = RowRole::Rigid;
+  Real sign = 1, origin = 0, speed = 0;
+  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
+  SpringTerm<Real> spring{};
+  Real impulse = 0;
+  /// Of a motor, m or rad: deviation from its target motion, added up while its force sufficed.
+  Real drift = 0;
+  Real last = 0;  ///< of a motor: coordinate at the last update of `drift`
+
+  /// Loads another rule's parameters; keeps the impulse if it is still valid.
+  void load(const RowRule& rule) {
+    const Real new_sign = static_cast<Real>(rule.sign);
+    if (rule.role != role || new_sign != sign) impulse = drift = 0;
+    role = rule.role;
+    sign = new_sign;
+    origin = static_cast<Real>(rule.origin);
+    speed = static_cast<Real>(rule.speed);
+  }
+  void set_substep(const RowRule& rule, double h) {
+    most = static_cast<Real>(rule.max_force * h);
+    if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, h);
+  }
+
+  /// Updates a motor's drift over a substep that ended at `q`.
+  void follow(Real q, Real h) {
+    if (role != RowRole::Motor) return;
+    drift = std::abs(impulse) < most ? drift + sign * (q - last) - speed * h : 0;
+    last = q;
+  }
+
+  /// Computes both terms for a coordinate at `q` with the given mobility, at the poses after a substep:
+  /// `relax` of this substep, `solve` of the next one. `spring_mobility` is the mobility that its spring
+  /// refers to. A spring's force belongs to the pose at the start of the substep: one impulse per substep, in
+  /// both passes.
+  void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
+             RowTerm<Real> (&term)[2]) const {
+    const Real share = part.share;
+    const Real c = sign * (q - origin);
+    const Real mass = mobility > 0 ? share / mobility : 0;
+    const Softness<Real>& rigid = step.softness;
+    const RowTerm<Real> pull{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
+    const RowTerm<Real> hold{0, mass, 0};
+    switch (role) {
+      case RowRole::Rigid:
+        term[kSolve] = pull, term[kRelax] = hold;
+        return;
+      case RowRole::Spring: {
+        constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
+        const Real compliance = std::max(spring.compliance * spring_mobility, mobility / kFirmest);
+        if (!(mobility > part.stiffest(step.stiffest) * compliance)) {
+          const Real inverse = mobility > 0 ? 1 / (mobility + compliance) : 0;
+          term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
+          term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
+        } else {
+          const StiffSpring<Real> stiff(spring, mobility / compliance, share, step);
+          term[kSolve] = {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale};
+          term[kRelax] = hold;
+        }
+        return;
+      }
+      case RowRole::Limit:
+        // An open limit may close within the substep, but no faster.
+        if (c > 0) {
+          term[kSolve] = term[kRelax] = {c * step.inverse_h, mass, 0};
+        } else {
+          term[kSolve] = pull, term[kRelax] = hold;
+        }
+        return;
+      case RowRole::Motor:
+        // Like rigid rows, with decaying impulses and position feedback. With undiminished impulses, legs on
+        // many held hips swing up.
+        term[kSolve] = term[kRelax] = {-speed, mass, 0};
+        if (!part.alone) term[kSolve] = {share * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
+        return;
+    }
+  }
+  Real lower() const { return role == RowRole::Limit ? 0 : -most; }
+};
+
+}  // namespace plumb

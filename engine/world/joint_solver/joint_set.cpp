@@ -1,0 +1,420 @@
+// g++ would pack pairs of these scalars into vectors, with more shuffles than that saves: a seventh slower.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-slp-vectorize")
+#endif
+
+#include "engine/world/joint_solver/joint_set.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <type_traits>
+
+#include "engine/core/room.h"
+#include "engine/joints/joint_check.h"
+#include "engine/scene/error.h"
+#include "engine/world/joint_solver/hinge_sweeps.h"
+#include "engine/world/joint_solver/joint_parts.h"
+#include "engine/world/joint_solver/joint_share.h"
+
+namespace plumb {
+namespace {
+
+void check_bodies(const JointKind& definition, int body_a, int body_b, bool dynamic_a, bool dynamic_b) {
+  const std::string subject = name_of(definition);
+  if (body_a == body_b)
+    throw Error(Error::Kind::Value, subject, "body_b", std::to_string(body_b),
+                "must not be body_a: a joint needs two bodies");
+  const bool mouse = std::holds_alternative<MouseDefinition>(definition);
+  if (!dynamic_b && (mouse || !dynamic_a))
+    throw Error(Error::Kind::Value, subject, mouse ? "body_b" : "bodies", "",
+                mouse ? "must be dynamic: nothing else can be pulled"
+                      : "must not both be static or kinematic: a joint moves neither");
+}
+
+/// Loads the slot's definition into the constraint.
+template <class Parts>
+void reload(Parts& parts, int joint) {
+  const JointSlot& s = parts.slot(joint);
+  parts.at(joint, [&](auto& constraint) {
+    using Definition = typename std::decay_t<decltype(constraint)>::Definition;
+    constraint.load(std::get<Definition>(s.definition), s.centre_a, s.centre_b);
+  });
+}
+
+template <class Constraint>
+constexpr bool kIsHinge = false;
+template <class Real>
+constexpr bool kIsHinge<HingeConstraint<Real>> = true;
+
+template <class Real>
+constexpr bool kIsRevolute = false;
+template <class Real>
+constexpr bool kIsRevolute<JointConstraint<Real, RevoluteRows>> = true;
+
+/// Visits the point impulse of a revolute joint, in either of its forms.
+template <class Parts, class F>
+void hinge_impulse(Parts& parts, int joint, F&& f) {
+  parts.at(joint, [&]<class Constraint>(Constraint& constraint) {
+    if constexpr (kIsRevolute<Constraint>) {
+      f(constraint.point.impulse);
+    } else if constexpr (requires { constraint.anchor_a; }) {
+      f(constraint.impulse);
+    }
+  });
+}
+
+template <class Parts, class F>
+[[gnu::noinline]] void sweep_run(Parts& parts, JointRun run, F f) {
+  parts.with(run.form, [&](auto& lists) {
+    for (auto& constraint : lists[run.colour]) f(constraint);
+  });
+}
+
+/// Visits all active joints in the order of solving, plain revolute ones colour by colour. `others` is not
+/// inlined: plain joints would otherwise pay for its stack frame.
+template <class Real, class Parts, class Hinges, class Others>
+[[gnu::always_inline]] inline void sweep(Parts& parts, Hinges&& hinges, Others&& others) {
+  for (const JointRun& run : parts.runs) {
+    if (run.form == kHinge) {
+      auto& list = std::get<kHinge>(parts.store)[run.colour];
+      hinges(HingeRun<Real>{list.data(), static_cast<int>(list.size()), run.colour != kOverflowColour});
+    } else {
+      sweep_run(parts, run, others);
+    }
+  }
+}
+
+}  // namespace
+
+// ---- Storage of constraints
+
+template <class Real>
+int JointSet<Real>::Parts::free_colour(const JointSlot& s) const {
+  std::uint32_t used = 0;
+  if (s.moves_a()) used |= taken[s.a].colours;
+  if (s.dynamic_b) used |= taken[s.b].colours;
+  return std::min(std::countr_one(used), kOverflowColour);
+}
+
+template <class Real>
+void JointSet<Real>::Parts::mark(const JointSlot& s, bool here) {
+  if (s.colour == kParked) return;
+  const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
+  for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
+    if (!moves) continue;
+    BodyJoints& joints = taken[body];
+    joints.colours = here ? joints.colours | bit : joints.colours & ~bit;
+    joints.count += here ? 1 : -1;
+  }
+}
+
+template <class Real>
+void JointSet<Real>::Parts::create(int joint) {
+  JointSlot& s = slot(joint);
+  const std::size_t bodies = static_cast<std::size_t>(std::max(s.a, s.b)) + 1;
+  if (taken.size() < bodies) taken.resize(std::max(bodies, 2 * taken.size()));
+  s.form = form_of(s.definition);
+  with(s.form, [&](auto& lists) {
+    typename std::decay_t<decltype(lists[0])>::value_type constraint;
+    constraint.joint = joint;
+    constraint.a = s.a;
+    constraint.b = s.b;
+    using Definition = typename decltype(constraint)::Definition;
+    constraint.load(std::get<Definition>(s.definition), s.centre_a, s.centre_b);
+    put(joint, constraint);
+  });
+}
+
+template <class Real>
+void JointSet<Real>::Parts::take_out(int joint) {
+  const JointSlot& s = slot(joint);
+  with(s.form, [&](auto& lists) {
+    auto& list = lists[s.colour];
+    list[s.index] = list.back();
+    slot(list[s.index].joint).index = s.index;
+    list.pop_back();
+    if (list.empty()) find_runs();
+  });
+}
+
+template <class Real>
+template <class Constraint>
+void JointSet<Real>::Parts::put(int joint, const Constraint& constraint) {
+  JointSlot& s = slot(joint);
+  make_room(s.form, s);
+  s.colour = s.active ? free_colour(s) : kParked;
+  mark(s, true);
+  auto& list = std::get<JointLists<Constraint>>(store)[s.colour];
+  s.index = static_cast<int>(list.size());
+  list.push_back(constraint);
+  if (list.size() == 1) find_runs();
+}
+
+template <class Real>
+void JointSet<Real>::Parts::make_room(JointForm form, const JointSlot& s) {
+  const int colour = s.active ? free_colour(s) : kParked;
+  runs.reserve(static_cast<std::size_t>(kForms) * (kOverflowColour + 1));
+  with(form, [&](auto& lists) { ensure_room(lists[colour], lists[colour].size() + 1); });
+}
+
+template <class Real>
+void JointSet<Real>::Parts::put_anew(int joint) {
+  const JointSlot& s = slot(joint);
+  make_room(s.form, s);
+  with(s.form, [&](auto& lists) {
+    const auto constraint = lists[s.colour][s.index];
+    take_out(joint);
+    put(joint, constraint);
+  });
+}
+
+template <class Real>
+void JointSet<Real>::Parts::find_runs() {
+  runs.clear();
+  for (int colour = 0; colour <= kOverflowColour; ++colour) {
+    for (int form = 0; form < kForms; ++form) {
+      const JointForm f = static_cast<JointForm>(form);
+      if (with(f, [&](const auto& lists) { return !lists[colour].empty(); })) runs.push_back({f, colour});
+    }
+  }
+}
+
+// ---- Adding and removing joints
+
+template <class Real>
+JointSet<Real>::JointSet() : parts_(std::make_unique<Parts>()) {}
+template <class Real>
+JointSet<Real>::JointSet(const JointSet& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+template <class Real>
+JointSet<Real>::JointSet(JointSet&& other) noexcept = default;
+template <class Real>
+JointSet<Real>& JointSet<Real>::operator=(JointSet other) noexcept {
+  parts_.swap(other.parts_);
+  return *this;
+}
+template <class Real>
+JointSet<Real>::~JointSet() = default;
+
+template <class Real>
+int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a,
+                        Vec2<Real> centre_b, bool dynamic_a, bool dynamic_b) {
+  validate(definition);
+  check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
+  Parts& p = *parts_;
+  ensure_room(p.free, p.slots.size() + 1);  // so that removing a joint does not allocate
+  if (p.free.empty()) {
+    p.slots.emplace_back();
+    p.free.push_back(static_cast<int>(p.slots.size()) - 1);
+  }
+  const int joint = p.free.back();
+  p.free.pop_back();
+  p.slot(joint) = {.definition = definition,
+                   .a = body_a,
+                   .b = body_b,
+                   .centre_a = centre_a.template as<double>(),
+                   .centre_b = centre_b.template as<double>(),
+                   .used = true,
+                   .dynamic_a = dynamic_a,
+                   .dynamic_b = dynamic_b,
+                   .active = true};
+  try {
+    p.create(joint);
+  } catch (...) {
+    p.slot(joint) = {};
+    p.free.push_back(joint);
+    throw;
+  }
+  ++p.count;
+  ++p.active;
+  return joint;
+}
+
+template <class Real>
+void JointSet<Real>::remove(int joint) {
+  Parts& p = *parts_;
+  ensure_room(p.free, p.free.size() + 1);
+  p.mark(p.slot(joint), false);
+  p.take_out(joint);
+  --p.count;
+  if (p.slot(joint).active) --p.active;
+  p.slot(joint) = {};
+  p.free.push_back(joint);
+}
+
+template <class Real>
+void JointSet<Real>::set_active(int joint, bool active) {
+  Parts& p = *parts_;
+  JointSlot& s = p.slot(joint);
+  if (s.active == active) return;
+  p.mark(s, false);
+  s.active = active;
+  try {
+    p.put_anew(joint);
+  } catch (...) {
+    s.active = !active;
+    p.mark(s, true);
+    throw;
+  }
+  p.active += active ? 1 : -1;
+}
+
+template <class Real>
+void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
+  Parts& p = *parts_;
+  JointSlot& s = p.slot(joint);
+  if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
+  const auto [was_a, was_b] = std::pair{s.dynamic_a, s.dynamic_b};
+  p.mark(s, false);
+  s.dynamic_a = dynamic_a;
+  s.dynamic_b = dynamic_b;
+  try {
+    p.put_anew(joint);
+  } catch (...) {
+    s.dynamic_a = was_a, s.dynamic_b = was_b;
+    p.mark(s, true);
+    throw;
+  }
+}
+
+template <class Real>
+void JointSet<Real>::change(int joint, const JointKind& definition) {
+  Parts& p = *parts_;
+  JointSlot& s = p.slot(joint);
+  validate(definition);
+  check_bodies(definition, s.a, s.b, s.dynamic_a, s.dynamic_b);
+  if (form_of(definition) == s.form) {
+    s.definition = definition;
+    reload(p, joint);
+    return;
+  }
+  Vec2<Real> impulse{};
+  hinge_impulse(p, joint, [&](Vec2<Real>& now) { impulse = now; });
+  p.mark(s, false);
+  try {
+    p.make_room(form_of(definition), s);
+  } catch (...) {
+    p.mark(s, true);
+    throw;
+  }
+  p.take_out(joint);
+  s.definition = definition;
+  p.create(joint);
+  hinge_impulse(p, joint, [&](Vec2<Real>& now) { now = impulse; });
+}
+
+template <class Real>
+void JointSet<Real>::recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b) {
+  JointSlot& s = parts_->slot(joint);
+  s.centre_a = centre_a.template as<double>();
+  s.centre_b = centre_b.template as<double>();
+  reload(*parts_, joint);
+}
+
+template <class Real>
+void JointSet<Real>::forget(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.forget(); });
+}
+
+template <class Real>
+void JointSet<Real>::put_elsewhere(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.put_elsewhere(); });
+}
+
+template <class Real>
+void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
+  parts_->at(joint, [=](auto& constraint) { constraint.meet(angle_a, angle_b); });
+}
+
+// ---- Steps
+
+template <class Real>
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  Parts& p = *parts_;
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      for (auto& constraint : lists[run.colour]) {
+        using Definition = typename std::decay_t<decltype(constraint)>::Definition;
+        if (constraint.known_h != step.h)
+          constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
+        const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
+        constraint.share = 1;
+        if constexpr (!kIsHinge<std::decay_t<decltype(constraint)>>)
+          constraint.alone = std::max(count_a, count_b) < 2;
+        constraint.prepare(bodies, step);
+        if (std::max(count_a, count_b) < kManyJoints) continue;
+        constraint.share = joint_share(constraint.load(bodies), count_a, count_b);
+        if (constraint.share < 1) constraint.evaluate(bodies, step);
+      }
+    });
+  }
+}
+
+template <class Real>
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+  sweep<Real>(
+      *parts_, [&](auto hinges) { warm_start_hinges(hinges, bodies); },
+      [bodies](auto& joint) { joint.warm_start(bodies); });
+}
+
+template <class Real>
+void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  sweep<Real>(
+      *parts_, [&](auto hinges) { solve_hinges(hinges, bodies, step); },
+      [bodies, step](auto& joint) { joint.solve(bodies, step); });
+}
+
+template <class Real>
+void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  sweep<Real>(
+      *parts_, [&](auto hinges) { relax_hinges(hinges, bodies, step); },
+      [bodies, step](auto& joint) { joint.relax(bodies, step); });
+}
+
+// ---- Slots
+
+template <class Real>
+const JointKind& JointSet<Real>::definition(int joint) const {
+  return parts_->slot(joint).definition;
+}
+template <class Real>
+int JointSet<Real>::count() const {
+  return parts_->count;
+}
+template <class Real>
+int JointSet<Real>::active_count() const {
+  return parts_->active;
+}
+template <class Real>
+int JointSet<Real>::slots() const {
+  return static_cast<int>(parts_->slots.size());
+}
+template <class Real>
+bool JointSet<Real>::contains(int joint) const {
+  return joint >= 0 && joint < slots() && parts_->slot(joint).used;
+}
+template <class Real>
+bool JointSet<Real>::active(int joint) const {
+  return parts_->slot(joint).active;
+}
+template <class Real>
+std::pair<int, int> JointSet<Real>::bodies(int joint) const {
+  return {parts_->slot(joint).a, parts_->slot(joint).b};
+}
+template <class Real>
+std::pair<bool, bool> JointSet<Real>::dynamic(int joint) const {
+  return {parts_->slot(joint).dynamic_a, parts_->slot(joint).dynamic_b};
+}
+template <class Real>
+int JointSet<Real>::colour(int joint) const {
+  return parts_->slot(joint).colour;
+}
+template <class Real>
+int JointSet<Real>::colours() {
+  return kJointColours + 1;
+}
+
+template class JointSet<float>;
+template class JointSet<double>;
+
+}  // namespace plumb

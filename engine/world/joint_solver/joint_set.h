@@ -1,0 +1,198 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/joints/joint_row.h"
+#include "engine/math/vec2.h"
+#include "engine/world/contact_solver/body_motion.h"
+
+namespace plumb {
+
+class ByteReader;
+class ByteWriter;
+
+/// Data of the step for the joints.
+template <class Real>
+struct JointStep {
+  Real h = 0;                 ///< s, of a substep
+  Real inverse_h = 0;         ///< 1/s
+  Softness<Real> softness{};  ///< of rigid rows
+  /// h (c + h k) times the mobility, above which springs are held like rigid rows: `stiffest_spring`.
+  Real stiffest = std::numeric_limits<Real>::infinity();
+  Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
+};
+
+/// Returns the stiffest spring that sequential impulses with warm starting solve as it is: h (c + h k) over
+/// its effective mass. Stiffer ones are held like rigid rows (StiffSpring in joint_rule.h): the substep is
+/// too long for them to oscillate. Linear models of chains and stars of 2 to 100 bodies, hub down to a
+/// thousandth, are stable at 2 for one iteration per pass. They are stable at 12 for 6 and more, with any
+/// stiffness and damping; from 4 on chains explode.
+template <class Real>
+Real stiffest_spring(int sweeps) {
+  return static_cast<Real>(2 * std::min(sweeps, 6));
+}
+
+/// Position error of a joint.
+template <class Real>
+struct JointError {
+  Real linear = 0;   ///< m
+  Real angular = 0;  ///< rad
+};
+
+/// One row of a joint, for the solver of a whole island.
+template <class Real>
+struct JointSolverRow {
+  JointRow<Real> row{};  ///< its target residual is 0, or at least 0 for a limit
+  RowRole role = RowRole::Rigid;
+  bool pair = false;  ///< `most` bounds the vector of this impulse and that of the previous row
+  Real speed = 0;     ///< m/s or rad/s, of a motor
+  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
+  Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
+  Real compliance = 0;          ///< in the unit of its mobility
+  Real coupled_compliance = 0;  ///< the same, with the impulse of the previous row
+  Real* impulse =
+      nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
+};
+
+/// A plain revolute joint that the caller solves in the set's place.
+template <class Real>
+struct HeldHinge {
+  Vec2d anchor_a{}, anchor_b{};   ///< m, from the centres of mass, in the bodies' frames
+  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep; valid until joints are added or removed
+};
+
+/// All joints of a real-time world, solved by sequential impulses with soft constraints and relaxation ("TGS
+/// soft", Catto, Solver2D, 2024). Joints are graph-coloured: those of one colour share no dynamic body and
+/// lie in one array per colour and kind. A substep is
+///     v += h a;  warm_start;  solve;  x += h v;  relax
+/// `prepare` comes once before the substeps, at the positions and rotations of the step's start, with zero
+/// displacements. `relax` evaluates rows after bodies have moved, and they serve the next substep too.
+/// Impulses therefore act at the bodies' present positions: joints conserve angular momentum to rounding, and
+/// a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`. None of the
+/// four allocates.
+template <class Real>
+class JointSet {
+ public:
+  JointSet();
+  JointSet(const JointSet& other);
+  JointSet(JointSet&& other) noexcept;
+  JointSet& operator=(JointSet other) noexcept;
+  ~JointSet();
+  /// Copies `other` into the existing memory; does not allocate if that suffices.
+  void assign(const JointSet& other);
+
+  /// Adds a joint between bodies `body_a` and `body_b`. Returns its slot, which is valid until `remove`; the
+  /// slot freed last is reused first. `centre_a` and `centre_b` are the centres of mass in the bodies'
+  /// frames. Throws Error (Value) for a definition that `validate` rejects, for a body joined to itself, and
+  /// if no body is dynamic.
+  int add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a, Vec2<Real> centre_b,
+          bool dynamic_a, bool dynamic_b);
+  void remove(int joint);
+
+  /// Activates or deactivates a joint. An inactive joint keeps its impulses and takes no part in steps (its
+  /// bodies sleep).
+  void set_active(int joint, bool active);
+
+  const JointKind& definition(int joint) const;
+  /// Replaces the definition: new speeds, limits, targets, or another kind. Impulses and counted turns are
+  /// kept if the kind is the same. A weld that becomes soft or rigid starts anew; a revolute joint without
+  /// limits, motor and spring counts no turns. With another reference angle, or a new kind, the joint's angle
+  /// starts at the turn nearest to 0 or its limits. New limits select the turn nearest to them. A pulley
+  /// without a given length keeps its present one. Throws Error (Value) as `add`, and then changes nothing.
+  void change(int joint, const JointKind& definition);
+  /// Updates the centres of mass, after one has moved in its body's frame.
+  void recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b);
+  /// Updates which bodies are dynamic.
+  void set_dynamic(int joint, bool dynamic_a, bool dynamic_b);
+  /// Sets the angles of bodies a and b, rad, with their turns: a gear before its first step is assembled at
+  /// these. Without it, such angles are in [-pi, pi].
+  void meet(int joint, double angle_a, double angle_b);
+  /// Clears impulses and counted turns, after a body of the joint was replaced.
+  void forget(int joint);
+  /// Clears impulses, after a body of the joint was repositioned. Its angle is the one nearest to the last.
+  void put_elsewhere(int joint);
+
+  /// Evaluates all rows at the start of the step.
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Applies the impulses of the last substep.
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Solves velocities with soft position correction.
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Evaluates all rows at the poses after the motion and solves velocities without bias, which removes the
+  /// velocity that the bias added. Springs keep their force.
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+
+  /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `most` about
+  /// its common point. Changes poses, not velocities. One iteration; returns true if any joint was turned.
+  /// Call between the motion and `relax`. Does not allocate.
+  bool turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack, Real most);
+
+  // For solvers without relaxation. None of the three allocates.
+  /// Evaluates all rows at the present poses, within a step.
+  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Clears impulses: position-based solvers start each substep without any.
+  void begin_projection(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Makes one iteration over positions: moves and turns bodies (`rotation` is that of `bodies`) to satisfy
+  /// each joint in turn. Velocities remain the displacement since the substep's start over h. The rate of
+  /// `step.softness` is 1 / h: errors are corrected completely.
+  void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
+
+  /// Appends the rows of a joint at the present poses.
+  void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
+
+  /// Returns true for a revolute joint without limits, motor and spring.
+  bool is_hinge(int joint) const;
+  /// Leaves such a joint to the caller: steps skip it until `let_go`.
+  HeldHinge<Real> hold(int joint);
+  /// Takes back all joints that were left to the caller.
+  void let_go();
+
+  /// Returns the reaction force over the last substep, N: magnitude of the impulse on b, times 1 / h.
+  Real force(int joint, Real inverse_h) const;
+  /// Returns the reaction torque about b's anchor over the last substep, N m.
+  Real torque(int joint, Real inverse_h) const;
+
+  /// Returns the error of the rigid rows and the limits at the present poses (`position` + `moved`, with
+  /// `rotation`). Springs and motors have no error.
+  JointError<Real> error(int joint, const SolverBodies<Real>& bodies) const;
+  /// Returns the angle of b relative to a minus the reference angle (the target, the phase), rad: revolute,
+  /// prismatic, weld, wheel, motor, ratchet, friction. It starts at the turn nearest to 0 that limits allow,
+  /// and whole turns are counted. Revolute joints without limits, spring and motor have an angle in [-pi,
+  /// pi]. Counting is correct while the bodies rotate less than pi, relative to each other, in a substep.
+  Real angle(int joint, const SolverBodies<Real>& bodies) const;
+  /// Returns the coordinate of anchor b along the axis from anchor a, m: prismatic, wheel.
+  Real translation(int joint, const SolverBodies<Real>& bodies) const;
+  /// Returns the length, m: distance between the anchors for distance; length_a + ratio length_b for pulley.
+  Real length(int joint, const SolverBodies<Real>& bodies) const;
+
+  int count() const;
+  int active_count() const;
+  /// Returns one more than the highest slot that was ever used.
+  int slots() const;
+  bool contains(int joint) const;
+  bool active(int joint) const;
+  std::pair<int, int> bodies(int joint) const;
+  /// Returns which of its bodies are dynamic.
+  std::pair<bool, bool> dynamic(int joint) const;
+  /// Returns the joint's colour. Joints of one colour share no dynamic body, except those of the overflow,
+  /// `colours() - 1`.
+  int colour(int joint) const;
+  static int colours();
+
+  /// Saves all state that a step depends on: a restored set continues with the same bits.
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+extern template class JointSet<float>;
+extern template class JointSet<double>;
+
+}  // namespace plumb

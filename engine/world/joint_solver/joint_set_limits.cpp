@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "engine/math/small_turn.h"
+#include "engine/world/joint_solver/joint_parts.h"
+
+namespace plumb {
+namespace {
+
+/// Returns the angle, rad, by which to turn the joint so that no limit is exceeded by more than `slack`.
+template <class Real>
+Real turn_back(const JointConstraint<Real, RevoluteRows>& joint, const BodyMotion<Real>* motion, Real slack) {
+  const Real angle = static_cast<Real>(joint.angle.start) + (motion[joint.b].turned - motion[joint.a].turned);
+  for (int i = 0; i < joint.turn.count; ++i) {
+    const SolverRule<Real>& rule = joint.turn.rule[i];
+    if (rule.role != RowRole::Limit) continue;
+    const Real open = rule.sign * (angle - rule.origin) + slack;
+    if (open < 0) return -rule.sign * open;
+  }
+  return 0;
+}
+
+template <class Real>
+void shift(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Real turn) {
+  if (!(motion.inverse_mass + motion.inverse_inertia > 0)) return;
+  motion.moved += by;
+  motion.turned += turn;
+  rotation = turned_by(rotation, turn);
+}
+
+/// Turns b relative to a about their common point and closes the point's gap: one Newton step of all three
+/// rows, on displacements instead of velocities.
+template <class Real>
+void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<Real>& bodies,
+                Rotation<Real>* rotation, Real turn) {
+  BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  JointRows<Real> rows;
+  joint.kind.evaluate(joint.pose(bodies), rows);
+  JointBlock<Real, 3> block;
+  block.row[0] = rows.point.plain_row({1, 0});
+  block.row[1] = rows.point.plain_row({0, 1});
+  block.row[2] = {{}, {}, -1, 1, -turn};
+  JointVelocities<Real> way(a, b);
+  way.v_a = way.v_b = {}, way.w_a = way.w_b = 0;
+  block.factorise(way);
+  block.solve(way, {.softness = {.bias_rate = 1}}, kSolve, Real(1));
+  shift(a, rotation[joint.a], way.v_a, way.w_a);
+  shift(b, rotation[joint.b], way.v_b, way.w_b);
+}
+
+}  // namespace
+
+template <class Real>
+bool JointSet<Real>::turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
+                               Real most) {
+  bool any = false;
+  auto& lists = std::get<kRevolute>(parts_->store);
+  for (const JointRun& run : parts_->runs) {
+    if (run.form != kRevolute) continue;
+    for (auto& joint : lists[run.colour]) {
+      const Real turn = plumb::turn_back(joint, bodies.motion, slack);
+      if (turn == 0) continue;
+      turn_joint(joint, bodies, rotation, std::clamp(turn, -most, most));
+      any = true;
+    }
+  }
+  return any;
+}
+
+template bool JointSet<float>::turn_back(const SolverBodies<float>&, Rotation<float>*, float, float);
+template bool JointSet<double>::turn_back(const SolverBodies<double>&, Rotation<double>*, double, double);
+
+}  // namespace plumb

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/joints/joint_check.h"
+#include "engine/scene/error.h"
+#include "engine/world/joint_solver/joint_parts.h"
+
+/// Queries of a set of joints.
+namespace plumb {
+namespace {
+
+template <class Real>
+constexpr bool kIsHinge = false;
+template <class Real>
+constexpr bool kIsHinge<HingeConstraint<Real>> = true;
+
+/// Returns the error of a rule with its coordinate at `q`.
+template <class Real>
+Real error_of(const SolverRule<Real>& rule, Real q) {
+  const Real c = rule.sign * (q - rule.origin);
+  if (rule.role == RowRole::Rigid) return std::fabs(c);
+  return rule.role == RowRole::Limit ? std::max(Real{0}, -c) : 0;
+}
+
+template <class Real, bool kAngular>
+Real error_of(const JointCoordinate<Real, kAngular>& coordinate, Real q) {
+  Real largest = 0;
+  for (int i = 0; i < coordinate.count; ++i) largest = std::max(largest, error_of(coordinate.rule[i], q));
+  return largest;
+}
+
+template <class Real, template <class> class Kind>
+JointError<Real> error_of(const JointConstraint<Real, Kind>& constraint, const SolverBodies<Real>& bodies) {
+  using Constraint = JointConstraint<Real, Kind>;
+  using Rows = typename Constraint::Rows;
+  const auto [pose, rows] = constraint.look(bodies);
+  JointError<Real> error;
+  if constexpr (Rows::kTurn) error.angular = error_of(constraint.turn, pose.angle);
+  for (int i = 0; i < Constraint::kAxial; ++i) {
+    const Real e = error_of(constraint.axial[i], rows.axial[i].residual);
+    // A gear's coordinate is an angle.
+    Real& part = Constraint::kAngle == AngleUse::Geared ? error.angular : error.linear;
+    part = std::max(part, e);
+  }
+  if constexpr (Constraint::kBlock > 0) {
+    error.angular = std::fabs(rows.block[0].residual);
+    Real across = 0;
+    for (int i = 1; i < Constraint::kBlock; ++i) across += rows.block[i].residual * rows.block[i].residual;
+    error.linear = std::max(error.linear, std::sqrt(across));
+  }
+  if constexpr (Rows::kPoint)
+    if (constraint.point.rule.role == RowRole::Rigid)
+      error.linear = std::sqrt(length_squared(rows.point.gap));
+  return error;
+}
+
+template <class Real>
+Vec2<Real> gap_of(const HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies) {
+  const Vec2<Real> offset = (bodies.position[hinge.b] - bodies.position[hinge.a]).template as<Real>();
+  const Vec2<Real> moved = bodies.motion[hinge.b].moved - bodies.motion[hinge.a].moved;
+  const JointPose<Real> pose{.offset = offset + moved,
+                             .rotation_a = bodies.rotation[hinge.a],
+                             .rotation_b = bodies.rotation[hinge.b]};
+  return anchor_point(pose, hinge.anchor_a, hinge.anchor_b).gap;
+}
+
+[[noreturn]] void refuse(const JointKind& definition, const char* what) {
+  throw Error(Error::Kind::Unsupported, name_of(definition), what, "", "is nothing that this joint has");
+}
+
+}  // namespace
+
+template <class Real>
+Real JointSet<Real>::force(int joint, Real inverse_h) const {
+  const Vec2<Real> linear = parts_->at(joint, [](const auto& c) { return c.reaction(); }).first;
+  // In double, because the square of a large impulse overflows float.
+  return static_cast<Real>(std::sqrt(length_squared(linear.template as<double>())) * double(inverse_h));
+}
+
+template <class Real>
+Real JointSet<Real>::torque(int joint, Real inverse_h) const {
+  return std::fabs(parts_->at(joint, [](const auto& c) { return c.reaction(); }).second) * inverse_h;
+}
+
+template <class Real>
+JointError<Real> JointSet<Real>::error(int joint, const SolverBodies<Real>& bodies) const {
+  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> JointError<Real> {
+    if constexpr (kIsHinge<Constraint>) {
+      return {std::sqrt(length_squared(gap_of(constraint, bodies))), 0};
+    } else {
+      return error_of(constraint, bodies);
+    }
+  });
+}
+
+template <class Real>
+Real JointSet<Real>::angle(int joint, const SolverBodies<Real>& bodies) const {
+  const JointSlot& s = parts_->slot(joint);
+  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
+    if constexpr (kIsHinge<Constraint>) {
+      const double angle = relative_angle(bodies.rotation[s.a], bodies.rotation[s.b]);
+      return static_cast<Real>(
+          nearest_turn(angle - std::get<RevoluteDefinition>(s.definition).reference_angle, 0));
+    } else if constexpr (Constraint::kAngle == AngleUse::Counted) {
+      return constraint.look(bodies).first.angle;
+    } else {
+      refuse(s.definition, "angle");
+    }
+  });
+}
+
+template <class Real>
+Real JointSet<Real>::translation(int joint, const SolverBodies<Real>& bodies) const {
+  const JointSlot& s = parts_->slot(joint);
+  if (s.form != kPrismatic && s.form != kWheel) refuse(s.definition, "translation");
+  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
+    if constexpr (kIsHinge<Constraint>)
+      return 0;
+    else
+      return constraint.look(bodies).second.axial[0].residual;
+  });
+}
+
+template <class Real>
+Real JointSet<Real>::length(int joint, const SolverBodies<Real>& bodies) const {
+  const JointSlot& s = parts_->slot(joint);
+  if (s.form != kDistance && s.form != kPulley) refuse(s.definition, "length");
+  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
+    if constexpr (kIsHinge<Constraint>)
+      return 0;
+    else
+      return constraint.look(bodies).second.axial[0].residual;
+  });
+}
+
+template float JointSet<float>::force(int, float) const;
+template float JointSet<float>::torque(int, float) const;
+template JointError<float> JointSet<float>::error(int, const SolverBodies<float>&) const;
+template float JointSet<float>::angle(int, const SolverBodies<float>&) const;
+template float JointSet<float>::translation(int, const SolverBodies<float>&) const;
+template float JointSet<float>::length(int, const SolverBodies<float>&) const;
+template double JointSet<double>::force(int, double) const;
+template double JointSet<double>::torque(int, double) const;
+template JointError<double> JointSet<double>::error(int, const SolverBodies<double>&) const;
+template double JointSet<double>::angle(int, const SolverBodies<double>&) const;
+template double JointSet<double>::translation(int, const SolverBodies<double>&) const;
+template double JointSet<double>::length(int, const SolverBodies<double>&) const;
+
+}  // namespace plumb

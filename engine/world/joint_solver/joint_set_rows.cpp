@@ -1,0 +1,109 @@
+#include <type_traits>
+
+#include "engine/world/joint_solver/joint_parts.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+struct RowList {
+  std::vector<JointSolverRow<Real>>& rows;
+  const JointVelocities<Real>& v;
+
+  /// Appends a row. `mobility`: of a spring, the one that it refers to.
+  void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility) const {
+    JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
+    out.row.residual = rule.sign * (row.residual - rule.origin);
+    if (rule.sign < 0) {
+      out.row.linear_a = -row.linear_a, out.row.linear_b = -row.linear_b;
+      out.row.angular_a = -row.angular_a, out.row.angular_b = -row.angular_b;
+    }
+    out.impulse = &rule.impulse;
+    if (rule.role == RowRole::Spring)
+      out.rate = rule.spring.rate, out.compliance = rule.spring.compliance * mobility;
+    rows.push_back(out);
+  }
+
+  template <bool kAngular>
+  void add(const JointRow<Real>& row, JointCoordinate<Real, kAngular>& coordinate, Real mobility) const {
+    for (int i = 0; i < coordinate.count; ++i) add(row, coordinate.rule[i], mobility);
+  }
+
+  void add_rigid(const JointRow<Real>& row, Real* impulse) const {
+    rows.push_back({.row = row, .role = RowRole::Rigid, .impulse = impulse});
+  }
+
+  void add(const AnchorPoint<Real>& at, JointPoint<Real>& point, const Symmetric2<Real>& mobility) const {
+    for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}}) {
+      JointSolverRow<Real> out{.row = at.plain_row(n), .role = point.rule.role, .most = point.rule.most};
+      out.pair = n.y != 0;
+      out.impulse = out.pair ? &point.impulse.y : &point.impulse.x;
+      if (point.rule.role == RowRole::Spring) {
+        const SpringTerm<Real>& spring = point.rule.spring;
+        out.rate = spring.rate;
+        out.compliance = spring.compliance * (out.pair ? mobility.yy : mobility.xx);
+        if (out.pair) out.coupled_compliance = spring.compliance * mobility.xy;
+      }
+      rows.push_back(out);
+    }
+  }
+};
+
+template <class Real>
+void add_rows(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies,
+              std::vector<JointSolverRow<Real>>& rows) {
+  const BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
+  const HingeArms<Real> arms =
+      hinge_arms(hinge.offset, a.moved, b.moved, bodies.rotation[hinge.a] * hinge.anchor_a,
+                 bodies.rotation[hinge.b] * hinge.anchor_b);
+  const AnchorPoint<Real> at{arms.a, arms.b, arms.gap};
+  const JointVelocities<Real> v(a, b);
+  const RowList<Real> list{rows, v};
+  list.add_rigid(at.plain_row({1, 0}), &hinge.impulse.x);
+  list.add_rigid(at.plain_row({0, 1}), &hinge.impulse.y);
+}
+
+template <class Real, template <class> class Kind>
+void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
+              std::vector<JointSolverRow<Real>>& rows) {
+  using Constraint = JointConstraint<Real, Kind>;
+  JointVelocities<Real> v(bodies.motion[joint.a], bodies.motion[joint.b]);
+  if constexpr (Constraint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  const std::size_t first = rows.size();
+  const RowList<Real> list{rows, v};
+  const JointPose<Real> at = joint.pose(bodies);
+  JointRows<Real> now;
+  joint.kind.evaluate(at, now);
+  if constexpr (Kind<Real>::kTurn)
+    list.add({{}, {}, -1, 1, at.angle}, joint.turn,
+             joint.turn_beside_rigid() ? joint.turn_spring_mobility(v, now) : v.i_a + v.i_b);
+  for (int i = 0; i < Constraint::kAxial; ++i)
+    list.add(now.axial[i], joint.axial[i],
+             i == 0 && joint.axial_beside_rigid() ? joint.axial_spring_mobility(v, at, now)
+                                                  : v.inverse_mass(now.axial[i], now.axial[i]));
+  if constexpr (Constraint::kBlock > 0)
+    for (int i = 0; i < Constraint::kBlock; ++i) list.add_rigid(now.block[i], &joint.block.impulse[i]);
+  if constexpr (Kind<Real>::kPoint) {
+    const PointResponse<Real> free = point_response(v, now.point.arm_a, now.point.arm_b);
+    list.add(now.point, joint.point,
+             joint.point_beside_rigid() ? joint.point_spring_mobility(v, now)
+                                        : Symmetric2<Real>{free.xx, free.xy, free.yy});
+  }
+  if constexpr (Constraint::kOneBody)
+    for (std::size_t i = first; i < rows.size(); ++i) rows[i].row.linear_a = {}, rows[i].row.angular_a = 0;
+}
+
+}  // namespace
+
+template <class Real>
+void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
+                                 std::vector<JointSolverRow<Real>>& rows) {
+  parts_->at(joint, [&](auto& constraint) { add_rows(constraint, bodies, rows); });
+}
+
+template void JointSet<float>::solver_rows(int, const SolverBodies<float>&,
+                                           std::vector<JointSolverRow<float>>&);
+template void JointSet<double>::solver_rows(int, const SolverBodies<double>&,
+                                            std::vector<JointSolverRow<double>>&);
+
+}  // namespace plumb

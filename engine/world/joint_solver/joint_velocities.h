@@ -1,0 +1,62 @@
+#pragma once
+
+#include "engine/joints/joint_row.h"
+#include "engine/world/contact_solver/body_motion.h"
+
+namespace plumb {
+
+/// Velocities and inverse masses of the two bodies of a joint, held in registers while its rows are solved.
+template <class Real>
+struct JointVelocities {
+  Vec2<Real> v_a{}, v_b{};
+  Real w_a = 0, w_b = 0;
+  Real m_a = 0, i_a = 0, m_b = 0, i_b = 0;  ///< inverse
+
+  JointVelocities(const BodyMotion<Real>& a, const BodyMotion<Real>& b)
+      : v_a(a.velocity),
+        v_b(b.velocity),
+        w_a(a.angular_velocity),
+        w_b(b.angular_velocity),
+        m_a(a.inverse_mass),
+        i_a(a.inverse_inertia),
+        m_b(b.inverse_mass),
+        i_b(b.inverse_inertia) {}
+
+  /// Writes the velocities back, except to static and kinematic bodies, which joints of one colour may share.
+  void store(BodyMotion<Real>& a, BodyMotion<Real>& b) const {
+    // By component, as computed: a pair stored by halves and loaded as one stalls.
+    if (m_a + i_a > 0) a.velocity.x = v_a.x, a.velocity.y = v_a.y, a.angular_velocity = w_a;
+    if (m_b + i_b > 0) b.velocity.x = v_b.x, b.velocity.y = v_b.y, b.angular_velocity = w_b;
+  }
+
+  /// Returns J v.
+  Real along(const JointRow<Real>& row) const {
+    return dot(row.linear_a, v_a) + row.angular_a * w_a + (dot(row.linear_b, v_b) + row.angular_b * w_b);
+  }
+  /// Returns J_i M^-1 J_j^T.
+  Real inverse_mass(const JointRow<Real>& i, const JointRow<Real>& j) const {
+    return m_a * dot(i.linear_a, j.linear_a) + i_a * (i.angular_a * j.angular_a) +
+           (m_b * dot(i.linear_b, j.linear_b) + i_b * (i.angular_b * j.angular_b));
+  }
+  /// Applies an impulse: v += M^-1 J^T impulse.
+  void apply(const JointRow<Real>& row, Real impulse) {
+    v_a += (m_a * impulse) * row.linear_a;
+    w_a += i_a * (impulse * row.angular_a);
+    v_b += (m_b * impulse) * row.linear_b;
+    w_b += i_b * (impulse * row.angular_b);
+  }
+
+  /// Returns the velocity of b relative to a at a point.
+  Vec2<Real> at(Vec2<Real> arm_a, Vec2<Real> arm_b) const {
+    return (v_b + cross(w_b, arm_b)) - (v_a + cross(w_a, arm_a));
+  }
+  /// Applies `impulse` to b at the point, and its opposite to a.
+  void apply(Vec2<Real> impulse, Vec2<Real> arm_a, Vec2<Real> arm_b) {
+    v_a -= m_a * impulse;
+    w_a -= i_a * cross(arm_a, impulse);
+    v_b += m_b * impulse;
+    w_b += i_b * cross(arm_b, impulse);
+  }
+};
+
+}  // namespace plumb

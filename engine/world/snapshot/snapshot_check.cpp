@@ -1,0 +1,417 @@
+#include "engine/world/snapshot_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/bytes.h"
+#include "engine/world/snapshot/world_members.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/quarantine.h"
+#include "engine/world/state/validate.h"
+
+namespace plumb {
+namespace {
+
+template <Packed T>
+bool is_finite(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::isfinite(value);
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    return true;
+  } else if constexpr (std::is_bounded_array_v<T>) {
+    return std::all_of(std::begin(value), std::end(value), [](const auto& each) { return is_finite(each); });
+  } else {
+    return std::apply([](const auto&... each) { return (is_finite(each) && ...); }, Members<T>::of(value));
+  }
+}
+
+template <class T>
+bool all_finite(const std::vector<T>& all) {
+  return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
+}
+
+// Marks each number once; `mark` returns false for one out of range or marked before.
+class Marks {
+ public:
+  explicit Marks(int size) : marks_(static_cast<std::size_t>(size), 0) {}
+  bool mark(int i) {
+    if (i < 0 || i >= static_cast<int>(marks_.size()) || marks_[i]) return false;
+    marks_[i] = 1;
+    ++count_;
+    return true;
+  }
+  int count() const { return count_; }
+  bool has(int i) const { return marks_[i] != 0; }
+
+ private:
+  std::vector<char> marks_;
+  int count_ = 0;
+};
+
+template <class Real>
+class Check {
+ public:
+  explicit Check(const WorldData<Real>& w) : w_(w) {}
+
+  void run() const {
+    numbers();
+    slots(w_.bodies), slots(w_.uncommon), slots(w_.shapes), slots(w_.chains), slots(w_.contacts),
+        slots(w_.joints);
+    sizes();
+    uncommon();
+    shape_lists();
+    corners();
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape)) check_shape(shape);
+    }
+    trees();
+    lists();
+    awake();
+    quarantine();
+    unsettled();
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (w_.contacts.used(contact)) check_contact(contact);
+    }
+    homes();
+    joints();
+    edges(w_.contacts, &BodyRecord<Real>::first_contact);
+    edges(w_.joints, &BodyRecord<Real>::first_joint);
+    constraints();
+  }
+
+ private:
+  static void require(bool holds, const char* field, const char* problem) {
+    ByteReader::require(holds, field, problem);
+  }
+
+  void numbers() const {
+    const auto [corners, free] = w_.corners.parts();
+    bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
+                  all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
+                  all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
+                  all_finite(corners) && all_finite(w_.parked) && all_finite(std::get<0>(w_.loads.parts())) &&
+                  all_finite(std::get<0>(w_.remainders.parts())) && all_finite_uncommon() &&
+                  all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
+                  all_finite(std::get<0>(w_.joints.parts()));
+    for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
+    require(finite, "state", "holds numbers that are not finite");
+    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
+    require(w_.steps <= kMostSteps, "steps", "are more than a world takes");
+    validate(w_.settings);
+  }
+
+  bool all_finite_uncommon() const {
+    const auto& all = std::get<0>(w_.uncommon.parts());
+    return std::all_of(all.begin(), all.end(), [](const UncommonBody<Real>& each) {
+      return is_finite(each.gravity_scale) && is_finite(each.linear_damping) &&
+             is_finite(each.angular_damping);
+    });
+  }
+
+  // A slot is free and listed once, or in use.
+  template <class T>
+  void slots(const Slots<T>& all) const {
+    const auto [items, generations, free] = all.parts();
+    require(items.size() == generations.size(), "slots", "have no generations");
+    Marks marks(all.size());
+    for (const int index : free) {
+      require(marks.mark(index) && !all.used(index), "free slots", "are not free");
+    }
+    for (int index = 0; index < all.size(); ++index) {
+      if (all.used(index)) marks.mark(index);
+    }
+    require(marks.count() == all.size(), "free slots", "are not all listed");
+  }
+
+  void sizes() const {
+    const auto is_by_body = [&](const auto& all) { return static_cast<int>(all.size()) == w_.bodies.size(); };
+    const auto none_or_by_body = [&](const auto& list) {
+      const auto& items = std::get<0>(list.parts());
+      return items.empty() || is_by_body(items);
+    };
+    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) && none_or_by_body(w_.remainders) &&
+                is_by_body(w_.motion) && is_by_body(w_.rotation) && is_by_body(w_.position) &&
+                is_by_body(w_.extents) && is_by_body(w_.enlarged),
+            "bodies", "are not as many everywhere");
+    const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
+    const std::size_t data = std::get<0>(w_.shape_data.parts()).size();
+    require(w_.forms.size() == shapes && w_.boxes.size() == shapes && (data == 0 || data == shapes), "shapes",
+            "are not as many everywhere");
+  }
+
+  // Each entry belongs to one body.
+  void uncommon() const {
+    Marks taken(w_.uncommon.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      const int place = w_.bodies[body].uncommon;
+      require(place == kNone || (w_.bodies.used(body) && taken.mark(place) && w_.uncommon.used(place)),
+              "bodies", "share what is their own");
+    }
+    require(taken.count() == w_.uncommon.count(), "bodies", "have not all that is their own");
+  }
+
+  // Each body's list ends, and every shape is in the list of its body.
+  void shape_lists() const {
+    Marks listed(w_.shapes.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      const BodyRecord<Real>& record = w_.bodies[body];
+      int before = kNone;
+      for (int shape = record.first_shape; shape != kNone; shape = w_.shapes[shape].next) {
+        require(listed.mark(shape) && w_.shapes.used(shape) && w_.shapes[shape].body == body &&
+                    w_.shapes[shape].previous == before,
+                "shapes", "are in the lists of other bodies");
+        before = shape;
+      }
+    }
+    require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
+  }
+
+  // Every corner belongs to one run, and every run to shapes with as many corners, or to the free runs.
+  void corners() const {
+    const auto [all, free] = w_.corners.parts();
+    Marks taken(static_cast<int>(all.size()));
+    std::vector<int> run_at(all.size() + 1, 0);  // by first corner: length of the run
+    const auto take = [&](int first, int count) {
+      for (int i = 0; i < count; ++i) require(taken.mark(first + i), "corners", "belong to two shapes");
+    };
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (!w_.shapes.used(shape)) continue;
+      const ShapeForm<Real>& form = w_.forms[shape];
+      const bool few = form.count >= 1 && form.count <= kMaxCorners && (!form.chain || form.count == 2);
+      require(few && form.corner >= 0 && form.corner <= static_cast<int>(all.size()), "corners",
+              "of a shape are not there");
+      int& run = run_at[form.corner];
+      if (run == 0) take(form.corner, run = form.stored());
+      require(run == form.stored(), "corners", "are shared by unlike shapes");
+    }
+    for (std::size_t count = 0; count < free.size(); ++count) {
+      require(count <= kMaxCorners + 2 || free[count].empty(), "corners", "are free in too long runs");
+      for (const int first : free[count]) {
+        require(first >= 0 && first <= static_cast<int>(all.size()), "corners",
+                "are free that are not there");
+        take(first, static_cast<int>(count));
+      }
+    }
+  }
+
+  void check_shape(int shape) const {
+    const ShapeRecord<Real>& record = w_.shapes[shape];
+    const ShapeForm<Real>& form = w_.forms[shape];
+    require(form.radius >= 0 && form.extent >= 0, "shapes", "are of negative size");
+    require(form.chain == (record.chain != kNone), "chains", "have segments that are none");
+    require(!form.chain || (record.chain >= 0 && record.chain < w_.chains.size() &&
+                            w_.chains.used(record.chain) && w_.chains[record.chain].body == record.body),
+            "chains", "are not there");
+    if (is_out(record)) return require(record.proxy == kNone, "boxes", "are not out with their bodies");
+    const DynamicTree<Real>& tree =
+        w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
+    require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
+  }
+
+  bool is_out(const ShapeRecord<Real>& record) const {
+    return w_.bodies[record.body].quarantined || meets_nothing(record.filter);
+  }
+
+  void trees() const {
+    int out = 0;
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape) && is_out(w_.shapes[shape])) ++out;
+    }
+    require(w_.still_tree.size() + w_.moving_tree.size() + out == w_.shapes.count(), "boxes",
+            "are not as many as shapes");
+  }
+
+  // Bodies in quarantine are listed, are static meanwhile, and have no contacts.
+  void quarantine() const {
+    Marks listed(w_.bodies.size());
+    for (const QuarantinedBody& each : w_.quarantine) {
+      require(has_body(each.body) && listed.mark(each.body), "quarantine", "lists bodies that are not there");
+      const BodyRecord<Real>& record = w_.bodies[each.body];
+      require(record.quarantined && record.type == BodyType::Static && record.first_contact == kNone,
+              "quarantine", "lists bodies that are not in it");
+    }
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (w_.bodies.used(body) && w_.bodies[body].quarantined) ++count;
+    }
+    require(count == listed.count(), "quarantine", "does not list all that is in it");
+  }
+
+  bool has_shape(int shape) const { return shape >= 0 && shape < w_.shapes.size() && w_.shapes.used(shape); }
+  bool has_body(int body) const { return body >= 0 && body < w_.bodies.size() && w_.bodies.used(body); }
+  bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
+
+  // Lists of shapes and joints: chains, sensors, moved shapes, breakable joints.
+  void lists() const {
+    Marks in_chain(w_.shapes.size());
+    int segments = 0;
+    for (int chain = 0; chain < w_.chains.size(); ++chain) {
+      if (!w_.chains.used(chain)) continue;
+      for (const int shape : w_.chains[chain].shapes) {
+        require(has_shape(shape) && w_.shapes[shape].chain == chain && in_chain.mark(shape), "chains",
+                "list shapes that are not theirs");
+      }
+    }
+    for (int shape = 0; shape < w_.shapes.size(); ++shape) {
+      if (w_.shapes.used(shape) && w_.forms[shape].chain) ++segments;
+    }
+    require(in_chain.count() == segments, "chains", "do not list all their segments");
+    Marks sensed(w_.shapes.size()), breakable(w_.joints.size());
+    for (const SensorRecord& sensor : w_.sensors) {
+      require(has_shape(sensor.shape) && w_.forms[sensor.shape].sensor && sensed.mark(sensor.shape),
+              "sensors", "are not shapes that sense");
+    }
+    for (const int shape : w_.moved_shapes) {
+      require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
+    }
+    for (const int joint : w_.breakable) {
+      require(has_joint(joint) && breakable.mark(joint), "joints", "may break that are not there");
+    }
+  }
+
+  // Bodies whose mass is to be computed are listed; that of a static body may be unknown.
+  void unsettled() const {
+    Marks listed(w_.bodies.size());
+    for (const int body : w_.unsettled)
+      require(has_body(body) && listed.mark(body), "bodies", "whose shapes changed are not there");
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      const BodyRecord<Real>& record = w_.bodies[body];
+      if (record.half_width < 0)
+        ++count, require(listed.has(body), "bodies", "whose shapes changed are not listed");
+      require(record.mass >= 0 || own_type(w_, body) == BodyType::Static || record.half_width < 0, "bodies",
+              "have a negative mass");
+    }
+    require(count == listed.count(), "bodies", "whose shapes changed are not listed");
+  }
+
+  void awake() const {
+    Marks listed(w_.bodies.size());
+    for (std::size_t i = 0; i < w_.awake.size(); ++i) {
+      const int body = w_.awake[i];
+      require(has_body(body) && listed.mark(body), "awake bodies", "are not there");
+      const BodyRecord<Real>& record = w_.bodies[body];
+      require(record.awake && record.type != BodyType::Static && record.awake_index == static_cast<int>(i),
+              "awake bodies", "say otherwise");
+    }
+    int count = 0;
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (w_.bodies.used(body) && w_.bodies[body].awake) ++count;
+    }
+    require(count == listed.count(), "awake bodies", "are not all listed");
+  }
+
+  template <class Record>
+  void check_ends(const Record& record, const char* field) const {
+    require(has_body(record.body_a) && has_body(record.body_b) && record.body_a != record.body_b, field,
+            "are between bodies that are not there");
+  }
+
+  static bool fits(const ContactRecord& record, const ContactConstraint<Real>& c, int contact) {
+    return c.contact == contact && c.body_a == record.body_a && c.body_b == record.body_b && c.count <= 2;
+  }
+
+  void check_contact(int contact) const {
+    const ContactRecord& record = w_.contacts[contact];
+    check_ends(record, "contacts");
+    require(has_shape(record.shape_a) && has_shape(record.shape_b) &&
+                w_.shapes[record.shape_a].body == record.body_a &&
+                w_.shapes[record.shape_b].body == record.body_b,
+            "contacts", "are between shapes that are not there");
+    const auto is_in = [&](const auto& list) {
+      return record.index >= 0 && record.index < static_cast<int>(list.size());
+    };
+    bool placed = true;
+    if (record.home == ContactHome::Near) {
+      placed = is_in(w_.near) && w_.near[record.index] == contact;
+    } else if (record.home == ContactHome::Parked) {
+      placed = is_in(w_.parked) && fits(record, w_.parked[record.index], contact);
+    } else if (record.home == ContactHome::Graph) {
+      placed = record.colour >= 0 && record.colour <= w_.graph.kColours &&
+               is_in(w_.graph.colour(record.colour)) &&
+               fits(record, w_.graph.at({record.colour, record.index}), contact);
+    }
+    require(placed, "contacts", "are not where they say");
+  }
+
+  // Every place belongs to one contact: the numbers agree, and no two contacts match the same place.
+  void homes() const {
+    std::size_t count[4] = {};
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (w_.contacts.used(contact)) ++count[static_cast<int>(w_.contacts[contact].home)];
+    }
+    require(count[static_cast<int>(ContactHome::Near)] == w_.near.size() &&
+                count[static_cast<int>(ContactHome::Graph)] == w_.graph.size() &&
+                count[static_cast<int>(ContactHome::Parked)] == w_.parked.size(),
+            "contacts", "are not as many as their places");
+  }
+
+  void joints() const {
+    for (int joint = 0; joint < w_.joints.size(); ++joint) {
+      if (!w_.joints.used(joint)) continue;
+      const JointRecord& record = w_.joints[joint];
+      check_ends(record, "joints");
+      require(w_.joint_set.contains(record.slot) && w_.joint_set.active(record.slot) == record.active &&
+                  w_.joint_set.bodies(record.slot) == std::pair{record.body_a, record.body_b},
+              "joints", "are not those that are solved");
+      require(!record.active || w_.joint_set.dynamic(record.slot) ==
+                                    std::pair{w_.gives_way(record.body_a), w_.gives_way(record.body_b)},
+              "joints", "hold bodies of another type");
+      require(!record.active || !lets_go(w_, record), "joints", "hold what is in quarantine");
+    }
+    require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");
+  }
+
+  // Each body's list ends, and both ends of every contact or joint are in the list of their body.
+  template <class Items>
+  void edges(const Items& items, int BodyRecord<Real>::*first) const {
+    Marks listed(2 * items.size());
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      if (!w_.bodies.used(body)) continue;
+      int before = kNone;
+      for (int edge = w_.bodies[body].*first; edge != kNone;) {
+        require(listed.mark(edge) && items.used(edge / 2), "lists of contacts or joints", "run in circles");
+        const auto& item = items[edge / 2];
+        const int side = edge & 1;
+        require((side == 0 ? item.body_a : item.body_b) == body && item.previous[side] == before,
+                "lists of contacts or joints", "are torn");
+        before = edge;
+        edge = item.next[side];
+      }
+    }
+    require(listed.count() == 2 * items.count(), "lists of contacts or joints", "are not complete");
+  }
+
+  void constraints() const {
+    std::vector<int> count(static_cast<std::size_t>(w_.bodies.size()), 0);
+    const auto add = [&](const auto& record) { ++count[record.body_a], ++count[record.body_b]; };
+    for (int contact = 0; contact < w_.contacts.size(); ++contact) {
+      if (!w_.contacts.used(contact)) continue;
+      const ContactRecord& record = w_.contacts[contact];
+      if (record.home == ContactHome::Graph || record.home == ContactHome::Parked) add(record);
+    }
+    for (int joint = 0; joint < w_.joints.size(); ++joint) {
+      if (w_.joints.used(joint) && !lets_go(w_, w_.joints[joint])) add(w_.joints[joint]);
+    }
+    for (int body = 0; body < w_.bodies.size(); ++body) {
+      require(!w_.bodies.used(body) || w_.bodies[body].constraints == count[body], "bodies",
+              "are held by another number of constraints than they say");
+    }
+  }
+
+  const WorldData<Real>& w_;
+};
+
+}  // namespace
+
+template <class Real>
+void check_state(const WorldData<Real>& w) {
+  Check<Real>(w).run();
+}
+
+template void check_state(const WorldData<float>&);
+template void check_state(const WorldData<double>&);
+
+}  // namespace plumb

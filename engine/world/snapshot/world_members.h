@@ -1,0 +1,75 @@
+#pragma once
+
+#include "engine/world/snapshot/members.h"
+#include "engine/world/world_data.h"
+
+/// Member lists of a world's data types.
+namespace plumb {
+
+template <>
+inline constexpr int kEnumerators<BodyType> = 3;
+template <>
+inline constexpr int kEnumerators<Combine> = 5;
+template <>
+inline constexpr int kEnumerators<Solver> = 5;
+template <>
+inline constexpr int kEnumerators<ContactHome> = 4;
+template <>
+inline constexpr int kEnumerators<ContactHardness> = 3;
+template <>
+inline constexpr int kEnumerators<BadField> = 4;
+
+PLUMB_REAL_MEMBERS(Handle, index, generation)
+
+PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous, solver,
+              iterations, direct_islands, quarantine)
+PLUMB_MEMBERS(Filter, category, mask, group)
+
+PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
+                   awake_index, first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia,
+                   centre, half_width, still_for, angle)
+PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping, mass_centre)
+PLUMB_REAL_MEMBERS(Load, force, torque)
+PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
+
+PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
+PLUMB_REAL_MEMBERS(ShapeRecord, body, next, previous, proxy, chain, moved, hit_events, pre_solve, filter,
+                   friction, restitution, rolling_resistance, surface_speed, density)
+PLUMB_MEMBERS(ChainRecord, body, shapes)
+PLUMB_MEMBERS(SensorRecord, shape, visitors)
+
+PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
+              pre_solve, hit_events, index)
+PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
+                   separation, now, normal_impulse, expected_impulse, tangent_impulse, mass, inverse_pp,
+                   inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
+                   hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
+                   peak_impulse, approach, travel_left, contact, features)
+PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
+              user_data)
+
+PLUMB_MEMBERS(TouchEvent, shape_a, shape_b)
+PLUMB_MEMBERS(HitEvent, shape_a, shape_b, point, normal, speed)
+PLUMB_MEMBERS(SensorEvent, sensor, visitor)
+PLUMB_MEMBERS(JointEvent, joint)
+PLUMB_MEMBERS(QuarantineEvent, body, name, field, value, step)
+PLUMB_MEMBERS(QuarantinedBody, body, type, why)
+PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
+
+/// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
+/// references. It excludes the pre-solve hook and the user's combine rules, which are code, and scratch data.
+/// A new member of WorldData must be named here, and returned unless it is one of those.
+template <class World>
+constexpr auto state_of(World& w) {
+  auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
+         remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners, shape_data, chains,
+         moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set,
+         sensors, breakable, quarantine, events, pending, stepping, callers, abandoned, reports_hits,
+         ties_changed, scratch, pre_solve, friction_rule, restitution_rule] = w;
+  return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
+                  position, remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
+                  shape_data, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph,
+                  parked, joints, joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
+}
+
+}  // namespace plumb

@@ -1,0 +1,47 @@
+#include "engine/world/contact_solver/sequential_contacts.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/solvers/solvers.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+
+// Semi-implicit Euler: forces, then iterations over all velocity constraints, then positions.
+template <class Real>
+void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
+  const Real inverse_h = static_cast<Real>(1 / h), feedback = static_cast<Real>(tuning::kFeedback);
+  const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
+  SequentialStep<Real> contacts{.h = static_cast<Real>(h),
+                                .inverse_h = inverse_h,
+                                .warm_start = warm_start,
+                                .feedback = feedback,
+                                .slop = static_cast<Real>(tuning::kSlop / tuning::kPushSpeed),
+                                .bounce_threshold = bounce_threshold(w, h * substeps)};
+  const JointStep<Real> joints{.h = static_cast<Real>(h),
+                               .inverse_h = inverse_h,
+                               .softness = {feedback * inverse_h, 1, 0},
+                               .stiffest = stiffest_spring<Real>(w.settings.iterations),
+                               .warm_start = warm_start};
+  const SolverBodies<Real> bodies = w.solver_bodies();
+  const bool jointed = w.joint_set.active_count() > 0;
+
+  prepare_kicks(w, h, substeps, FreeFlight::Substeps);
+  if (jointed) w.joint_set.prepare(bodies, joints);
+  for (int substep = 0; substep < substeps; ++substep) {
+    integrate_velocities(w);
+    if (jointed) w.joint_set.warm_start(bodies, joints);
+    warm_start_sequentially(bodies.motion, w.graph, contacts);
+    for (int sweep = 0; sweep < w.settings.iterations; ++sweep) {
+      if (jointed) w.joint_set.solve(bodies, joints);
+      sweep_contacts(bodies.motion, w.graph, contacts);
+    }
+    integrate_positions(w, static_cast<Real>(h), FreeFlight::Substeps);
+    stop_arrivals(bodies.motion, w.graph, contacts);
+    if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
+    contacts.warm_start = 1;
+  }
+}
+
+template void solve_sequential_impulses(WorldData<float>&, double, int);
+template void solve_sequential_impulses(WorldData<double>&, double, int);
+
+}  // namespace plumb

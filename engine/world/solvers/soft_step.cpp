@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <vector>
+
+#include "engine/world/contact_solver/bounce_crowds.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/islands/direct_islands.h"
+#include "engine/world/islands/hinge_trees.h"
+#include "engine/world/islands/jointed_islands.h"
+#include "engine/world/solvers/bouncing.h"
+#include "engine/world/solvers/solvers.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+// Returns the softness of a contact, as stiff as a substep of `longest` permits. The impulse scale
+// (compliance under load) is reduced to kContactYield of the spring's.
+template <class Real>
+Softness<Real> contact_softness(double frequency_share, double h, double longest) {
+  Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
+  soft.impulse_scale *= Real(tuning::kContactYield);
+  soft.mass_scale = 1 - soft.impulse_scale;
+  return soft;
+}
+
+// Projects joints that an impact has driven beyond their limits.
+template <class Real>
+void turn_back(WorldData<Real>& w) {
+  bool any = true;
+  for (int sweep = 0; any && sweep < tuning::kLimitSweeps; ++sweep) {
+    any = w.joint_set.turn_back(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
+                                Real(tuning::kLimitTurn));
+    if (any) hold_locks(w);
+  }
+}
+
+// Returns true if there was nothing but free flight and articulated bodies.
+template <class Real>
+bool nothing_left(const WorldData<Real>& w) {
+  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
+}
+
+}  // namespace
+
+template <class Real>
+void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
+  prepare_kicks(w, h, substeps, FreeFlight::Exact);
+  move_hinge_trees(w, h, substeps);
+  const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
+  if (!jointed && nothing_left(w)) return;
+
+  const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
+  // A shorter step than the last keeps the last one's stiffness, so that overlaps at rest do not change.
+  const double longest = std::max(h, w.last_h);
+  ContactStep<Real> contacts{
+      .h = static_cast<Real>(h),
+      .inverse_h = static_cast<Real>(1 / h),
+      .softness = {{contact_softness<Real>(tuning::kContactFrequencyShare, h, longest)},
+                   {contact_softness<Real>(tuning::kStiffFrequencyShare, h, longest)},
+                   {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
+      .warm_start = warm_start,
+      .bounce_threshold = bounce_threshold(w, h * substeps),
+      .push_with_load = Real(tuning::kPushWithLoad)};
+  JointStep<Real> joints{
+      .h = static_cast<Real>(h),
+      .inverse_h = static_cast<Real>(1 / h),
+      .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
+      .stiffest = stiffest_spring<Real>(1),
+      .warm_start = warm_start};
+  const SolverBodies<Real> bodies = w.solver_bodies();
+  if (jointed) w.joint_set.prepare(bodies, joints);
+  prepare_direct_islands(w);
+  find_bounces(w);
+  bool strikes = false;
+  const auto place = [&] {
+    strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
+    if (!strikes) return;
+    resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
+    hold_locks(w);  // impact propagation ignores locks, and displaces bodies
+  };
+  for (int substep = 0; substep < substeps; ++substep) {
+    const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    // Do not reuse the last substep's impulses after an impact, or if a contact separated.
+    const bool repeat = substep > 0 && !jointed && !strikes && !parted;
+    begin_jointed_substep(w);
+    repeat ? repeat_velocities(w) : integrate_velocities(w);
+    // The last impulses of joints and contacts cancel only in the solve. Classify impacts before warm
+    // starting, so that these impulses are not mistaken for an approach.
+    note_free_velocities(w);
+    if (jointed) place();
+    if (strikes) note_blows(w);
+    if (jointed) w.joint_set.warm_start(bodies, joints);
+    if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
+    if (!jointed) place();
+    let_pass(w.scratch.bounces);
+    if (jointed) w.joint_set.solve(bodies, joints);
+    solve_direct_islands(w, contacts, true);
+    solve_contacts(bodies.motion, w.graph, contacts);
+    hold_jointed_islands(w, contacts);
+    integrate_positions(w, static_cast<Real>(h), FreeFlight::Exact);
+    if (jointed) turn_back(w);
+    if (jointed) w.joint_set.relax(bodies, joints);
+    solve_direct_islands(w, contacts, false);
+    relax_contacts(bodies.motion, w.graph, contacts);
+    relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
+    hold_again(w.scratch.bounces);
+    contacts.warm_start = joints.warm_start = 1;
+  }
+  finish_direct_islands(w);
+}
+
+template void solve_soft_steps(WorldData<float>&, double, int);
+template void solve_soft_steps(WorldData<double>&, double, int);
+
+}  // namespace plumb

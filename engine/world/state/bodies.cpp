@@ -1,0 +1,240 @@
+#include "engine/world/state/bodies.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/room.h"
+#include "engine/math/trigonometry.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/mass.h"
+#include "engine/world/state/new_shape.h"
+#include "engine/world/state/quarantine.h"
+
+namespace plumb {
+namespace {
+
+// Reserves memory for a new body, and for all bodies to be awake.
+template <class Real>
+void make_place(WorldData<Real>& w, bool has_data) {
+  w.bodies.make_room(1);
+  const int size = w.bodies.size() + 1;
+  const std::size_t room = static_cast<std::size_t>(size);
+  ensure_room(w.motion, room), ensure_room(w.rotation, room), ensure_room(w.position, room);
+  ensure_room(w.extents, room), ensure_room(w.enlarged, room), ensure_room(w.awake, room);
+  w.loads.ensure(size, false), w.body_data.ensure(size, has_data), w.remainders.ensure(size, false);
+}
+
+template <class T>
+void append_room(std::vector<T>& list) {
+  ensure_room(list, list.size() + 1);
+}
+
+template <class Real>
+void clear_place(WorldData<Real>& w, int body) {
+  const int size = w.bodies.size();
+  make_room(w.motion, size), make_room(w.rotation, size), make_room(w.position, size);
+  make_room(w.extents, size), make_room(w.enlarged, size);
+  w.loads.renew(body, size), w.body_data.renew(body, size), w.remainders.renew(body, size);
+  w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
+}
+
+template <class Real>
+bool is_uncommon(const UncommonBody<Real>& own) {
+  return !own.name.empty() || own.gravity_scale != 1 || own.linear_damping != 0 || own.angular_damping != 0 ||
+         own.mass_centre != Vec2<Real>{};
+}
+
+// Reserves memory for a body's shapes in a tree and in the move buffer.
+template <class Real>
+void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
+  std::size_t shapes = 0;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
+  w.tree_of(type).make_room(shapes);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + shapes);
+  ensure_room(w.awake, w.awake.size() + 1);
+}
+
+// Tells all joints of a body whether it is dynamic, or none if that throws.
+template <class Real>
+void set_joints_dynamic(WorldData<Real>& w, int body, bool gives_way) {
+  const auto set = [&](const JointRecord& joint, bool to) {
+    w.joint_set.set_dynamic(joint.slot, joint.body_a == body ? to : w.gives_way(joint.body_a),
+                            joint.body_b == body ? to : w.gives_way(joint.body_b));
+  };
+  try {
+    for_each_edge(w.joints, w.bodies[body].first_joint,
+                  [&](int, JointRecord& joint) { set(joint, gives_way); });
+  } catch (...) {
+    for_each_edge(w.joints, w.bodies[body].first_joint,
+                  [&](int, JointRecord& joint) { set(joint, w.gives_way(body)); });
+    throw;
+  }
+}
+
+template <class Real>
+void wake_touched_by(WorldData<Real>& w, int body) {
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    wake_touched(w, shape);
+}
+
+template <class Real>
+Rotation<Real> rounded(Rotation<double> q) {
+  return {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+}
+
+}  // namespace
+
+template <class Real>
+int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<const ShapeDefinition> shapes) {
+  // First everything that may be refused or run out of memory.
+  std::vector<NewShape<Real>> made;
+  made.reserve(shapes.size());
+  for (const ShapeDefinition& shape : shapes) made.push_back(prepare_shape<Real>(shape));
+  BodyRecord<Real> record;
+  record.type = definition.type;
+  record.may_sleep = definition.may_sleep;
+  record.lock_x = definition.lock_x, record.lock_y = definition.lock_y;
+  record.lock_rotation = definition.lock_rotation;
+  record.angle = definition.angle;
+  UncommonBody<Real> own{definition.name, static_cast<Real>(definition.gravity_scale),
+                         static_cast<Real>(definition.linear_damping),
+                         static_cast<Real>(definition.angular_damping)};
+  if (definition.mass) own.mass_centre = definition.mass->centre.as<Real>();
+  make_place(w, definition.user_data != 0);
+  make_room_for<Real>(w, definition.type, made);
+  make_room_to_recentre<Real>(w, made);
+  if (is_uncommon(own)) w.uncommon.make_room(1);
+  if (!definition.awake) append_room(w.log().fell_asleep);
+
+  const int body = w.bodies.add(record);
+  clear_place(w, body);
+  if (definition.user_data != 0) w.body_data.at(body, w.bodies.size()) = definition.user_data;
+  if (is_uncommon(own)) w.bodies[body].uncommon = w.uncommon.add(std::move(own));
+  w.position[body] = definition.position;
+  w.rotation[body] = rounded<Real>(rotation_of(definition.angle));
+  if (definition.type != BodyType::Static) enter_awake(w, body);
+  for (const NewShape<Real>& shape : made) insert_shape(w, body, shape);
+  if (definition.mass) {
+    set_mass(w, body, *definition.mass);
+  } else {
+    update_mass(w, body);
+  }
+  if (definition.type != BodyType::Static) {
+    w.motion[body].velocity = definition.velocity.as<Real>();
+    w.motion[body].angular_velocity = static_cast<Real>(definition.angular_velocity);
+  }
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    enter_tree(w, shape);
+  if (!definition.awake && definition.type != BodyType::Static) fall_asleep(w, body);
+  if (definition.type == BodyType::Static) wake_touched_by(w, body);
+  return body;
+}
+
+template <class Real>
+void remove_body(WorldData<Real>& w, int body) {
+  wake_neighbours(w, body);
+  destroy_contacts_of(w, body);
+  if (w.bodies[body].quarantined)
+    std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });
+  while (w.bodies[body].first_joint != kNone) remove_joint(w, w.bodies[body].first_joint / 2);
+  while (w.bodies[body].first_shape != kNone) {
+    const int shape = w.bodies[body].first_shape;
+    if (w.shapes[shape].chain != kNone) {
+      take_out_chain(w, w.shapes[shape].chain);
+    } else {
+      take_out_shape(w, shape);
+    }
+  }
+  if (w.bodies[body].awake) leave_awake(w, body);
+  if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);
+  if (is_unsettled(w, body)) std::erase(w.unsettled, body);
+  w.motion[body] = {};
+  w.bodies.remove(body);
+}
+
+template <class Real>
+Vec2d origin_of(const WorldData<Real>& w, int body) {
+  return w.position[body] - (w.rotation[body] * w.bodies[body].centre).template as<double>();
+}
+
+template <class Real>
+UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body) {
+  int& place = w.bodies[body].uncommon;
+  if (place == kNone) place = w.uncommon.add({});
+  return w.uncommon[place];
+}
+
+template <class Real>
+void set_gravity_scale(WorldData<Real>& w, int body, double scale) {
+  const Real wanted = static_cast<Real>(scale);
+  if (w.uncommon_of(body).gravity_scale != wanted) make_uncommon(w, body).gravity_scale = wanted;
+}
+
+template <class Real>
+void set_damping(WorldData<Real>& w, int body, double linear, double angular) {
+  const Real wanted = static_cast<Real>(linear), wanted_angular = static_cast<Real>(angular);
+  const UncommonBody<Real>& now = w.uncommon_of(body);
+  if (now.linear_damping == wanted && now.angular_damping == wanted_angular) return;
+  UncommonBody<Real>& own = make_uncommon(w, body);
+  own.linear_damping = wanted, own.angular_damping = wanted_angular;
+}
+
+template <class Real>
+void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
+  make_room_to_enter(w, body, w.bodies[body].type);
+  wake_neighbours(w, body);
+  BodyRecord<Real>& record = w.bodies[body];
+  record.angle = angle;
+  w.rotation[body] = rounded<Real>(rotation_of(angle));
+  w.position[body] = origin + (w.rotation[body] * record.centre).template as<double>();
+  w.motion[body].moved = {}, w.motion[body].turned = 0;
+  w.remainders.renew(body, w.bodies.size());
+  forget_manifolds(w, body);
+  for_each_edge(w.joints, record.first_joint,
+                [&](int, JointRecord& joint) { w.joint_set.put_elsewhere(joint.slot); });
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    leave_tree(w, shape);
+    enter_tree(w, shape);
+  }
+  w.enlarged[body] = 1;
+  wake_touched_by(w, body);
+}
+
+template <class Real>
+void set_type(WorldData<Real>& w, int body, BodyType type) {
+  BodyRecord<Real>& record = w.bodies[body];
+  if (record.quarantined) {
+    quarantine_of(w, body).type = type;
+    return;
+  }
+  if (record.type == type) return;
+  make_room_to_enter(w, body, type);
+  wake_neighbours(w, body);
+  destroy_contacts_of(w, body);
+  set_joints_dynamic(w, body, type == BodyType::Dynamic);
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
+  if (record.awake) leave_awake(w, body);
+  record.type = type;
+  w.remainders.renew(body, w.bodies.size());
+  if (type != BodyType::Static) enter_awake(w, body);
+  if (type == BodyType::Static) w.motion[body] = {};
+  find_mass(w, body);
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) enter_tree(w, shape);
+  wake_touched_by(w, body);
+}
+
+#define PLUMB_FOR(Real)                                                                             \
+  template int add_body(WorldData<Real>&, const BodyDefinition&, std::span<const ShapeDefinition>); \
+  template void remove_body(WorldData<Real>&, int);                                                 \
+  template UncommonBody<Real>& make_uncommon(WorldData<Real>&, int);                                \
+  template Vec2d origin_of(const WorldData<Real>&, int);                                            \
+  template void set_gravity_scale(WorldData<Real>&, int, double);                                   \
+  template void set_damping(WorldData<Real>&, int, double, double);                                 \
+  template void place_body(WorldData<Real>&, int, Vec2d, double);                                   \
+  template void set_type(WorldData<Real>&, int, BodyType);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,159 @@
+#include "engine/world/state/contact_setup.h"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/scene/error.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/seams.h"
+
+namespace plumb {
+namespace {
+
+// Computes arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).
+template <class Real>
+void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Vec2<Real>* arms_a,
+                  Vec2<Real> between, ContactConstraint<Real>& c) {
+  const Vec2<Real> n = c.normal;
+  const Real inverse_mass = a.inverse_mass + b.inverse_mass;
+  const auto coupling = [&](Real la, Real lb, Real ma, Real mb) {
+    return inverse_mass + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
+  };
+  const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
+  Vec2<Real> middle{};
+  Real k[2] = {};
+  for (int i = 0; i < c.count; ++i) {
+    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - between, n);
+    k[i] = coupling(c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
+    c.mass[i] = inverse(k[i]);
+    middle += arms_a[i];
+  }
+  if (c.count == 2) {
+    middle *= Real(0.5);
+    c.between = coupling(c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
+    const Real determinant = k[0] * k[1] - c.between * c.between;
+    // Points that nearly coincide share their load.
+    const bool apart = determinant > Real(1e-3) * k[0] * k[1];
+    const Real d = apart ? 1 / determinant : Real(0);
+    c.inverse_pp = apart ? d * k[1] : Real(0.5) * c.mass[0];
+    c.inverse_qq = apart ? d * k[0] : Real(0.5) * c.mass[1];
+    c.inverse_pq = -d * c.between;
+  } else {
+    c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.between = c.inverse_pq = c.inverse_qq = 0;
+    c.inverse_pp = c.mass[0];
+  }
+  c.arm_tangent_a = -dot(middle, n), c.arm_tangent_b = -dot(middle - between, n);
+  c.tangent_mass = inverse(coupling(c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
+}
+
+// Calls a user's combine rule; throws if its result is not a valid coefficient.
+double ask(CombineFunction rule, double a, double b, const char* what, double most) {
+  const double answer = rule(a, b);
+  if (answer >= 0 && answer <= most) return answer;
+  throw Error(
+      Error::Kind::Value, "combine rule", what, std::to_string(answer),
+      "must be in [0, " + std::to_string(most) + "] for " + std::to_string(a) + " and " + std::to_string(b));
+}
+
+}  // namespace
+
+template <class Real>
+Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  return static_cast<Real>(w.restitution_rule == nullptr
+                               ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
+                               : ask(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
+}
+
+template <class Real>
+void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
+  const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
+  const ShapeForm<Real>&form_a = w.forms[contact.shape_a], &form_b = w.forms[contact.shape_b];
+  c.friction = static_cast<Real>(w.friction_rule == nullptr
+                                     ? combine(w.settings.combine_friction, a.friction, b.friction)
+                                     : ask(w.friction_rule, a.friction, b.friction, "friction", 1e9));
+  c.restitution = restitution_between(w, contact.shape_a, contact.shape_b);
+  const Real radius = std::max(form_a.radius, form_b.radius);
+  c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
+  c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
+  c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
+  c.watched = records_impact(contact, c);
+  c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
+                                                                          : ContactHardness::Stiff;
+}
+
+template <class Real>
+ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Rotation<Real> to_a = w.rotation[a].inverse();
+  const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
+  const Rotation<Real> q = w.rotation[b];
+  const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  return collide_shapes(w, contact, b_in_a, reach);
+}
+
+template <class Real>
+void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     ContactConstraint<Real>& c) {
+  const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
+  const Real expected[2] = {c.expected_impulse[0], c.expected_impulse[1]};
+  const std::uint16_t features[2] = {c.features[0], c.features[1]};
+  const int old_count = c.count;
+  c.normal = q * manifold.normal;
+  c.count = static_cast<std::uint8_t>(manifold.count);
+  Vec2<Real> arms_a[2];
+  bool kept = false;
+  for (int i = 0; i < 2; ++i) {
+    c.normal_impulse[i] = c.expected_impulse[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    c.features[i] = 0;
+    if (i >= manifold.count) continue;
+    const ContactManifoldPoint<Real>& from = manifold.points[i];
+    for (int j = 0; j < old_count; ++j) {
+      if (features[j] != from.feature) continue;
+      c.normal_impulse[i] = old[j], c.expected_impulse[i] = expected[j];
+      kept = true;
+    }
+    arms_a[i] = q * from.point;
+    c.separation[i] = from.separation;
+    c.features[i] = from.feature;
+  }
+  if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
+  prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
+}
+
+template <class Real>
+ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact) {
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  const ContactManifold<Real> manifold = manifold_of(w, contact, Real(tuning::kContactReach) * smaller);
+  ContactConstraint<Real> c;
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = kNone;
+  mix_materials(w, contact, c);
+  prepare_contact(w, contact, manifold, c);
+  return c;
+}
+
+template <class Real>
+bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ContactRecord contact = contact_of(w, shape_a, shape_b);
+  const Real smaller = std::min(w.forms[shape_a].extent, w.forms[shape_b].extent);
+  const Real reach = Real(tuning::kContactReach) * smaller;
+  return !boxes_apart(w, shape_a, shape_b, reach) && manifold_of(w, contact, reach).count > 0;
+}
+
+#define PLUMB_FOR(Real)                                                                                     \
+  template Real restitution_between(const WorldData<Real>&, int, int);                                      \
+  template void mix_materials(const WorldData<Real>&, const ContactRecord&, ContactConstraint<Real>&);      \
+  template ContactManifold<Real> manifold_of(const WorldData<Real>&, const ContactRecord&, Real);           \
+  template void prepare_contact(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, \
+                                Rotation<Real>, Vec2<Real>, ContactConstraint<Real>&);                      \
+  template ContactConstraint<Real> constraint_between(const WorldData<Real>&, const ContactRecord&);        \
+  template bool meet_now(const WorldData<Real>&, int, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/world_data.h"
+
+/// Sets up contact constraints from the shapes' geometry, materials and bodies.
+namespace plumb {
+
+/// Returns |v.x| + |v.y|, at most 1.42 times the length.
+template <class Real>
+Real size_of(Vec2<Real> v) {
+  return std::abs(v.x) + std::abs(v.y);
+}
+
+/// Returns Newton's coefficient for two shapes, by the world's combine rule.
+template <class Real>
+Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b);
+
+/// Sets the coefficients of a contact's constraint from the shapes' materials.
+template <class Real>
+void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c);
+
+/// Returns true if the solver must record approach and largest impulses. A touching contact that neither
+/// bounces nor is reported needs neither.
+template <class Real>
+bool records_impact(const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  return !c.touching || c.restitution > 0 || contact.hit_events || contact.pre_solve;
+}
+
+/// Returns the depth, m, to which rounding may have moved the shapes of a contact into each other.
+template <class Real>
+Real rounding_between(const WorldData<Real>& w, int body_a, int body_b) {
+  return 8 * std::numeric_limits<Real>::epsilon() * (w.extents[body_a] + w.extents[body_b]);
+}
+
+/// Returns true if two AABBs are farther apart than `reach`. Far from the origin both are rounded as coarsely
+/// as positions, so a rounding margin is added.
+template <class Real>
+bool boxes_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
+  const Aabb<Real>& box = w.boxes[shape_a];
+  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (size_of(box.lower) + size_of(box.upper));
+  return !box.grown(reach + rounding).overlaps(w.boxes[shape_b]);
+}
+
+/// Returns the manifold of two shapes at their bodies' present poses, with points up to `reach` apart, in the
+/// frame of body a.
+template <class Real>
+ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach);
+
+/// Writes the manifold into the constraint, with lever arms and effective masses; points with a known feature
+/// keep their impulses. `q` is the rotation of a, `between` the vector from its centre of mass to that of b.
+template <class Real>
+void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     ContactConstraint<Real>& c);
+
+/// Does the same at the bodies' present poses.
+template <class Real>
+void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, ContactConstraint<Real>& c) {
+  const int a = contact.body_a, b = contact.body_b;
+  prepare_contact(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(),
+                  c);
+}
+
+/// Returns the constraint of two shapes at their bodies' present poses, without impulses; without points if
+/// they do not touch.
+template <class Real>
+ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact);
+
+/// Returns true if two shapes touch, or nearly so, at their present poses: a contact would have points.
+template <class Real>
+bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b);
+
+}  // namespace plumb

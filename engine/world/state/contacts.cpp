@@ -1,0 +1,271 @@
+#include "engine/world/state/contacts.h"
+
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/islands.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+void count_constraint(WorldData<Real>& w, const ContactRecord& contact, int by) {
+  w.bodies[contact.body_a].constraints += by;
+  w.bodies[contact.body_b].constraints += by;
+}
+
+template <class Real>
+void enter_near(WorldData<Real>& w, int contact) {
+  append(w.near, contact);
+  ContactRecord& record = w.contacts[contact];
+  record.home = ContactHome::Near;
+  record.index = static_cast<int>(w.near.size()) - 1;
+}
+
+// Swap-removes: the last contact in Near takes the freed place.
+template <class Real>
+void leave_place(WorldData<Real>& w, int index) {
+  if (index + 1 < static_cast<int>(w.near.size())) {
+    w.near[index] = w.near.back();
+    w.contacts[w.near[index]].index = index;
+  }
+  w.near.pop_back();
+}
+
+template <class Real>
+void leave_near(WorldData<Real>& w, int contact) {
+  leave_place(w, w.contacts[contact].index);
+}
+
+template <class Real>
+void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
+  ContactRecord& record = w.contacts[contact];
+  w.ties_changed = true;
+  const auto place = w.graph.add(constraint, w.gives_way(record.body_a), w.gives_way(record.body_b));
+  record.home = ContactHome::Graph;
+  record.colour = static_cast<std::int8_t>(place.colour);
+  record.index = place.index;
+}
+
+template <class Real>
+void leave_graph(WorldData<Real>& w, int contact) {
+  w.ties_changed = true;
+  const ContactRecord& record = w.contacts[contact];
+  const int follower =
+      w.graph.remove({record.colour, record.index}, w.gives_way(record.body_a), w.gives_way(record.body_b));
+  if (follower != -1) w.contacts[follower].index = record.index;
+}
+
+template <class Real>
+void leave_parked(WorldData<Real>& w, int index) {
+  if (index + 1 < static_cast<int>(w.parked.size())) {
+    w.parked[index] = w.parked.back();
+    w.contacts[w.parked[index].contact].index = index;
+  }
+  w.parked.pop_back();
+}
+
+template <class Real>
+bool joined_without_collision(const WorldData<Real>& w, int body_a, int body_b) {
+  return any_between(w.joints, w.bodies[body_a].first_joint, w.bodies[body_b].first_joint, body_a, body_b,
+                     [](const JointRecord& joint) { return !joint.collide; });
+}
+
+}  // namespace
+
+template <class Real>
+bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  if (a.body == b.body || (!w.gives_way(a.body) && !w.gives_way(b.body))) return false;
+  const ShapeForm<Real>&form_a = w.forms[shape_a], &form_b = w.forms[shape_b];
+  if (form_a.sensor || form_b.sensor || (form_a.chain && form_b.chain)) return false;
+  return may_touch(a.filter, b.filter) && !joined_without_collision(w, a.body, b.body);
+}
+
+template <class Real>
+ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
+  // A chain's segment must be shape a, as the manifold functions expect.
+  if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
+  const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
+  ContactRecord record;
+  record.shape_a = shape_a, record.shape_b = shape_b;
+  record.body_a = a.body, record.body_b = b.body;
+  record.pre_solve = a.pre_solve || b.pre_solve;
+  record.hit_events = a.hit_events || b.hit_events;
+  return record;
+}
+
+template <class Real>
+void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
+  const ContactRecord record = contact_of(w, shape_a, shape_b);
+  w.contacts.make_room(1);
+  ensure_room(w.near, w.near.size() + 1);
+  w.pairs.insert(record.shape_a, record.shape_b);
+  const int contact = w.contacts.add(record);
+  link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
+  if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) {
+    enter_near(w, contact);
+  } else {
+    w.contacts[contact].home = ContactHome::Idle;
+  }
+}
+
+template <class Real>
+void destroy_contact(WorldData<Real>& w, int contact) {
+  set_touching(w, contact, false);
+  const ContactRecord record = w.contacts[contact];
+  switch (record.home) {
+    case ContactHome::Near:
+      leave_near(w, contact);
+      break;
+    case ContactHome::Graph:
+      leave_graph(w, contact);
+      break;
+    case ContactHome::Parked:
+      leave_parked(w, record.index);
+      break;
+    case ContactHome::Idle:
+      break;
+  }
+  if (record.home == ContactHome::Graph || record.home == ContactHome::Parked)
+    count_constraint(w, record, -1);
+  unlink_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
+  w.pairs.erase(record.shape_a, record.shape_b);
+  w.contacts.remove(contact);
+}
+
+template <class Real>
+void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
+  const int near = w.contacts[contact].index;
+  enter_graph(w, contact, constraint);
+  leave_place(w, near);
+  const ContactRecord record = w.contacts[contact];
+  count_constraint(w, record, 1);
+  try {
+    wake_body(w, record.body_a);
+    wake_body(w, record.body_b);
+  } catch (...) {
+    leave_graph(w, contact);
+    enter_near(w, contact);  // there is memory, as it was in Near before
+    count_constraint(w, record, -1);
+    throw;
+  }
+}
+
+template <class Real>
+void end_contact(WorldData<Real>& w, int contact) {
+  ensure_room(w.near, w.near.size() + 1);
+  set_touching(w, contact, false);
+  leave_graph(w, contact);
+  enter_near(w, contact);
+  count_constraint(w, w.contacts[contact], -1);
+}
+
+template <class Real>
+void park_contact(WorldData<Real>& w, int contact) {
+  ContactRecord& record = w.contacts[contact];
+  if (record.home == ContactHome::Near) {
+    // An awake kinematic body may come to touch a sleeping one.
+    if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
+    leave_near(w, contact);
+    record.home = ContactHome::Idle;
+  } else if (record.home == ContactHome::Graph) {
+    append(w.parked, w.graph.at({record.colour, record.index}));
+    leave_graph(w, contact);
+    record.home = ContactHome::Parked;
+    record.index = static_cast<int>(w.parked.size()) - 1;
+  }
+}
+
+template <class Real>
+void unpark_contact(WorldData<Real>& w, int contact) {
+  const ContactRecord& record = w.contacts[contact];
+  if (record.home == ContactHome::Idle) {
+    enter_near(w, contact);
+  } else if (record.home == ContactHome::Parked) {
+    const int parked = record.index;
+    const ContactConstraint<Real> constraint = w.parked[parked];
+    enter_graph(w, contact, constraint);
+    leave_parked(w, parked);
+  }
+}
+
+template <class Real>
+ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact) {
+  return contact.home == ContactHome::Parked ? w.parked[contact.index]
+                                             : w.graph.at({contact.colour, contact.index});
+}
+
+template <class Real>
+void set_touching(WorldData<Real>& w, int contact, bool touching) {
+  ContactRecord& record = w.contacts[contact];
+  if (record.touching == touching) return;
+  const auto id = [&](int shape) {
+    return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
+  };
+  (touching ? w.log().begin : w.log().end).push_back({id(record.shape_a), id(record.shape_b)});
+  record.touching = touching;
+}
+
+template <class Real>
+void forget_manifolds(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, ContactRecord& contact) {
+    if (contact.home == ContactHome::Graph || contact.home == ContactHome::Parked) {
+      constraint_of(w, contact).travel_left = -1;
+    }
+  });
+}
+
+template <class Real>
+void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
+    if (shape != kNone && contact.shape_a != shape && contact.shape_b != shape) return;
+    const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+    if (contact.home == ContactHome::Parked) wake_body(w, other);
+    destroy_contact(w, edge / 2);
+  });
+}
+
+template <class Real>
+void destroy_forbidden_contacts(WorldData<Real>& w, int shape) {
+  for_each_edge(w.contacts, w.bodies[w.shapes[shape].body].first_contact,
+                [&](int edge, const ContactRecord& contact) {
+                  if (contact.shape_a != shape && contact.shape_b != shape) return;
+                  const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+                  if (contact.home == ContactHome::Parked) wake_body(w, other);
+                  if (!may_touch(w.shapes[contact.shape_a].filter, w.shapes[contact.shape_b].filter))
+                    destroy_contact(w, edge / 2);
+                });
+}
+
+template <class Real>
+void wake_touched(WorldData<Real>& w, int shape) {
+  const ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.proxy == kNone || w.bodies[record.body].type != BodyType::Static) return;
+  const Aabb<Real>& box = w.still_tree.box(record.proxy);
+  w.moving_tree.query(box, seen_by(record.filter), [&](int other, int) {
+    const int body = w.shapes[other].body;
+    if (!w.bodies[body].awake && may_collide(w, shape, other) && meet_now(w, shape, other))
+      wake_body(w, body);
+    return true;
+  });
+}
+
+#define PLUMB_FOR(Real)                                                                    \
+  template bool may_collide(const WorldData<Real>&, int, int);                             \
+  template ContactRecord contact_of(const WorldData<Real>&, int, int);                     \
+  template void create_contact(WorldData<Real>&, int, int);                                \
+  template void destroy_contact(WorldData<Real>&, int);                                    \
+  template void begin_contact(WorldData<Real>&, int, const ContactConstraint<Real>&);      \
+  template void end_contact(WorldData<Real>&, int);                                        \
+  template void park_contact(WorldData<Real>&, int);                                       \
+  template void unpark_contact(WorldData<Real>&, int);                                     \
+  template ContactConstraint<Real>& constraint_of(WorldData<Real>&, const ContactRecord&); \
+  template void set_touching(WorldData<Real>&, int, bool);                                 \
+  template void forget_manifolds(WorldData<Real>&, int);                                   \
+  template void destroy_contacts_of(WorldData<Real>&, int, int);                           \
+  template void destroy_forbidden_contacts(WorldData<Real>&, int);                         \
+  template void wake_touched(WorldData<Real>&, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

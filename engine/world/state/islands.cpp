@@ -1,0 +1,240 @@
+#include "engine/world/state/islands.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/room.h"
+#include "engine/core/union_find.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/quarantine.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+BodyId id_of(const WorldData<Real>& w, int body) {
+  return {static_cast<std::uint32_t>(body), w.bodies.generation(body)};
+}
+
+// Adds an event. Bodies may wake and sleep without end between two steps, so a long list is reduced to one
+// event for each existing body.
+template <class Real>
+void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
+  if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
+    std::vector<char>& known = w.scratch.restless;
+    known.assign(static_cast<std::size_t>(w.bodies.size()), 0);
+    std::erase_if(told, [&](BodyId each) {
+      return !w.bodies.holds(each.index, each.generation) || std::exchange(known[each.index], 1) != 0;
+    });
+  }
+  told.push_back(id_of(w, body));
+}
+
+template <class Real>
+bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
+// Calls visit(other body) for every body that a contact with points or a joint connects to `body`.
+template <class Real, class Visit>
+void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (has_points<Real>(contact)) visit((edge & 1) == 0 ? contact.body_b : contact.body_a);
+  });
+  for_each_edge(w.joints, w.bodies[body].first_joint,
+                [&](int edge, JointRecord& joint) { visit((edge & 1) == 0 ? joint.body_b : joint.body_a); });
+}
+
+template <class Real>
+bool gives_way_awake(const WorldData<Real>& w, int body) {
+  return w.bodies[body].awake && w.gives_way(body);
+}
+
+// Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while a kinematic
+// body of it is awake.
+template <class Real, class Record>
+bool is_solved(const WorldData<Real>& w, const Record& record) {
+  return gives_way_awake(w, record.body_a) || gives_way_awake(w, record.body_b);
+}
+
+template <class Real>
+void unpark_ties(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (contact.home != ContactHome::Parked || is_solved(w, contact)) unpark_contact(w, edge / 2);
+  });
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
+    if (joint.active || lets_go(w, joint) || !is_solved(w, joint)) return;
+    w.joint_set.set_active(joint.slot, true);
+    joint.active = true;
+  });
+}
+
+template <class Real>
+void park_ties(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
+    if (contact.home == ContactHome::Near || !is_solved(w, contact)) park_contact(w, edge / 2);
+  });
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
+    if (!joint.active || is_solved(w, joint)) return;
+    w.joint_set.set_active(joint.slot, false);
+    joint.active = false;
+  });
+}
+
+template <class Real>
+bool still(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  return record.may_sleep && record.still_for >= Real(tuning::kSleepTime);
+}
+
+// Reserves memory for the contacts of bodies that fall asleep.
+template <class Real>
+void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
+  std::size_t contacts = 0;
+  for (const int body : sleepers) {
+    for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
+      contacts += contact.home == ContactHome::Graph ? 1 : 0;
+    });
+  }
+  ensure_room(w.parked, w.parked.size() + std::min(contacts, w.graph.size()));
+  ensure_room(w.log().fell_asleep, w.log().fell_asleep.size() + sleepers.size());
+}
+
+}  // namespace
+
+template <class Real>
+void enter_awake(WorldData<Real>& w, int body) {
+  BodyRecord<Real>& record = w.bodies[body];
+  record.awake = true;
+  w.ties_changed = true;
+  record.still_for = 0;
+  record.awake_index = static_cast<int>(w.awake.size());
+  append(w.awake, body);
+}
+
+template <class Real>
+void leave_awake(WorldData<Real>& w, int body) {
+  BodyRecord<Real>& record = w.bodies[body];
+  record.awake = false;
+  w.ties_changed = true;
+  w.awake[record.awake_index] = w.awake.back();
+  w.bodies[w.awake.back()].awake_index = record.awake_index;
+  w.awake.pop_back();
+  record.awake_index = kNone;
+}
+
+template <class Real>
+void fall_asleep(WorldData<Real>& w, int body) {
+  tell(w, w.log().fell_asleep, body);
+  leave_awake(w, body);
+  // Islands on a kinematic body check its sleep timer.
+  w.bodies[body].still_for = std::max(w.bodies[body].still_for, Real(tuning::kSleepTime));
+  BodyMotion<Real>& motion = w.motion[body];
+  motion.velocity = {}, motion.angular_velocity = 0;
+  motion.moved = {}, motion.turned = 0;
+}
+
+template <class Real>
+void wake_body(WorldData<Real>& w, int body) {
+  const auto sleeps = [&](int i) { return !w.bodies[i].awake && w.bodies[i].type != BodyType::Static; };
+  if (!sleeps(body)) return;
+  std::vector<int>& queue = w.scratch.queue;
+  const std::size_t first = queue.size();  // calls may be nested
+  const auto wake = [&](int i) {
+    if (!sleeps(i)) return;
+    ensure_room(w.awake, w.awake.size() + 1), ensure_room(queue, queue.size() + 1);
+    tell(w, w.log().woke, i);
+    enter_awake(w, i);
+    queue.push_back(i);
+  };
+  try {
+    wake(body);
+    for (std::size_t next = first; next < queue.size(); ++next) {
+      const int current = queue[next];
+      unpark_ties(w, current);
+      if (w.gives_way(current)) for_each_tie(w, current, wake);
+    }
+  } catch (...) {
+    // Half an island must not be awake, so all of it sleeps on. This needs no memory: the lists held these
+    // before.
+    for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
+    for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);
+    queue.resize(first);
+    throw;
+  }
+  queue.resize(first);
+}
+
+template <class Real>
+void wake_neighbours(WorldData<Real>& w, int body) {
+  wake_body(w, body);
+  for_each_tie(w, body, [&](int other) { wake_body(w, other); });
+}
+
+template <class Real>
+void sleep_islands(WorldData<Real>& w) {
+  if (!w.settings.sleeping) return;
+  if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
+  UnionFind islands(w.scratch.island_of, w.bodies.size());
+  w.scratch.islands_known = false;  // they are overwritten here
+  std::vector<char>& restless = w.scratch.restless;
+  restless.assign(w.bodies.size(), 0);
+  const auto tie = [&](int a, int b) {
+    if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
+    // Bodies on a moving kinematic body do not sleep.
+    for (const auto& [platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
+      if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) restless[rider] = 1;
+    }
+  };
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (joint.active) tie(joint.body_a, joint.body_b);
+  });
+  for (const int body : w.awake) {
+    if (restless[body] || !still(w, body)) restless[islands.find(body)] = 1;
+  }
+  std::vector<int>& sleepers = w.scratch.queue;
+  sleepers.clear();
+  for (const int body : w.awake) {
+    if (!restless[islands.find(body)]) sleepers.push_back(body);
+  }
+  make_room_to_park(w, sleepers);
+  for (const int body : sleepers) fall_asleep(w, body);
+  for (const int body : sleepers) park_ties(w, body);
+  sleepers.clear();
+}
+
+template <class Real>
+void put_to_sleep(WorldData<Real>& w, int body) {
+  if (!w.bodies[body].awake) return;
+  constexpr Real kListed = -1;
+  std::vector<int> island;
+  const auto add = [&](int i) {
+    Real& still_for = w.bodies[i].still_for;
+    if (!w.bodies[i].awake || still_for == kListed || (i != body && !w.gives_way(i))) return;
+    island.push_back(i);
+    still_for = kListed;
+  };
+  add(body);
+  for (std::size_t next = 0; next < island.size(); ++next) {
+    if (w.gives_way(island[next])) for_each_tie(w, island[next], add);
+  }
+  make_room_to_park(w, island);
+  for (const int i : island) fall_asleep(w, i);
+  for (const int i : island) park_ties(w, i);
+}
+
+#define PLUMB_FOR(Real)                                 \
+  template void wake_body(WorldData<Real>&, int);       \
+  template void wake_neighbours(WorldData<Real>&, int); \
+  template void sleep_islands(WorldData<Real>&);        \
+  template void put_to_sleep(WorldData<Real>&, int);    \
+  template void fall_asleep(WorldData<Real>&, int);     \
+  template void enter_awake(WorldData<Real>&, int);     \
+  template void leave_awake(WorldData<Real>&, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

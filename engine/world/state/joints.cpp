@@ -1,0 +1,93 @@
+#include "engine/core/room.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/quarantine.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+void take_out_joint(WorldData<Real>& w, int joint) {
+  const JointRecord record = w.joints[joint];
+  w.ties_changed = true;
+  w.joint_set.remove(record.slot);  // the only call that may run out of memory
+  unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
+  if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
+  std::erase(w.breakable, joint);
+  w.joints.remove(joint);
+}
+
+// Reserves memory for the end events of the contacts between two bodies.
+template <class Real>
+void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
+  std::size_t contacts = 0;
+  for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int, const ContactRecord& contact) {
+    contacts += contact.body_a == body_b || contact.body_b == body_b ? 1 : 0;
+  });
+  ensure_room(w.log().end, w.log().end.size() + contacts);
+}
+
+}  // namespace
+
+template <class Real>
+int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
+  // First everything that may refuse the definition or run out of memory.
+  const bool breaks = definition.break_force > 0 || definition.break_torque > 0;
+  w.joints.make_room(1);
+  ensure_room(w.breakable, w.breakable.size() + (breaks ? 1 : 0));
+  if (!definition.collide) make_room_for_ends(w, body_a, body_b);
+  const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
+                                   w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
+  w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
+  w.ties_changed = true;
+  JointRecord record;
+  record.body_a = body_a, record.body_b = body_b;
+  record.slot = slot;
+  record.collide = definition.collide;
+  record.active = true;
+  record.break_force = definition.break_force, record.break_torque = definition.break_torque;
+  record.user_data = definition.user_data;
+  const int joint = w.joints.add(record);
+  link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
+  if (breaks) w.breakable.push_back(joint);
+  try {
+    if (lets_go(w, record)) {
+      w.joint_set.set_active(slot, false);
+      w.joints[joint].active = false;
+    } else {
+      ++w.bodies[body_a].constraints, ++w.bodies[body_b].constraints;
+    }
+    wake_body(w, body_a), wake_body(w, body_b);
+  } catch (...) {
+    take_out_joint(w, joint);
+    throw;
+  }
+  if (definition.collide) return joint;
+  for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int edge, const ContactRecord& contact) {
+    if (contact.body_a == body_b || contact.body_b == body_b) destroy_contact(w, edge / 2);
+  });
+  return joint;
+}
+
+template <class Real>
+void remove_joint(WorldData<Real>& w, int joint) {
+  const JointRecord record = w.joints[joint];
+  wake_body(w, record.body_a), wake_body(w, record.body_b);
+  take_out_joint(w, joint);
+  if (record.collide) return;
+  // Shapes that the joint kept from colliding need pairs again.
+  const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+    note_moved(w, shape);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                       \
+  template int add_joint(WorldData<Real>&, int, int, const JointDefinition&); \
+  template void remove_joint(WorldData<Real>&, int);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

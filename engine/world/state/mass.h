@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+
+#include "engine/world/state/new_shape.h"
+#include "engine/world/world_data.h"
+
+/// Masses, centres of mass and sizes of bodies, computed from their shapes.
+///
+/// The frame of a dynamic body is at its centre of mass, that of a kinematic one at its origin, about which
+/// it rotates. A static body's frame stays at the centre of its first shapes, because its mass is not needed.
+/// So adding a shape to a static body or removing one has constant cost. Changes of other masses are noted,
+/// and all computed at once before they are needed: before a step, and before calls that act on motions.
+namespace plumb {
+
+/// Recomputes a body's mass, centre and sizes, and moves its frame to the centre.
+template <class Real>
+void update_mass(WorldData<Real>& w, int body);
+/// Does the same for a body whose type has changed.
+template <class Real>
+void find_mass(WorldData<Real>& w, int body);
+/// Sets a body's mass, which replaces that of its shapes from now on.
+template <class Real>
+void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
+
+/// Notes that a shape is about to be added to the body or removed from it.
+template <class Real>
+void note_mass_change(WorldData<Real>& w, int body);
+/// Grows the body's sizes by a shape that was added.
+template <class Real>
+void grow_extents(WorldData<Real>& w, int body, int shape);
+/// Updates all bodies that were noted.
+template <class Real>
+void settle(WorldData<Real>& w);
+/// Returns true if a change of the body's shapes was noted and not yet applied.
+template <class Real>
+bool is_unsettled(const WorldData<Real>& w, int body) {
+  return w.bodies[body].half_width < 0;
+}
+
+/// Returns the body's mass properties, whether settled or not; the centre is in the body's frame.
+template <class Real>
+MassProperties mass_now(const WorldData<Real>& w, int body);
+/// Returns the offset of the body's centre of mass from its stored one, m; 0 once the mass is settled.
+template <class Real>
+Vec2<Real> way_to_centre(const WorldData<Real>& w, int body);
+
+/// Throws Error (Value) if the densities of a body's shapes give a mass that `Real` cannot hold.
+template <class Real>
+void require_weights(const WorldData<Real>& w, int body);
+
+/// Reserves memory to move a new body's shapes into the frame of its centre of mass.
+template <class Real>
+void make_room_to_recentre(WorldData<Real>& w, std::span<const NewShape<Real>> shapes);
+
+}  // namespace plumb

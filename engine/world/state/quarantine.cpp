@@ -1,0 +1,327 @@
+#include "engine/world/state/quarantine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "engine/core/room.h"
+#include "engine/core/text.h"
+#include "engine/math/trigonometry.h"
+#include "engine/scene/error.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/validate.h"
+
+namespace plumb {
+namespace {
+
+bool fits(double x) { return std::abs(x) <= kLargestNumber; }
+bool fits(Vec2d v) { return fits(v.x) && fits(v.y); }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Sign and payload of NaNs differ between compilers.
+double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quiet_NaN(); }
+
+[[noreturn]] void report(const QuarantineEvent& why) {
+  const std::string subject =
+      "body " + (why.name.empty() ? std::to_string(why.body.index) : "'" + why.name + "'");
+  const bool by_law = why.field == BadField::Force || why.field == BadField::Torque;
+  throw Error(
+      by_law ? Error::Kind::Value : Error::Kind::Run, subject, kBadFieldNames[static_cast<int>(why.field)],
+      shortest(why.value),
+      (by_law ? "is not finite or beyond 1e12 in step " : "is not finite or beyond 1e12 after step ") +
+          std::to_string(why.step) +
+          (by_law ? "; check what the law divides by"
+                  : "; a force, a torque or a velocity is too large for this step"));
+}
+
+template <class Real>
+void let_go(WorldData<Real>& w, JointRecord& joint) {
+  if (lets_go(w, joint)) return;  // still off because of the other body
+  if (joint.active) w.joint_set.set_active(joint.slot, false), joint.active = false;
+  --w.bodies[joint.body_a].constraints, --w.bodies[joint.body_b].constraints;
+  w.joint_set.forget(joint.slot);
+}
+
+template <class Real>
+void hold_again(WorldData<Real>& w, JointRecord& joint) {
+  if (lets_go(w, joint)) return;  // still off because of the other body
+  ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
+  w.joint_set.set_dynamic(joint.slot, w.gives_way(joint.body_a), w.gives_way(joint.body_b));
+  w.joint_set.forget(joint.slot);
+  wake_body(w, joint.body_a), wake_body(w, joint.body_b);
+  if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
+}
+
+// Returns the field of a motion that is not valid, with its value.
+template <class Real>
+std::pair<BadField, double> fault_of(const BodyMotion<Real>& motion) {
+  for (const Real x : {motion.velocity.x, motion.velocity.y, motion.moved.x, motion.moved.y}) {
+    if (!fits(static_cast<double>(x))) return {BadField::Velocity, static_cast<double>(x)};
+  }
+  const bool spin = !fits(static_cast<double>(motion.angular_velocity));
+  return {BadField::AngularVelocity, static_cast<double>(spin ? motion.angular_velocity : motion.turned)};
+}
+
+template <class Real>
+bool fits(const BodyVelocity<Real>& v) {
+  return fits(v.velocity.template as<double>()) && fits(static_cast<double>(v.angular_velocity));
+}
+
+template <class Real>
+void place_rotation(WorldData<Real>& w, int body) {
+  const Rotation<double> q = rotation_of(w.bodies[body].angle);
+  w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+}
+
+template <class Real>
+void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const BodyVelocity<Real> sound = fits(start) ? start : BodyVelocity<Real>{};
+  motion.velocity = sound.velocity, motion.angular_velocity = sound.angular_velocity;
+  motion.moved = {}, motion.turned = 0;
+  place_rotation(w, body);
+  w.bodies[body].still_for = 0;
+  w.loads.renew(body, w.bodies.size());
+  w.enlarged[body] = 0;
+}
+
+// Returns the velocity before the step of a body in free flight, which moved by the mean of both velocities.
+template <class Real>
+BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
+  const Vec2d before = (2 / dt) * motion.moved.template as<double>() - motion.velocity.template as<double>();
+  const double spin =
+      2 / dt * static_cast<double>(motion.turned) - static_cast<double>(motion.angular_velocity);
+  return {before.as<Real>(), static_cast<Real>(spin)};
+}
+
+// Resets static bodies, to which constraints pass non-finite values.
+template <class Real>
+void mend_static_bodies(WorldData<Real>& w) {
+  for (int body = 0; body < w.bodies.size(); ++body) {
+    if (!w.bodies.used(body) || w.bodies[body].type != BodyType::Static || w.bodies[body].quarantined)
+      continue;
+    w.motion[body] = {};
+    place_rotation(w, body);
+  }
+}
+
+// Clears impulses of the body's contacts and joints, and updated separations, because they are not finite
+// either.
+template <class Real>
+void forget_impulses(WorldData<Real>& w, int body) {
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
+    ContactConstraint<Real>& c = constraint_of(w, contact);
+    for (int i = 0; i < 2; ++i) {
+      c.normal_impulse[i] = c.expected_impulse[i] = c.peak_impulse[i] = c.approach[i] = 0;
+      c.now[i] = c.separation[i];
+    }
+    c.tangent_impulse = c.rolling_impulse = 0;
+  });
+  forget_manifolds(w, body);
+  for_each_edge(w.joints, w.bodies[body].first_joint,
+                [&](int, const JointRecord& joint) { w.joint_set.forget(joint.slot); });
+}
+
+// Moves a kinematic body by its given velocity, without contacts.
+template <class Real>
+void move_on(WorldData<Real>& w, int body, double dt) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const Real t = static_cast<Real>(dt);
+  motion.moved = t * motion.velocity, motion.turned = t * motion.angular_velocity;
+  w.position[body] += motion.moved.template as<double>();
+  w.bodies[body].angle += static_cast<double>(motion.turned);
+  place_rotation(w, body);
+  const Real turned = std::abs(motion.turned) * w.extents[body];
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    refresh_box(w, shape, t, turned);
+}
+
+// A body with an invalid motion.
+struct Fault {
+  int body = 0;
+  BadField field{};
+  double value = 0;
+  double speed = 0;  ///< m/s, before the step
+  bool own = false;  ///< cannot be caused by another body
+};
+
+// Returns the causes of a failure that a constraint passed on: the fastest body, or all that were runaway
+// before.
+std::vector<Fault> culprits_of(const std::vector<Fault>& faults) {
+  constexpr double kRunaway = 1e-3 * kLargestNumber;
+  std::vector<Fault> culprits;
+  const Fault* fastest = nullptr;
+  bool explained = false;
+  for (const Fault& each : faults) {
+    const bool ran_away = !each.own && each.speed > kRunaway;
+    explained = explained || ran_away;
+    if (each.own || ran_away) {
+      culprits.push_back(each);
+    } else if (fastest == nullptr || each.speed > fastest->speed) {
+      fastest = &each;
+    }
+  }
+  if (!explained && fastest != nullptr) culprits.push_back(*fastest);
+  return culprits;
+}
+
+}  // namespace
+
+template <class Real>
+BodyType own_type(const WorldData<Real>& w, int body) {
+  if (!w.bodies[body].quarantined) return w.bodies[body].type;
+  return std::find_if(w.quarantine.begin(), w.quarantine.end(),
+                      [&](const QuarantinedBody& each) { return each.body == body; })
+      ->type;
+}
+
+template <class Real>
+QuarantinedBody& quarantine_of(WorldData<Real>& w, int body) {
+  return *std::find_if(w.quarantine.begin(), w.quarantine.end(),
+                       [&](const QuarantinedBody& each) { return each.body == body; });
+}
+
+template <class Real>
+bool is_sound_motion(const BodyMotion<Real>& motion) {
+  return fits(motion.velocity.template as<double>()) && fits(motion.moved.template as<double>()) &&
+         fits(static_cast<double>(motion.angular_velocity)) && fits(static_cast<double>(motion.turned));
+}
+
+template <class Real>
+void quarantine_body(WorldData<Real>& w, int body, BadField field, double value) {
+  if (w.bodies[body].quarantined) return;
+  QuarantineEvent why{{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
+                      w.uncommon_of(body).name,
+                      field,
+                      one_nan(value),
+                      w.steps + 1};
+  if (!w.settings.quarantine) report(why);
+  ensure_room(w.quarantine, w.quarantine.size() + 1);
+  ensure_room(w.log().quarantined, w.log().quarantined.size() + 1);
+  QuarantinedBody entry{body, w.bodies[body].type, why};
+  wake_neighbours(w, body);
+  destroy_contacts_of(w, body);
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) { let_go(w, joint); });
+  BodyRecord<Real>& record = w.bodies[body];
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
+  if (record.awake) leave_awake(w, body);
+  w.quarantine.push_back(std::move(entry));
+  record.type = BodyType::Static;
+  record.quarantined = true;
+  w.motion[body].moved = {}, w.motion[body].turned = 0;
+  w.loads.renew(body, w.bodies.size());
+  w.enlarged[body] = 0;
+  w.ties_changed = true;
+  // Between two steps, a body that is released and pushed beyond the limits again is reported once.
+  std::vector<QuarantineEvent>& told = w.log().quarantined;
+  if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
+  told.push_back(std::move(why));
+}
+
+template <class Real>
+void release_body(WorldData<Real>& w, int body) {
+  BodyRecord<Real>& record = w.bodies[body];
+  std::size_t shapes = 0;
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
+  w.tree_of(own_type(w, body)).make_room(shapes);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + shapes);
+  ensure_room(w.awake, w.awake.size() + 1);
+  record.type = own_type(w, body);
+  record.quarantined = false;
+  std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });
+  if (record.type == BodyType::Static) w.motion[body] = {};
+  if (record.type != BodyType::Static) enter_awake(w, body);
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) enter_tree(w, shape);
+  w.enlarged[body] = 1;
+  for_each_edge(w.joints, record.first_joint, [&](int, JointRecord& joint) { hold_again(w, joint); });
+}
+
+template <class Real>
+void push_body(WorldData<Real>& w, int body, Vec2d impulse, double angular_impulse) {
+  BodyMotion<Real>& motion = w.motion[body];
+  const BodyMotion<Real> before = motion;
+  motion.apply(impulse.as<Real>(), static_cast<Real>(angular_impulse));
+  if (!w.settings.quarantine || fits(BodyVelocity<Real>{motion.velocity, motion.angular_velocity})) return;
+  const auto [field, value] = fault_of(motion);
+  motion = before;
+  quarantine_body(w, body, field, value);
+}
+
+template <class Real>
+void quarantine_overloaded(WorldData<Real>& w, double dt) {
+  std::vector<int>& bad = w.scratch.bad_bodies;
+  bad.clear();
+  const auto gain = [&](int body, const Load<Real>& load) -> std::pair<Vec2d, double> {
+    const BodyMotion<Real>& motion = w.motion[body];
+    return {dt * static_cast<double>(motion.inverse_mass) * load.force.template as<double>(),
+            dt * static_cast<double>(motion.inverse_inertia) * static_cast<double>(load.torque)};
+  };
+  for (const int body : w.awake) {
+    const Load<Real> load = w.loads.get(body);
+    if (load.force == Vec2<Real>{} && load.torque == 0) continue;
+    const auto [velocity, spin] = gain(body, load);
+    if (!fits(velocity) || !fits(dt * velocity) || !fits(spin) || !fits(dt * spin)) bad.push_back(body);
+  }
+  for (const int body : bad) {
+    const Load<Real> load = w.loads.get(body);
+    const auto [velocity, spin] = gain(body, load);
+    if (!fits(velocity.x) || !fits(dt * velocity.x)) {
+      quarantine_body(w, body, BadField::Velocity, velocity.x);
+    } else if (!fits(velocity.y) || !fits(dt * velocity.y)) {
+      quarantine_body(w, body, BadField::Velocity, velocity.y);
+    } else {
+      quarantine_body(w, body, BadField::AngularVelocity, spin);
+    }
+  }
+}
+
+template <class Real>
+void quarantine_lost(WorldData<Real>& w, double dt) {
+  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  std::vector<Fault> faults;
+  bool shared = false;
+  std::size_t kick = 0;  // kicks and bad bodies are both in the order of `awake`
+  for (const int body : w.scratch.bad_bodies) {
+    const int place = w.bodies[body].awake_index;
+    while (kick < kicks.size() && w.bodies[kicks[kick].body].awake_index < place) ++kick;
+    const bool held = kick < kicks.size() && kicks[kick].body == body;
+    const BodyMotion<Real> motion = w.motion[body];
+    const auto [field, value] = fault_of(motion);
+    const BodyVelocity<Real> start = held ? w.scratch.starts[kick] : start_of_flight(motion, dt);
+    put_back(w, body, start);
+    const bool own = !held || is_finite_motion(motion);
+    shared = shared || !own;
+    if (!own) forget_impulses(w, body);
+    if (!own && w.bodies[body].type == BodyType::Kinematic) {
+      move_on(w, body, dt);
+      continue;
+    }
+    const double speed =
+        fits(start) ? std::sqrt(length_squared(start.velocity.template as<double>())) : kInfinity;
+    faults.push_back({body, field, value, speed, own});
+  }
+  if (shared) mend_static_bodies(w);
+  w.ties_changed = true;
+  for (const Fault& each : culprits_of(faults)) quarantine_body(w, each.body, each.field, each.value);
+}
+
+#define PLUMB_FOR(Real)                                                   \
+  template BodyType own_type(const WorldData<Real>&, int);                \
+  template QuarantinedBody& quarantine_of(WorldData<Real>&, int);         \
+  template bool is_sound_motion(const BodyMotion<Real>&);                 \
+  template void push_body(WorldData<Real>&, int, Vec2d, double);          \
+  template void quarantine_body(WorldData<Real>&, int, BadField, double); \
+  template void release_body(WorldData<Real>&, int);                      \
+  template void quarantine_overloaded(WorldData<Real>&, double);          \
+  template void quarantine_lost(WorldData<Real>&, double);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,252 @@
+#include "engine/world/state/seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collision/manifold/seam.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+Real taxicab(Vec2<Real> v) {
+  return std::abs(v.x) + std::abs(v.y);
+}
+
+template <class Real>
+Pose<Real> inverse(const Pose<Real>& pose) {
+  const Rotation<Real> back = pose.rotation.inverse();
+  return {-(back * pose.position), back};
+}
+
+// One side of a contact.
+template <class Real>
+struct Side {
+  int shape = 0, body = 0;  // of the touched shape
+  int mover = 0;            // the other shape
+  TouchedSurface<Real> touched{};
+  SeamAnswer<Real> answer{};
+};
+
+template <class Real>
+Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool of_b,
+                   const Pose<Real>& b_in_a, const ContactManifold<Real>& manifold) {
+  Side<Real> side;
+  side.shape = of_b ? contact.shape_b : contact.shape_a;
+  side.mover = of_b ? contact.shape_a : contact.shape_b;
+  side.body = of_b ? contact.body_b : contact.body_a;
+  TouchedSurface<Real>& touched = side.touched;
+  touched.shape = w.convex(side.shape);
+  touched.edges = w.forms[side.shape].chain ? 1 : touched.shape.count;
+  const Pose<Real> to_b = of_b ? inverse(b_in_a) : Pose<Real>{};
+  touched.normal = of_b ? -(to_b.rotation * manifold.normal) : manifold.normal;
+  touched.count = manifold.count;
+  const Convex<Real> mover = w.convex(side.mover);
+  const Vec2<Real> middle = Real(0.5) * (mover.corners[0].point + mover.corners[mover.count / 2].point);
+  const Pose<Real> from = of_b ? to_b : b_in_a;
+  touched.mover = from.position + from.rotation * middle;
+  Real least = manifold.points[0].separation, size = 0;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ContactManifoldPoint<Real>& point = manifold.points[i];
+    const Vec2<Real> at = of_b ? to_b.position + to_b.rotation * point.point : point.point;
+    touched.points[i] = at - (Real(0.5) * point.separation) * touched.normal;
+    least = std::min(least, point.separation);
+    size = std::max(size, taxicab(at));
+  }
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  touched.tolerance =
+      Real(tuning::kSeamTolerance) * smaller + 32 * std::numeric_limits<Real>::epsilon() * size;
+  touched.apart = least > 2 * touched.tolerance;
+  return side;
+}
+
+// A manifold's points in the world, and the margin within which neighbours count.
+template <class Real>
+struct Region {
+  Vec2<Real> points[2];
+  int count = 0;
+  Real margin = 0;
+  Aabb<Real> box{};
+};
+
+template <class Real>
+Region<Real> region_of(const WorldData<Real>& w, const ContactRecord& contact,
+                       const ContactManifold<Real>& manifold, Real smaller, Real way) {
+  const Vec2<Real> at = w.position[contact.body_a].template as<Real>();
+  const Rotation<Real> q = w.rotation[contact.body_a];
+  Region<Real> region;
+  region.count = manifold.count;
+  Real most = 0;
+  for (int i = 0; i < manifold.count; ++i) {
+    const Vec2<Real> point = region.points[i] = at + q * manifold.points[i].point;
+    region.box = i == 0 ? Aabb<Real>{point, point} : merged(region.box, Aabb<Real>{point, point});
+    most = std::max(most, std::abs(manifold.points[i].separation));
+  }
+  const Real rounding = 8 * std::numeric_limits<Real>::epsilon() * (taxicab(at) + taxicab(region.points[0]));
+  region.margin = way + Real(0.5) * most + Real(4 * tuning::kSeamTolerance) * smaller + rounding;
+  region.box = region.box.grown(region.margin);
+  return region;
+}
+
+// Returns true if a shape is within the margin of one of the points.
+template <class Real>
+bool is_near(const WorldData<Real>& w, int shape, const Region<Real>& region) {
+  const Convex<Real> convex = w.convex(shape);
+  const int body = w.shapes[shape].body;
+  const Rotation<Real> back = w.rotation[body].inverse();
+  for (int i = 0; i < region.count; ++i) {
+    const Vec2<Real> local = back * (region.points[i] - w.position[body].template as<Real>());
+    bool near = true;
+    for (int k = 0; k < convex.count && near; ++k)
+      near = dot(convex.corners[k].normal, local - convex.corners[k].point) <= convex.radius + region.margin;
+    if (near) return true;
+  }
+  return false;
+}
+
+template <class Real>
+Pose<Real> pose_in(const WorldData<Real>& w, int body, int frame) {
+  if (body == frame) return {{0, 0}, {1, 0}};
+  const Rotation<Real> back = w.rotation[frame].inverse(), q = w.rotation[body];
+  return {back * (w.position[body] - w.position[frame]).template as<Real>(),
+          {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
+}
+
+// Returns true if a neighbour and the touched shape cannot move relative to each other: on one body, or if
+// neither is dynamic.
+template <class Real>
+bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbour) {
+  return neighbour == side.body || (!w.gives_way(neighbour) && !w.gives_way(side.body));
+}
+
+// Tests a neighbour; of several faces it keeps the one that the other shape is farthest in front of.
+template <class Real>
+void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
+  using Kind = typename SeamAnswer<Real>::Kind;
+  if (side.answer.kind == Kind::Hidden || !w.pairs.contains(neighbour, side.mover)) return;
+  if (!stays_beside(w, side, w.shapes[neighbour].body)) return;
+  const Convex<Real> shape = w.convex(neighbour);
+  const SeamAnswer<Real> answer =
+      look_across_seam(side.touched, shape, w.forms[neighbour].chain ? 1 : shape.count,
+                       pose_in(w, w.shapes[neighbour].body, side.body));
+  const bool nearer = answer.height > side.answer.height ||
+                      (answer.height == side.answer.height && answer.face < side.answer.face);
+  if (answer.kind == Kind::Hidden || (answer.kind == Kind::Face && (side.answer.kind == Kind::Own || nearer)))
+    side.answer = answer;
+}
+
+// Returns the body whose contacts are searched for neighbours: of two dynamic ones that with fewer
+// constraints.
+template <class Real>
+int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
+  if (!w.gives_way(contact.body_a)) return contact.body_b;
+  if (!w.gives_way(contact.body_b)) return contact.body_a;
+  return w.bodies[contact.body_b].constraints < w.bodies[contact.body_a].constraints ? contact.body_b
+                                                                                     : contact.body_a;
+}
+
+template <class Real>
+ContactManifold<Real> on_face(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side,
+                              const Pose<Real>& b_in_a, Real reach) {
+  const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
+  const Real slack = 4 * side.touched.tolerance;
+  if (side.shape == contact.shape_a)
+    return collide_face(shape_a, side.answer.face, side.answer.at_start, slack, shape_b, b_in_a, reach);
+  const ContactManifold<Real> found =
+      collide_face(shape_b, side.answer.face, side.answer.at_start, slack, shape_a, inverse(b_in_a), reach);
+  return seen_from_other(found, b_in_a);
+}
+
+// Returns true if the contact's bodies slide along a face of one of them rather than approach it. If four
+// corners meet in a point, each body could belong to a surface with an internal edge there; the motion
+// decides which.
+template <class Real>
+bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Rotation<Real> q = w.rotation[side.body];
+  const Vec2<Real> from_side = q * side.touched.points[0];
+  const Vec2<Real> across = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  const bool of_b = side.shape == contact.shape_b;
+  const Vec2<Real> arm_a = of_b ? from_side + across : from_side,
+                   arm_b = of_b ? from_side : from_side - across;
+  const Vec2<Real> velocity = (b.velocity + b.angular_velocity * perpendicular(arm_b)) -
+                              (a.velocity + a.angular_velocity * perpendicular(arm_a));
+  const Vec2<Real> normal = q * side.touched.shape.corners[side.answer.face].normal;
+  return std::abs(cross(normal, velocity)) > std::abs(dot(normal, velocity));
+}
+
+}  // namespace
+
+template <class Real>
+ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord& contact,
+                                   const Pose<Real>& b_in_a, Real reach,
+                                   const ContactManifold<Real>& manifold, Real way) {
+  using Kind = typename SeamAnswer<Real>::Kind;
+  // Only neighbours fixed to a touched shape count: two dynamic bodies of one shape each have none.
+  const auto is_single = [&](int body) {
+    const int shape = w.bodies[body].first_shape;
+    return shape == kNone || w.shapes[shape].next == kNone;
+  };
+  if (w.gives_way(contact.body_a) && w.gives_way(contact.body_b) && is_single(contact.body_a) &&
+      is_single(contact.body_b))
+    return manifold;
+  const int asked = body_to_ask(w, contact);
+  const int first = w.bodies[asked].first_contact;
+  if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return manifold;
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  const Real widest = Real(tuning::kSeamDepth) * smaller;
+  if (manifold.count == 2 &&
+      length_squared(manifold.points[1].point - manifold.points[0].point) > widest * widest)
+    return manifold;
+  const Region<Real> region = region_of(w, contact, manifold, smaller, way);
+  const bool asks_a = asked == contact.body_a;
+  const int own = asks_a ? contact.shape_a : contact.shape_b,
+            other = asks_a ? contact.shape_b : contact.shape_a;
+  Side<Real> sides[2];
+  bool looked = false;
+  const auto look_at = [&](int shape) {
+    if (!w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
+    if (!looked) {
+      sides[0] = side_of(w, contact, false, b_in_a, manifold);
+      sides[1] = side_of(w, contact, true, b_in_a, manifold);
+      looked = true;
+    }
+    const int body = w.shapes[shape].body;
+    if (body != contact.body_b) ask(w, sides[0], shape);
+    if (body != contact.body_a) ask(w, sides[1], shape);
+  };
+  for (int edge = first; edge != kNone;) {
+    const ContactRecord& record = w.contacts[edge / 2];
+    const bool is_a = (edge & 1) == 0;
+    edge = record.next[edge & 1];
+    const int beside = is_a ? record.shape_b : record.shape_a,
+              of_asked = is_a ? record.shape_a : record.shape_b;
+    if (beside != other) look_at(beside);
+    if (of_asked != own && of_asked != other) look_at(of_asked);
+  }
+  if (!looked) return manifold;
+  if (sides[0].answer.kind == Kind::Hidden || sides[1].answer.kind == Kind::Hidden) return {};
+  // Static and kinematic bodies first.
+  const int order = !w.gives_way(contact.body_a) || w.gives_way(contact.body_b) ? 0 : 1;
+  for (const int i : {order, 1 - order}) {
+    if (sides[i].answer.kind != Kind::Face) continue;
+    if (w.gives_way(sides[i].body) && !slides_along(w, contact, sides[i])) continue;
+    const ContactManifold<Real> found = on_face(w, contact, sides[i], b_in_a, reach);
+    Real deepest = 0;
+    for (int k = 0; k < found.count; ++k) deepest = std::min(deepest, found.points[k].separation);
+    return deepest < -widest ? manifold : found;
+  }
+  return manifold;
+}
+
+#define PLUMB_FOR(Real)                                                                     \
+  template ContactManifold<Real> across_seams(const WorldData<Real>&, const ContactRecord&, \
+                                              const Pose<Real>&, Real, const ContactManifold<Real>&, Real);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/world_data.h"
+
+namespace plumb {
+
+/// Corrects a contact's manifold at internal edges. If the surface consists of several shapes, the normal of
+/// an edge between them is replaced by the surface's, or all points are removed. `b_in_a` and `reach` are
+/// those of the manifold, after its bodies have moved by at most `way` (m). Manifolds of two points far apart
+/// are not changed.
+template <class Real>
+ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord& contact,
+                                   const Pose<Real>& b_in_a, Real reach,
+                                   const ContactManifold<Real>& manifold, Real way = 0);
+
+/// Returns the manifold of a contact's two shapes, b's body at `b_in_a`, corrected at internal edges; `way`
+/// as above.
+template <class Real>
+ContactManifold<Real> collide_shapes(const WorldData<Real>& w, const ContactRecord& contact,
+                                     const Pose<Real>& b_in_a, Real reach, Real way = 0) {
+  const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
+  const Corner<Real>* chain = shape_a.corners;
+  const ContactManifold<Real> manifold =
+      w.forms[contact.shape_a].chain
+          ? collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach)
+          : collide_convex(shape_a, shape_b, b_in_a, reach);
+  return manifold.count > 0 ? across_seams(w, contact, b_in_a, reach, manifold, way) : manifold;
+}
+
+}  // namespace plumb

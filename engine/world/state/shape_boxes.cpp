@@ -1,0 +1,43 @@
+#include "engine/world/state/shape_boxes.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/geometry/convex_bounds.h"
+
+namespace plumb {
+
+template <class Real>
+Aabb<Real> box_of(const WorldData<Real>& w, int shape) {
+  const int body = w.shapes[shape].body;
+  return convex_bounds(w.convex(shape), Pose<Real>{w.position[body].template as<Real>(), w.rotation[body]});
+}
+
+template <class Real>
+Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
+  const int body = w.shapes[shape].body;
+  Aabb<Real> box = w.boxes[shape];
+  // The margin covers the rounding of positions far from the origin.
+  const Real far =
+      std::max(std::abs(box.lower.x) + std::abs(box.lower.y), std::abs(box.upper.x) + std::abs(box.upper.y));
+  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * far;
+  // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
+  if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
+  box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
+  return stretched(box, (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity);
+}
+
+template <class Real>
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
+  return refresh_box_in(w, shape, dt, turned, w.tree_of(w.bodies[w.shapes[shape].body].type));
+}
+
+#define PLUMB_FOR(Real)                                              \
+  template Aabb<Real> box_of(const WorldData<Real>&, int);           \
+  template Aabb<Real> stored_box(const WorldData<Real>&, int, Real); \
+  template bool refresh_box(WorldData<Real>&, int, Real, Real);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+
+#include "engine/world/state/constants.h"
+#include "engine/world/world_data.h"
+
+/// Tight and fat AABBs of shapes, and their proxies in the trees.
+namespace plumb {
+
+/// Returns the tight AABB of a shape at its body's present pose.
+template <class Real>
+Aabb<Real> box_of(const WorldData<Real>& w, int shape);
+
+/// Returns its fat AABB: with a margin and the predicted motion of the next steps.
+template <class Real>
+Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt);
+
+/// Updates a shape's AABBs at its body's present pose, after a rotation that moved no point of it by more
+/// than `turned`, m. Returns true if its fat AABB contained the whole motion.
+template <class Real>
+bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned);
+
+/// Returns the AABB swept by a displacement `way`.
+template <class Real>
+Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
+  box.lower.x += std::min(way.x, Real(0)), box.lower.y += std::min(way.y, Real(0));
+  box.upper.x += std::max(way.x, Real(0)), box.upper.y += std::max(way.y, Real(0));
+  return box;
+}
+
+/// Stores the fat AABB of a shape in a tree (or its LateEnlarging), and adds it to the move buffer.
+template <class Real, class Tree>
+void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (!record.moved) append(w.moved_shapes, shape);
+  record.moved = true;
+  tree.enlarge(record.proxy, stored_box(w, shape, dt));
+  w.enlarged[record.body] = 1;
+}
+
+/// Returns the AABB of a fast shape through the next step, so that it never leaves its fat AABB in a step.
+/// Shapes that rotate too fast for that are not predicted.
+template <class Real>
+Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) {
+  const Aabb<Real>& box = w.boxes[shape];
+  if (turned > Real(0.5 * tuning::kBoxMargin) * w.forms[shape].extent) return box;
+  const Vec2<Real> ahead = dt * w.motion[w.shapes[shape].body].velocity;
+  return merged(box, {box.lower + ahead, box.upper + ahead}).grown(turned);
+}
+
+/// Does the same as `refresh_box` in one of the trees, or its LateEnlarging.
+template <class Real, class Tree>
+bool refresh_box_in(WorldData<Real>& w, int shape, Real dt, Real turned, Tree& tree) {
+  if (w.shapes[shape].proxy == kNone) return true;
+  const Aabb<Real> before = w.boxes[shape];
+  w.boxes[shape] = box_of(w, shape);
+  const ShapeRecord<Real>& record = w.shapes[shape];
+  const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
+  const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
+  if (!stored.contains(box_ahead(w, shape, dt, turned))) store_box(w, shape, dt, tree);
+  return covered;
+}
+
+}  // namespace plumb

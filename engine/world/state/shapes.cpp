@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/geometry/convex_bounds.h"
+#include "engine/geometry/convex_hull.h"
+#include "engine/math/trigonometry.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/mass.h"
+#include "engine/world/state/new_shape.h"
+#include "engine/world/state/shape_boxes.h"
+
+namespace plumb {
+namespace {
+
+struct Outline {
+  Corners corners;
+  double radius = 0;
+};
+
+struct MakeOutline {
+  Outline operator()(const Circle& circle) const { return {disc_corner({}), circle.radius}; }
+  Outline operator()(const Box& box) const { return {box_corners(box.width / 2, box.height / 2), 0}; }
+  Outline operator()(const Capsule& capsule) const {
+    return {capsule_corners(capsule.start, capsule.end), capsule.radius};
+  }
+  Outline operator()(const Polygon& polygon) const { return {convex_hull(polygon.points), polygon.radius}; }
+  Outline operator()(const Segment& segment) const {
+    return {capsule_corners(segment.start, segment.end), 0};
+  }
+};
+
+// Removes duplicates and stale entries, left by shapes destroyed since the last step, from the move buffer.
+template <class Real>
+void tidy_moved_shapes(WorldData<Real>& w) {
+  std::erase_if(w.moved_shapes, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
+  for (const int shape : w.moved_shapes) w.shapes[shape].moved = true;
+}
+
+template <class Real>
+void put_material(ShapeRecord<Real>& record, const Material& material) {
+  record.friction = static_cast<float>(material.friction);
+  record.restitution = static_cast<float>(material.restitution);
+  record.rolling_resistance = static_cast<float>(material.rolling_resistance);
+  record.surface_speed = static_cast<float>(material.surface_speed);
+}
+
+template <class Real>
+bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
+// Calls visit(edge, contact) for the contacts of one shape.
+template <class Real, class Visit>
+void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
+  for_each_edge(w.contacts, w.bodies[w.shapes[shape].body].first_contact,
+                [&](int edge, ContactRecord& contact) {
+                  if (contact.shape_a == shape || contact.shape_b == shape) visit(edge, contact);
+                });
+}
+
+}  // namespace
+
+template <class Real>
+NewShape<Real> prepare_shape(const ShapeDefinition& definition) {
+  NewShape<Real> made;
+  Outline outline = std::visit(MakeOutline{}, definition.geometry);
+  made.corners =
+      transformed(outline.corners, Pose<double>{definition.position, rotation_of(definition.angle)});
+  made.count = static_cast<int>(made.corners.size());
+  made.form.sensor = definition.sensor;
+  made.form.radius = static_cast<Real>(outline.radius);
+  put_material(made.record, definition.material);
+  made.record.filter = definition.filter;
+  made.record.density = static_cast<Real>(definition.density);
+  made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
+  made.user_data = definition.user_data;
+  return made;
+}
+
+template <class Real>
+NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
+  const std::vector<Vec2d>& points = definition.points;
+  const int count = static_cast<int>(points.size());
+  // Returns the vertex at `i`; an open end is its own neighbour, which makes it a corner.
+  const auto vertex = [&](int i) {
+    if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
+    return points[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
+  };
+  NewShape<Real> made;
+  const Corners segment = capsule_corners(vertex(which), vertex(which + 1));
+  made.corners = {{vertex(which - 1), {}}, segment[0], segment[1], {vertex(which + 2), {}}};
+  made.count = 2;  // two of the four corners are the segment's own
+  made.form.chain = true;
+  made.form.sensor = definition.sensor;
+  put_material(made.record, definition.material);
+  made.record.filter = definition.filter;
+  made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
+  made.user_data = definition.user_data;
+  return made;
+}
+
+template <class Real>
+void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes) {
+  const std::size_t more = shapes.size(), all = static_cast<std::size_t>(w.shapes.size()) + more;
+  typename CornerPool<Real>::Runs runs{};
+  std::size_t sensors = 0;
+  bool data = false;
+  for (const NewShape<Real>& shape : shapes) {
+    ++runs[shape.corners.size()];
+    sensors += shape.form.sensor ? 1 : 0;
+    data = data || shape.user_data != 0;
+  }
+  w.shapes.make_room(more);
+  ensure_room(w.forms, all), ensure_room(w.boxes, all);
+  w.shape_data.ensure(static_cast<int>(all), data);
+  w.corners.make_room_for(runs);
+  ensure_room(w.sensors, w.sensors.size() + sensors);
+  w.tree_of(type).make_room(more);
+  if (w.moved_shapes.size() > 2 * all) tidy_moved_shapes(w);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + more);
+}
+
+template <class Real>
+int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
+  const int shape = w.shapes.add(made.record);
+  make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
+  w.shape_data.renew(shape, w.shapes.size());
+  if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
+  ShapeForm<Real>& form = w.forms[shape];
+  form = made.form;
+  // Relative to the centre of mass.
+  const Vec2d shift = -w.bodies[body].centre.template as<double>();
+  Corner<Real> corners[kMaxCorners + 2];
+  for (std::size_t i = 0; i < made.corners.size(); ++i) {
+    corners[i] = {(made.corners[i].point + shift).template as<Real>(),
+                  made.corners[i].normal.template as<Real>()};
+  }
+  form.corner = w.corners.add({corners, made.corners.size()});
+  form.count = static_cast<std::uint16_t>(made.count);
+  const Convex<Real> convex = w.convex(shape);
+  Vec2<Real> middle{};
+  for (int i = 0; i < made.count; ++i)
+    middle += (Real(1) / static_cast<Real>(made.count)) * convex.corners[i].point;
+  form.extent = convex_extent(convex, middle);
+  ShapeRecord<Real>& record = w.shapes[shape];
+  record.body = body;
+  record.next = w.bodies[body].first_shape;
+  if (record.next != kNone) w.shapes[record.next].previous = shape;
+  w.bodies[body].first_shape = shape;
+  w.reports_hits = w.reports_hits || record.hit_events;
+  if (form.sensor) w.sensors.push_back({shape, {}});
+  return shape;
+}
+
+template <class Real>
+void note_moved(WorldData<Real>& w, int shape) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.moved) return;
+  if (w.moved_shapes.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) tidy_moved_shapes(w);
+  append(w.moved_shapes, shape);
+  record.moved = true;
+}
+
+template <class Real>
+void enter_tree(WorldData<Real>& w, int shape) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  w.boxes[shape] = box_of(w, shape);
+  if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
+  record.proxy = w.tree_of(w.bodies[record.body].type)
+                     .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
+  note_moved(w, shape);
+}
+
+template <class Real>
+void leave_tree(WorldData<Real>& w, int shape) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (record.proxy == kNone) return;  // in quarantine, or collides with nothing
+  w.tree_of(w.bodies[record.body].type).remove(record.proxy);
+  record.proxy = kNone;
+}
+
+template <class Real>
+void take_out_shape(WorldData<Real>& w, int shape) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  if (w.forms[shape].sensor) end_visits(w, shape);
+  leave_tree(w, shape);
+  const ShapeForm<Real>& form = w.forms[shape];
+  w.corners.remove(form.corner, form.stored());
+  BodyRecord<Real>& body = w.bodies[record.body];
+  (record.previous == kNone ? body.first_shape : w.shapes[record.previous].next) = record.next;
+  if (record.next != kNone) w.shapes[record.next].previous = record.previous;
+  w.shapes.remove(shape);
+}
+
+template <class Real>
+int add_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition) {
+  const NewShape<Real> made = prepare_shape<Real>(definition);
+  make_room_for<Real>(w, w.bodies[body].type, {&made, 1});
+  wake_body(w, body);
+  note_mass_change(w, body);
+  const int shape = insert_shape(w, body, made);
+  grow_extents(w, body, shape);
+  enter_tree(w, shape);
+  wake_touched(w, shape);
+  return shape;
+}
+
+template <class Real>
+void remove_shape(WorldData<Real>& w, int shape) {
+  const int body = w.shapes[shape].body;
+  wake_body(w, body);
+  note_mass_change(w, body);
+  destroy_contacts_of(w, body, shape);
+  take_out_shape(w, shape);
+}
+
+template <class Real>
+void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
+  w.tree_of(w.bodies[w.shapes[shape].body].type).make_room(1);
+  ensure_room(w.moved_shapes, w.moved_shapes.size() + 1);
+  std::size_t contacts = 0;
+  for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
+  ensure_room(w.log().end, w.log().end.size() + contacts);
+  wake_body(w, w.shapes[shape].body);
+  w.shapes[shape].filter = filter;
+  destroy_forbidden_contacts(w, shape);
+  leave_tree(w, shape);
+  enter_tree(w, shape);
+  wake_touched(w, shape);
+}
+
+// Contacts contain the old material: mixes them again, first on a copy, because a user's combine rule may
+// throw.
+template <class Real>
+void set_material(WorldData<Real>& w, int shape, const Material& material) {
+  const ShapeRecord<Real> before = w.shapes[shape];
+  put_material(w.shapes[shape], material);
+  try {
+    for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
+      ContactConstraint<Real> trial;
+      mix_materials(w, contact, trial);
+    });
+    wake_body(w, before.body);
+    for_each_contact_of(w, shape, [&](int edge, const ContactRecord& contact) {
+      if (has_points<Real>(contact)) wake_body(w, (edge & 1) == 0 ? contact.body_b : contact.body_a);
+    });
+  } catch (...) {
+    w.shapes[shape] = before;
+    throw;
+  }
+  for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
+    if (has_points<Real>(contact)) mix_materials(w, contact, constraint_of(w, contact));
+  });
+}
+
+#define PLUMB_FOR(Real)                                                                     \
+  template NewShape<Real> prepare_shape(const ShapeDefinition&);                            \
+  template NewShape<Real> prepare_segment(const ChainDefinition&, int);                     \
+  template void make_room_for(WorldData<Real>&, BodyType, std::span<const NewShape<Real>>); \
+  template int insert_shape(WorldData<Real>&, int, const NewShape<Real>&);                  \
+  template void note_moved(WorldData<Real>&, int);                                          \
+  template void enter_tree(WorldData<Real>&, int);                                          \
+  template void leave_tree(WorldData<Real>&, int);                                          \
+  template void take_out_shape(WorldData<Real>&, int);                                      \
+  template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                    \
+  template void remove_shape(WorldData<Real>&, int);                                        \
+  template void set_filter(WorldData<Real>&, int, const Filter&);                           \
+  template void set_material(WorldData<Real>&, int, const Material&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,169 @@
+#include "engine/world/step/encounter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/collision/distance/time_of_impact.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/seams.h"
+
+namespace plumb {
+namespace {
+
+// Returns an upper bound of the speed of a body's points, m/s.
+template <class Real>
+Real fastest(Vec2<Real> velocity, Real turning) {
+  return std::abs(velocity.x) + std::abs(velocity.y) + turning;
+}
+
+// Returns an upper bound of the speed of a body's points relative to its centre of mass, m/s.
+template <class Real>
+Real turning(const WorldData<Real>& w, int body) {
+  return std::abs(w.motion[body].angular_velocity) * w.extents[body];
+}
+
+// Returns true if continuous collision will treat the body as fast.
+template <class Real>
+bool is_fast(const WorldData<Real>& w, int body, Real dt) {
+  return w.gives_way(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
+                                  Real(tuning::kFastShare) * w.bodies[body].half_width;
+}
+
+// Returns true if the body is in free flight, as far as is known before the step is solved.
+template <class Real>
+bool flies(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
+  bool pressed = false;
+  if (record.constraints == 0) return true;
+  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return;
+    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
+    pressed = pressed || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+  });
+  return !pressed;
+}
+
+// Returns the body's motion in the step, relative to `origin`.
+template <class Real>
+Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Rotation<Real> q = w.rotation[body];
+  const Vec2d curve = flies(w, body) ? (0.5 * dt * dt) * free_acceleration(w, body) : Vec2d{};
+  return {w.position[body] - origin, dt * motion.velocity.template as<double>(),
+          Rotation<double>{static_cast<double>(q.c), static_cast<double>(q.s)},
+          dt * static_cast<double>(motion.angular_velocity), curve};
+}
+
+// Returns true if the bodies' displacement `closed` and rotations may carry a point across its contact plane.
+// A point that nearly touches must cross by more than a recycled manifold tolerates; otherwise it rests.
+template <class Real>
+bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
+             Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
+  const Real touching = Real(tuning::kManifoldTravel) * smaller;
+  const Rotation<Real> q = w.rotation[contact.body_a];
+  const Vec2<Real> n = q * manifold.normal;
+  const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  // Bound of the distance of a rotating point from its tangent.
+  const Real bend =
+      Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] + turn_b * turn_b * w.extents[contact.body_b]);
+  // Manifolds omit points beyond the speculative margin, which is limited. With larger displacements any
+  // point of the shape may come first.
+  const Real turned =
+      std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
+  const bool any_point =
+      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kContactReachMost) * smaller;
+  for (int i = 0; i < manifold.count; ++i) {
+    const Vec2<Real> arm = q * manifold.points[i].point;
+    const Real open = manifold.points[i].separation;
+    const Real turning = any_point ? -turned : cross(arm - between, n) * turn_b - cross(arm, n) * turn_a;
+    const Real end = open + dot(n, closed) + turning;
+    if (end < (open > touching ? bend : -touching)) return true;
+  }
+  return false;
+}
+
+// Returns true if shapes without points are to be searched.
+template <class Real>
+bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Real closing =
+      dt * fastest(w.motion[b].velocity - w.motion[a].velocity, turning(w, a) + turning(w, b));
+  const Real guessed = Real(tuning::kContactReachMost) * smaller;
+  if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
+  if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
+  if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
+  // Two bodies of similar size, neither of them fast, approach by no more than twice that.
+  return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
+}
+
+// Returns the speculative contact at a fraction of the step.
+template <class Real>
+Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
+                             const Sweep<double>& way_a, const Sweep<double>& way_b, double fraction,
+                             Real smaller, double dt) {
+  const Pose<double> at_a = pose_at(way_a, fraction), at_b = pose_at(way_b, fraction);
+  const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
+  const Vec2d between = at_b.position - at_a.position;
+  const auto rounded = [](const Rotation<double>& r) {
+    return Rotation<Real>{static_cast<Real>(r.c), static_cast<Real>(r.s)};
+  };
+  const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
+                          rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
+  Encounter<Real> at;
+  const auto moved = [](const Sweep<double>& way) {
+    return std::abs(way.motion.x) + std::abs(way.motion.y) + std::abs(way.curve.x) + std::abs(way.curve.y);
+  };
+  at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kContactReach) * smaller,
+                               static_cast<Real>(moved(way_a) + moved(way_b)));
+  if (at.manifold.count == 0) return at;
+  at.outlook = Outlook::Meets;
+  at.rotation = rounded(at_a.rotation);
+  at.between = between.template as<Real>();
+  at.closed = (between - (way_b.start - way_a.start)).template as<Real>();
+  at.turned_a = static_cast<Real>(fraction * way_a.turn),
+  at.turned_b = static_cast<Real>(fraction * way_b.turn);
+  const auto velocity = [&](const Sweep<double>& way) { return way.motion + (2 * fraction) * way.curve; };
+  at.velocity = ((1 / dt) * (velocity(way_b) - velocity(way_a))).template as<Real>();
+  return at;
+}
+
+}  // namespace
+
+template <class Real>
+Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact,
+                               const ContactManifold<Real>& closest, Real dt, Real substep) {
+  const int a = contact.body_a, b = contact.body_b;
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
+  // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
+  if (closest.count > 0 && w.gives_way(a) && w.gives_way(b) && !(flies(w, a) && flies(w, b))) return {};
+  for (int i = 0; i < closest.count; ++i)
+    if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
+  const double time = static_cast<double>(dt);
+  const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),
+                      way_b = sweep_of(w, b, w.position[a], time);
+  if (closest.count > 0) {
+    const double ahead = 1 + static_cast<double>(substep) / time;
+    const auto way = [&](const Sweep<double>& sweep) { return ahead * (sweep.motion + ahead * sweep.curve); };
+    if (!crosses(w, contact, closest, (way(way_b) - way(way_a)).template as<Real>(),
+                 static_cast<Real>(ahead * way_a.turn), static_cast<Real>(ahead * way_b.turn), smaller))
+      return {};
+  }
+  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
+  const ImpactResult<Real> impact =
+      time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), tolerance);
+  if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
+  if (impact.state != ImpactResult<Real>::State::Hit) return {};
+  return encounter_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
+}
+
+template Encounter<float> find_encounter(const WorldData<float>&, const ContactRecord&,
+                                         const ContactManifold<float>&, float, float);
+template Encounter<double> find_encounter(const WorldData<double>&, const ContactRecord&,
+                                          const ContactManifold<double>&, double, double);
+
+}  // namespace plumb

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/world_data.h"
+
+namespace plumb {
+
+/// Prediction for two separated shapes whose bodies continue through the step as they move now.
+enum class Outlook : std::uint8_t {
+  Unsearched,  ///< no contact plane would be crossed, or they touch already
+  Misses,      ///< a plane would be crossed, but the shapes pass each other
+  Meets,       ///< they touch
+};
+
+/// Speculative contact at the time of impact, set for Outlook::Meets.
+template <class Real>
+struct Encounter {
+  Outlook outlook = Outlook::Unsearched;
+  ContactManifold<Real> manifold{};  ///< at the impact, in the frame of a
+  Rotation<Real> rotation{};         ///< of a at the impact
+  Vec2<Real> between{};              ///< m, from a's centre of mass to b's at the impact
+  Vec2<Real> closed{};               ///< m, change of `between` since the step's start
+  Real turned_a = 0, turned_b = 0;   ///< rad, rotations until the impact
+  Vec2<Real> velocity{};             ///< m/s, of b's centre of mass relative to a's, at the impact
+};
+
+/// Finds the speculative contact of two shapes with the current manifold `closest`. A plane through the
+/// closest points is only a guess. It would deflect a shape that passes a corner closely, and a rotating
+/// shape hits elsewhere. So a plane that would be crossed counts only if the shapes really touch.
+///
+/// Shapes without points are searched if they approach in a step by more than the smaller extent (half of it
+/// with restitution). Otherwise the smaller shape would be deep in the other one before they had a contact.
+/// Bodies that are fast for their own size are left to continuous collision (continuous.cpp).
+///
+/// Solvers look a substep ahead, so planes count that would be crossed up to a substep after the step.
+///
+/// Bodies in free flight are predicted on their parabola, all others on a straight line.
+template <class Real>
+Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact,
+                               const ContactManifold<Real>& closest, Real dt, Real substep);
+
+}  // namespace plumb

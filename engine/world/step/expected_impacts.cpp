@@ -1,0 +1,150 @@
+#include "engine/world/step/expected_impacts.h"
+
+#include <algorithm>
+
+#include "engine/core/room.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/contacts.h"
+
+namespace plumb {
+namespace {
+
+template <class Real>
+Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) {
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
+         c.arm_a[i] * a.angular_velocity;
+}
+
+// Returns true if a body is in free flight until its impact, or is not dynamic.
+template <class Real>
+bool flies_freely(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.type != BodyType::Dynamic) return true;
+  if (w.scratch.pressed[body] || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
+  bool held = false;
+  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
+    if (contact.home == ContactHome::Parked) held = true;
+    if (contact.home == ContactHome::Graph)
+      held = held || holds(w, w.graph.at({contact.colour, contact.index}));
+  });
+  return !held;
+}
+
+// Adds a dynamic body to a list, unless it is in there.
+template <class Real>
+void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& noted, int body) {
+  if (!w.gives_way(body)) return;
+  if (noted.size() < w.motion.size()) noted.resize(w.motion.size());
+  if (noted[body]) return;
+  noted[body] = 1;
+  append(list, body);
+}
+
+// Leaves bodies to the solver that meet two or more dynamic bodies: it resolves simultaneous impacts
+// together.
+template <class Real>
+void leave_crowds(WorldData<Real>& w) {
+  std::vector<char>& met = w.scratch.expecting;
+  const auto gives_way = [&](const ContactConstraint<Real>& c) {
+    return w.gives_way(c.body_a) && w.gives_way(c.body_b);
+  };
+  for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+    if (!gives_way(impact.constraint)) continue;
+    for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
+      if (met.size() > static_cast<std::size_t>(body) && met[body]) {
+        note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
+      } else {
+        note(w, w.scratch.expecting_bodies, met, body);
+      }
+    }
+  }
+  for (const int body : w.scratch.expecting_bodies) met[body] = 0;
+  w.scratch.expecting_bodies.clear();
+}
+
+}  // namespace
+
+template <class Real>
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  const Real near = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  const Real rounding = rounding_between(w, c.body_a, c.body_b);
+  for (int i = 0; i < c.count; ++i) {
+    if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
+    if (c.separation[i] <= near && !(rate_of(w, c, i) > 0)) return true;
+  }
+  return false;
+}
+
+template <class Real>
+void clear_expected_impacts(WorldData<Real>& w) {
+  Scratch<Real>& scratch = w.scratch;
+  for (const int body : scratch.pressed_bodies) scratch.pressed[body] = 0;
+  for (const int body : scratch.expecting_bodies) scratch.expecting[body] = 0;
+  scratch.pressed_bodies.clear(), scratch.expecting_bodies.clear(), scratch.expected_impacts.clear();
+}
+
+template <class Real>
+bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
+                 const ContactConstraint<Real>& c, Real dt) {
+  const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
+  if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;
+  const Real nearest = c.count == 2
+                           ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
+                           : at.manifold.points[0].separation;
+  const Real smaller = c.push_speed / Real(tuning::kPushSpeed);
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  for (int i = 0; i < c.count; ++i) {
+    if (c.normal_impulse[i] > 0) return false;
+    if (at.manifold.points[i].separation > nearest + Real(tuning::kImpactTolerance) * smaller) continue;
+    const Real rate =
+        dot(c.normal, at.velocity) + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
+    if (-rate > bounce_threshold(w, static_cast<double>(dt))) return true;
+  }
+  return false;
+}
+
+template <class Real>
+void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  note(w, w.scratch.pressed_bodies, w.scratch.pressed, c.body_a);
+  note(w, w.scratch.pressed_bodies, w.scratch.pressed, c.body_b);
+}
+
+template <class Real>
+void decide_expected_impacts(WorldData<Real>& w) {
+  std::vector<ExpectedImpact<Real>>& impacts = w.scratch.expected_impacts;
+  if (impacts.empty()) return;
+  if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
+  leave_crowds(w);
+  // An impact left to the solver may end the free flight of its bodies, and so of others.
+  bool more = true;
+  while (more) {
+    more = false;
+    for (ExpectedImpact<Real>& impact : impacts) {
+      const ContactConstraint<Real>& c = impact.constraint;
+      if (impact.left || (flies_freely(w, c.body_a) && flies_freely(w, c.body_b))) continue;
+      impact.left = more = true;
+      note_pressed(w, c);
+    }
+  }
+  for (const ExpectedImpact<Real>& impact : impacts) {
+    if (impact.left) continue;
+    note(w, w.scratch.expecting_bodies, w.scratch.expecting, impact.constraint.body_a);
+    note(w, w.scratch.expecting_bodies, w.scratch.expecting, impact.constraint.body_b);
+  }
+}
+
+#define PLUMB_FOR(Real)                                                                           \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                    \
+  template void clear_expected_impacts(WorldData<Real>&);                                         \
+  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const Encounter<Real>&, \
+                            const ContactConstraint<Real>&, Real);                                \
+  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                   \
+  template void decide_expected_impacts(WorldData<Real>&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/world/step/encounter.h"
+#include "engine/world/world_data.h"
+
+namespace plumb {
+
+/// Returns true if a contact with points holds its bodies: it has an impulse, or touches without separating.
+template <class Real>
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c);
+
+/// Clears the expected impacts of the step before.
+template <class Real>
+void clear_expected_impacts(WorldData<Real>& w);
+
+/// Returns true if a contact's speculative contact `at` will bounce: it closes fast enough, has restitution,
+/// and no pre-solve hook. `c` is the constraint made from `at`.
+template <class Real>
+bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
+                 const ContactConstraint<Real>& c, Real dt);
+
+/// Marks the bodies of a contact that will press in this step: they are not in free flight.
+template <class Real>
+void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c);
+
+/// Decides between continuous collision and the solver for each expected impact. If nothing else holds either
+/// body, the contact has no points in this step. The bodies then rebound at the time of impact
+/// (continuous.cpp). All other impacts are marked as left to the solver.
+template <class Real>
+void decide_expected_impacts(WorldData<Real>& w);
+
+}  // namespace plumb

@@ -1,0 +1,122 @@
+#include "engine/world/step/step.h"
+#include "engine/world/state/shape_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "engine/math/trigonometry.h"
+#include "engine/world/state/bodies.h"
+#include "engine/world/state/islands.h"
+#include "engine/world/state/lock.h"
+#include "engine/world/state/quarantine.h"
+
+namespace plumb {
+namespace {
+
+// kSubstepGrowth: maximum ratio of a substep to the last one. kSubstepsMost: maximum factor on the requested
+// substeps to keep to it. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as under
+// equal ones. With 1.1 it creeps ten times as fast; without a bound it explodes at 1 and 3 in turn. A step
+// over 60 times as long as the last disturbs resting bodies.
+constexpr double kSubstepGrowth = 1.02;
+constexpr int kSubstepsMost = 16;
+
+// While this guard is alive, events go into the current step's buffer. Events raised between two steps are
+// reported with the later step.
+template <class Real>
+struct Stepping {
+  explicit Stepping(WorldData<Real>& world) : w(world) {
+    std::swap(w.events, w.pending);
+    w.pending.clear();
+    w.stepping = true;
+  }
+  ~Stepping() {
+    w.stepping = false;
+    end_use(w);
+  }
+  WorldData<Real>& w;
+};
+
+// Restores a consistent state after an interrupted step: rotations match angles, and fat AABBs contain their
+// shapes.
+template <class Real>
+void make_good(WorldData<Real>& w) {
+  w.ties_changed = true;  // islands and articulated bodies are found again
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    c.hardness =
+        w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+  });
+  for (const int body : w.awake) {
+    const Rotation<double> q = rotation_of(w.bodies[body].angle);
+    w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+    w.motion[body].moved = {}, w.motion[body].turned = 0;
+    // Direct islands may have increased the inertia of links.
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (record.type == BodyType::Dynamic) {
+      w.motion[body].inverse_mass = 1 / record.mass;
+      w.motion[body].inverse_inertia =
+          record.lock_rotation || !(record.inertia > 0) ? Real(0) : 1 / record.inertia;
+    }
+    for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
+      const int proxy = w.shapes[shape].proxy;
+      w.boxes[shape] = box_of(w, shape);
+      if (proxy == kNone || w.moving_tree.box(proxy).contains(w.boxes[shape])) continue;
+      w.moving_tree.enlarge(proxy, stored_box(w, shape, Real(0)));
+      w.enlarged[body] = 1;
+      try {
+        note_moved(w, shape);
+      } catch (const std::bad_alloc&) {
+        // It is added when it next leaves its fat AABB.
+      }
+    }
+  }
+}
+
+// Returns the number of substeps, increased if the step is longer than the last. Warm starting scales
+// impulses with h. Their convergence error grows with h, the velocities do not, so alternating long and short
+// steps would add energy. Overlaps at rest scale with h^2 and would change, too. Hence h may grow only
+// slowly. Solvers without warm starting, or that iterate to convergence, do not need this.
+template <class Real>
+int substeps_of(const WorldData<Real>& w, double dt, int asked) {
+  const bool starts_warm = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
+  if (!starts_warm || !(w.last_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0)) return asked;
+  const double longest = kSubstepGrowth * w.last_h;
+  if (dt <= longest * asked) return asked;
+  const double wanted = std::ceil(dt / longest), most = double(kSubstepsMost) * asked;
+  return static_cast<int>(std::min(wanted, most));
+}
+
+}  // namespace
+
+template <class Real>
+void step_world(WorldData<Real>& w, double dt, int substeps) {
+  settle(w);
+  // RAII guard: resets `stepping` even if a stage throws.
+  const Stepping<Real> stepping(w);
+  if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
+  find_pairs(w);
+  substeps = substeps_of(w, dt, substeps);
+  const double h = dt / substeps;
+  update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h));
+  try {
+    solve_motion(w, h, substeps);
+    report_impacts(w);
+    finish_motion(w, static_cast<Real>(dt));
+    stop_at_impacts(w, static_cast<Real>(dt));
+  } catch (...) {
+    make_good(w);
+    throw;
+  }
+  break_joints(w, h);
+  update_sensors(w);
+  sleep_islands(w);
+  w.time += dt;
+  w.last_h = h;
+  ++w.steps;
+}
+
+template void step_world(WorldData<float>&, double, int);
+template void step_world(WorldData<double>&, double, int);
+
+}  // namespace plumb

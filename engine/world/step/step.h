@@ -1,0 +1,46 @@
+#pragma once
+
+#include "engine/world/world_data.h"
+
+/// One step of the real-time world, and its stages, one file each.
+namespace plumb {
+
+/// Advances the world by `dt` in `substeps` substeps.
+template <class Real>
+void step_world(WorldData<Real>& w, double dt, int substeps);
+
+/// Broad phase: creates contacts for shapes whose fat AABBs started to overlap.
+template <class Real>
+void find_pairs(WorldData<Real>& w);
+
+/// Narrow phase: updates manifolds of shapes that touch, or may touch within `dt`; substeps have length `h`.
+template <class Real>
+void update_contacts(WorldData<Real>& w, Real dt, Real h);
+
+/// Solves velocities and motion of the awake bodies over `substeps` substeps of length `h`, by the world's
+/// solver.
+template <class Real>
+void solve_motion(WorldData<Real>& w, double h, int substeps);
+
+/// Applies the solver's motion to the bodies and updates their AABBs. Quarantines bodies with an invalid
+/// motion.
+template <class Real>
+void finish_motion(WorldData<Real>& w, Real dt);
+
+/// Moves fast bodies back to their first time of impact.
+template <class Real>
+void stop_at_impacts(WorldData<Real>& w, Real dt);
+
+/// Updates sensor overlaps and emits begin and end events.
+template <class Real>
+void update_sensors(WorldData<Real>& w);
+
+/// Reports shapes with an impact in this step as touching, and hard impacts of shapes with hit events.
+template <class Real>
+void report_impacts(WorldData<Real>& w);
+
+/// Removes joints whose force or torque exceeds their limit.
+template <class Real>
+void break_joints(WorldData<Real>& w, double h);
+
+}  // namespace plumb

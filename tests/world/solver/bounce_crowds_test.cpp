@@ -1,0 +1,61 @@
+// Impacts that are handed on within a substep: how many rounds they take.
+#include "engine/world/contact_solver/bounce_crowds.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace plumb {
+namespace {
+
+/// Discs of 1 kg on a line, each `gap` m from the next and from the walls at both ends; the first one comes
+/// with 1 m/s. Everything bounces with e = 1.
+struct Line {
+  Line(int discs, double gap) : bodies(discs + 2), rotations(discs + 2), contacts(discs + 1) {
+    for (int i = 1; i <= discs; ++i) bodies[i].inverse_mass = 1;
+    bodies[1].velocity = {1, 0};
+    for (int i = 0; i <= discs; ++i) {
+      ContactConstraint<double>& c = contacts[i];
+      c.body_a = i, c.body_b = i + 1;
+      c.normal = {1, 0};
+      c.count = 1, c.restitution = 1;
+      c.separation[0] = c.now[0] = gap;
+      c.mass[0] = 1 / (bodies[i].inverse_mass + bodies[i + 1].inverse_mass);
+      bounces.push_back({.contact = &c, .strikes = {i == 1}});
+      bounces.back().speed[0] = 1;
+    }
+  }
+
+  int resolve() {
+    return resolve_crowds(bodies.data(), rotations.data(), bounces, {.h = 0.01, .inverse_h = 100}, room);
+  }
+
+  std::vector<BodyMotion<double>> bodies;
+  std::vector<Rotation<double>> rotations;
+  std::vector<ContactConstraint<double>> contacts;
+  std::vector<Bounce<double>> bounces;
+  CrowdRoom<double> room;
+};
+
+TEST(BounceCrowds, HandAnImpactThroughALineInARoundForEachContact) {
+  Line line(200, 0);
+  line.contacts[200].separation[0] = 1;  // the wall behind the last one is far away
+  EXPECT_EQ(line.resolve(), 199);
+  EXPECT_EQ(line.bodies[1].velocity.x, 0);
+  EXPECT_EQ(line.bodies[200].velocity.x, 1);
+}
+
+TEST(BounceCrowds, GoOnAsLongAsTimePasses) {
+  // Two discs between walls, 10 um apart: after 10, 20, 30 and 50 us, and so on every 60 us until 10 ms.
+  EXPECT_NEAR(Line(2, 1e-5).resolve(), 4 * 10e-3 / 60e-6, 1);
+}
+
+TEST(BounceCrowds, EndWhereABodyIsTurnedBackAtOnceForEver) {
+  // As in the one above, but the walls hold what they push tight.
+  Line line(2, -1e-3);
+  EXPECT_LE(line.resolve(), 100);
+  EXPECT_EQ(line.bodies[1].velocity.x + line.bodies[2].velocity.x, 1);
+}
+
+}  // namespace
+}  // namespace plumb
