@@ -98,6 +98,7 @@ class Growth {
     now_.resize(bodies);
     differences_.resize(bodies);
     growth_.resize(bodies);
+    held_.resize(bodies);
     groups_ = jointed_groups(problem.scene);
     if (method.order == 1) start_joints();
     has_turning_force_.resize(bodies, false);
@@ -141,7 +142,38 @@ class Growth {
   bool adaptive() const { return method_.order == 0; }
 
   void keep(std::vector<StateBound>& out) const {
-    for (const Parts& parts : now_) out.push_back(total(parts));
+    const double h = substep();
+    for (std::size_t body = 0; body < now_.size(); ++body) {
+      StateBound bound = total(now_[body]);
+      const double late = h * held_[body], turning = late * turn_per_push(body);
+      bound.velocity += late;
+      bound.position += h * late;
+      bound.angular_velocity += turning;
+      bound.angle += h * turning;
+      out.push_back(bound);
+    }
+  }
+
+  // Returns the angular acceleration that the acceleration of a force at the body's rim goes with.
+  double turn_per_push(std::size_t index) const {
+    const Body& body = problem_.scene.bodies[index];
+    if (held_[index] == 0 || body.fixed_rotation) return 0;
+    return body.mass * bounding_radius(body) / inertia_of(body);
+  }
+
+  // Adds what the forces of lasting contacts do when they act a substep early or late. Across the motion that
+  // the contacts leave the body they take the error back, so it does not add up (`held_`). Along the motion
+  // it stays, from where the contacts begin.
+  void hold(std::size_t index, Vec2d acceleration, double angular_acceleration, Vec2d velocity, bool begins,
+            Parts& growth) {
+    const Body& body = problem_.scene.bodies[index];
+    const Vec2d force = acceleration - body.gravity_scale * problem_.scene.gravity;
+    held_[index] = std::max(held_[index], magnitude(force));
+    const double speed = magnitude(velocity);
+    if (!begins) return;
+    if (speed > 0)
+      growth.velocity += substep() * std::abs(dot(force, velocity)) / (speed * speed) * absolute(velocity);
+    growth.angular_velocity += substep() * std::abs(angular_acceleration);
   }
 
   void interval(long i) {
@@ -205,16 +237,20 @@ class Growth {
     const double angular_change =
         last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
     Parts growth;
+    if (problem_.truth.contacts_last)
+      hold(body, acceleration, angular_acceleration, after.velocity, !last.acceleration, growth);
     if (method_.order == 1) {
-      growth = {h * span * absolute(acceleration), h * absolute(change),
-                h * span * std::abs(angular_acceleration), h * std::abs(angular_change)};
+      growth.position = h * span * absolute(acceleration);
+      growth.velocity += h * absolute(change);
+      growth.angle = h * span * std::abs(angular_acceleration);
+      growth.angular_velocity += h * std::abs(angular_change);
     } else {
       const Vec2d jerk = (1 / span) * change;
       const double angular_jerk = angular_change / span;
       growth.position = h * h * absolute(change);
       growth.angle = h * h * std::abs(angular_change);
-      if (last.jerk) growth.velocity = h * h * absolute(jerk - *last.jerk);
-      if (last.angular_jerk) growth.angular_velocity = h * h * std::abs(angular_jerk - *last.angular_jerk);
+      if (last.jerk) growth.velocity += h * h * absolute(jerk - *last.jerk);
+      if (last.angular_jerk) growth.angular_velocity += h * h * std::abs(angular_jerk - *last.angular_jerk);
       if (last.acceleration) last.jerk = jerk;
       if (last.angular_acceleration) last.angular_jerk = angular_jerk;
     }
@@ -322,6 +358,7 @@ class Growth {
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
   std::vector<Parts> growth_;
+  std::vector<double> held_;  // m/s^2, the largest acceleration so far by a body's contacts
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> has_turning_force_;
   bool has_pulls_ = false;

@@ -43,6 +43,11 @@ inline constexpr double kRoundings = 4;
 /// world-fixed force at a point of the body it changes the torque (|F||r|/I per rad). Both are fed back; the
 /// rest of the motion of a jointed body is fed back only through its own variation.
 ///
+/// **Lasting contacts.** Their forces act up to a substep early or late, whatever the order of the method.
+/// With f = a - g: h |f| in velocity and h^2 |f| in position while they last, which the contact itself takes
+/// back (and m r/I of these in the angle, r the body's radius). Along the body's motion nothing takes back
+/// what is missed where they begin: dV = h |f.v|/|v|.
+///
 /// **Impacts.** One is noticed up to one substep late or early, and the existing error of the approaching
 /// bodies shifts the time further: D = h + (P_i + P_j)/closing speed. Until then the velocity is that of
 /// the other side of the jump, so P_i += |jump| D. The contact's normal has turned by

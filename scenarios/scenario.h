@@ -41,6 +41,9 @@ struct Truth {
 
   /// Times at which the exact velocities jump, s.
   std::vector<double> impacts{};
+
+  /// True if contacts last: bodies push and rub each other between impacts.
+  bool contacts_last = false;
 };
 
 /// Quantities that the scene's physics conserves.

@@ -1,0 +1,42 @@
+#include <cmath>
+
+#include "scenarios/truth/parts.h"
+#include "scenarios/truth/phases.h"
+
+// A slender block on a rough slope: it tips over its lower edge iff tan(tilt) > width/height, and then turns
+// about that edge like a pendulum, I psi'' = -m g rho cos(psi), I = (4/3) m rho^2. Source: statics; Euler.
+namespace plumb::scenarios {
+namespace {
+
+using namespace truth;
+
+constexpr double kWidth = 0.4, kHeight = 1, kFriction = 2;  // m
+
+Problem build(std::string_view variant, int) {
+  const double tilt = std::atan(kWidth / kHeight * (variant == "stands" ? 0.99 : 1.05));
+  Problem problem{.scene = scene_of("toppling_block", variant), .duration = 1};
+  const Body block = piece("block", {}, solid(Box{kWidth, kHeight}, kFriction));
+  problem.scene.bodies = {ramp(tilt, kFriction), on_ramp(tilt, block, kHeight / 2)};
+  problem.truth = equilibrium(problem.scene, "stands iff tan(tilt) <= width/height");
+  problem.conserved = {.energy = true};
+  problem.precise = within(1e-9);
+  if (variant == "stands") return problem;
+  const Vec2<Real> edge = turned(-tilt, {kWidth / 2, 0});
+  const Real rho = std::hypot(kWidth, kHeight) / 2, from = std::atan2(kHeight, -kWidth) - tilt;
+  const auto law = [=](Real psi, Real) { return -kGravity * 3 / 4 / rho * std::cos(psi); };
+  const Phases fall({from, 0}, {{second_order_law(law)}}, 1);
+  problem.truth = follow_in_contact(problem.scene, "a pendulum about its edge", [=](Real t, Moving moving) {
+    const auto y = fall.at(t);
+    const Vec2<Real> now = rho * direction(y[0]);
+    moving[0] = {edge + now, moving[0].angle + y[0] - from, cross(y[1], now), y[1]};
+  });
+  return problem;
+}
+
+const Register r{{.name = "toppling_block",
+                  .summary = "a slender block on a slope, below and above the angle at which it tips",
+                  .variants = {"stands", "topples"},
+                  .build = build}};
+
+}  // namespace
+}  // namespace plumb::scenarios

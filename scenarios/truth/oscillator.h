@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scenarios/truth/motion.h"
+
+namespace plumb::scenarios::truth {
+
+/// Place and rate of one coordinate.
+struct Swing {
+  Real place = 0, rate = 0;
+};
+
+/// Returns the solution of x'' = -w^2 x - 2 zeta w x' from `start`, for any damping ratio `zeta` >= 0. With
+/// d = w sqrt|1 - zeta^2|: x = e^(-zeta w t) (x0 c + (v0 + zeta w x0) s), where (c, s) is (cos d t, sin d
+/// t/d) below the critical damping, (1, t) at it, and (cosh d t, sinh d t/d) above. Source: any mechanics
+/// text, e.g. Taylor, Classical Mechanics, 5.4.
+Swing damped_swing(Swing start, Real w, Real zeta, Real time);
+
+}  // namespace plumb::scenarios::truth
