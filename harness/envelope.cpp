@@ -308,7 +308,8 @@ class Growth {
       const double delay = std::min(step + along(position, normal) / closing, truth_.scale().duration);
       const double lever = std::max(jump.distance - closing * delay, jump.distance / 10);
       const double turn = (jump.sliding * delay + along(position, tangent)) / lever;
-      const double share = (turn * jump.sliding + along(velocity, normal)) / closing;
+      const double gained = std::abs(dot(relative_gravity(jump), normal)) * delay;
+      const double share = (turn * jump.sliding + along(velocity, normal) + gained) / closing;
       const double size = magnitude(jump.velocity);
       bound.velocity += size * (share * absolute(normal) + turn * absolute(tangent));
       bound.angular_velocity +=
@@ -317,6 +318,14 @@ class Growth {
       bound.angle += jump.angular_velocity * delay;
       windows_.push_back({jump.body, time, delay, jump.velocity, jump.angular_velocity});
     }
+  }
+
+  // Returns the acceleration by gravity towards what the body hits: it goes on until the impact is noticed.
+  Vec2d relative_gravity(const Jump& jump) const {
+    double scale = problem_.scene.bodies[jump.body].gravity_scale;
+    if (jump.partner && problem_.scene.bodies[*jump.partner].type == BodyType::Dynamic)
+      scale -= problem_.scene.bodies[*jump.partner].gravity_scale;
+    return scale * problem_.scene.gravity;
   }
 
   // Returns angular velocity per unit of jump: the impulse's lever arm is off by the error of the contact

@@ -53,7 +53,8 @@ inline constexpr double kRoundings = 4;
 /// the other side of the jump, so P_i += |jump| D. The contact's normal has turned by
 ///   turn = (sliding speed D + P_i + P_j across the normal) / (distance of the centres - closing speed D).
 /// The jump is |jump| (u.n) n / closing in the relative velocity u and the normal n, so it is off by
-///   |jump|/closing ((turn sliding + V_i + V_j along n) along n + turn closing across n).
+///   |jump|/closing ((turn sliding + V_i + V_j along n + g D) along n + turn closing across n),
+/// with g the gravity along n that the two do not share.
 /// The lever arm of the impulse is off by the error of the contact point (a disc's only by rounding). That
 /// turns the body by m/I |jump| a unit of arm. V and P are kept by component, x and y: an error along a
 /// line of impacts does not turn their normals.

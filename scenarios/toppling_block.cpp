@@ -4,19 +4,19 @@
 #include "scenarios/truth/phases.h"
 
 // A slender block on a rough slope: it tips over its lower edge iff tan(tilt) > width/height, and then turns
-// about that edge like a pendulum, I psi'' = -m g rho cos(psi), I = (4/3) m rho^2. Source: statics; Euler.
+// about it like a pendulum. Source: statics; Euler, I = (4/3) m rho^2.
 namespace plumb::scenarios {
 namespace {
 
 using namespace truth;
 
-constexpr double kWidth = 0.4, kHeight = 1, kFriction = 2;  // m
+constexpr double kWidth = 0.4, kHeight = 1;  // m
 
 Problem build(std::string_view variant, int) {
   const double tilt = std::atan(kWidth / kHeight * (variant == "stands" ? 0.99 : 1.05));
   Problem problem{.scene = scene_of("toppling_block", variant), .duration = 1};
-  const Body block = piece("block", {}, solid(Box{kWidth, kHeight}, kFriction));
-  problem.scene.bodies = {ramp(tilt, kFriction), on_ramp(tilt, block, kHeight / 2)};
+  const Body block = piece("block", {}, solid(Box{kWidth, kHeight}, 2));
+  problem.scene.bodies = {ramp(tilt, 2), on_ramp(tilt, block, kHeight / 2)};
   problem.truth = equilibrium(problem.scene, "stands iff tan(tilt) <= width/height");
   problem.conserved = {.energy = true};
   problem.precise = within(1e-9);
@@ -27,14 +27,14 @@ Problem build(std::string_view variant, int) {
   const Phases fall({from, 0}, {{second_order_law(law)}}, 1);
   problem.truth = follow_in_contact(problem.scene, "a pendulum about its edge", [=](Real t, Moving moving) {
     const auto y = fall.at(t);
-    const Vec2<Real> now = rho * direction(y[0]);
-    moving[0] = {edge + now, moving[0].angle + y[0] - from, cross(y[1], now), y[1]};
+    const Vec2<Real> arm = rho * direction(y[0]);
+    moving[0] = {edge + arm, moving[0].angle + y[0] - from, cross(y[1], arm), y[1]};
   });
   return problem;
 }
 
 const Register r{{.name = "toppling_block",
-                  .summary = "a slender block on a slope, below and above the angle at which it tips",
+                  .summary = "a slender block on a slope that is less and more steep than it stands",
                   .variants = {"stands", "topples"},
                   .build = build}};
 

@@ -27,6 +27,20 @@ Body piece(std::string name, Vec2d position, const Shape& shape, double mass) {
   return {.name = std::move(name), .position = position, .mass = mass, .shapes = {shape}};
 }
 
+Body thrown(Body body, Vec2d velocity, double angular_velocity) {
+  body.velocity = velocity;
+  body.angular_velocity = angular_velocity;
+  return body;
+}
+
+RevoluteJoint hinge(std::string_view a, Vec2d anchor_a, std::string_view b, Vec2d anchor_b) {
+  return {.name = std::string(a) + "-" + std::string(b),
+          .body_a = std::string(a),
+          .body_b = std::string(b),
+          .anchor_a = anchor_a,
+          .anchor_b = anchor_b};
+}
+
 void name_apart(Scene& scene) {
   std::map<std::string, int> bearers, given;
   for (const Body& body : scene.bodies) ++bearers[body.name];
@@ -88,6 +102,20 @@ Truth follow_in_contact(const Scene& scene, std::string source, Path path, std::
   Truth truth = follow(scene, std::move(source), std::move(path), std::move(impacts));
   truth.contacts_last = true;
   return truth;
+}
+
+Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Acceleration> jumps) {
+  const Acceleration fall{scene.gravity.as<Real>()};
+  const auto path = [at, jumps = std::move(jumps), fall](Real time, Moving moving) {
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      moving[i] = coast(moving[i], std::fmin(time, at), fall);
+      if (time < at) continue;
+      moving[i].velocity += jumps[i].linear;
+      moving[i].angular_velocity += jumps[i].angular;
+      moving[i] = coast(moving[i], time - at, fall);
+    }
+  };
+  return follow(scene, std::move(source), path, {static_cast<double>(at)});
 }
 
 Truth equilibrium(const Scene& scene, std::string source) {

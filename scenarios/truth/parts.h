@@ -26,8 +26,14 @@ Shape solid(const Geometry& geometry, double friction = 0, double restitution = 
 /// Returns a dynamic body at rest.
 Body piece(std::string name, Vec2d position, const Shape& shape, double mass = 1);
 
+/// Returns a hinge of two bodies' anchors, named after both.
+RevoluteJoint hinge(std::string_view a, Vec2d anchor_a, std::string_view b, Vec2d anchor_b);
+
 /// Appends 0, 1, 2, ... to names that several bodies share, in their order.
 void name_apart(Scene& scene);
+
+/// Returns the body with these velocities, m/s and rad/s.
+Body thrown(Body body, Vec2d velocity, double angular_velocity = 0);
 
 /// Returns a static body.
 Body fixed(std::string name, Vec2d position, const Shape& shape, double angle = 0);
@@ -67,6 +73,10 @@ Truth follow(const Scene& scene, std::string source, Path path, std::vector<doub
 
 /// Likewise, where contacts last: they push and rub between impacts.
 Truth follow_in_contact(const Scene& scene, std::string source, Path path, std::vector<double> impacts = {});
+
+/// Returns the truth of bodies that fly freely but for one impact `at` a time. Each velocity then jumps by
+/// its part of `jumps`, in the order of the dynamic bodies.
+Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Acceleration> jumps);
 
 /// Returns the truth of bodies at rest that stay so, held by each other.
 Truth equilibrium(const Scene& scene, std::string source);

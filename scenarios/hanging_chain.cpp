@@ -1,0 +1,42 @@
+#include <cmath>
+
+#include "scenarios/truth/parts.h"
+
+// A chain of N equal uniform links hangs at rest between two points: tan(phi_k) = (W/H)(k - (N + 1)/2), W a
+// link's weight, H the tension sideways. Source: moments about the ends of each link.
+namespace plumb::scenarios {
+namespace {
+
+using namespace truth;
+
+constexpr double kSteepness = 0.4;  // W/H
+
+Problem build(std::string_view, int count) {
+  Problem problem{.scene = scene_of("hanging_chain", count), .duration = 1};
+  Vec2<Real> end{};
+  for (int k = 1; k <= count; ++k) {
+    const Real angle = std::atan(kSteepness * (k - (count + 1) / Real(2)));
+    const std::string before = k == 1 ? std::string(kWorld) : problem.scene.bodies.back().name;
+    const Vec2<Real> centre = end + Real(0.5) * direction(angle);
+    Body link = piece("link" + std::to_string(k), centre.as<double>(), untouchable(Box{1, 0.1}));
+    link.angle = static_cast<double>(angle);
+    problem.scene.joints.push_back(hinge(before, {k == 1 ? 0 : 0.5, 0}, link.name, {-0.5, 0}));
+    problem.scene.bodies.push_back(link);
+    end += direction(angle);
+  }
+  const std::string last = problem.scene.bodies.back().name;
+  problem.scene.joints.push_back(hinge(last, {0.5, 0}, kWorld, end.as<double>()));
+  problem.truth = equilibrium(problem.scene, "tan(phi_k) = (W/H)(k - (N + 1)/2)");
+  problem.conserved = {.energy = true};
+  problem.precise = within(1e-10);
+  return problem;
+}
+
+const Register r{{.name = "hanging_chain",
+                  .summary = "N links hang at rest between two points",
+                  .sizes = {2, 7},
+                  .scales = true,
+                  .build = build}};
+
+}  // namespace
+}  // namespace plumb::scenarios
