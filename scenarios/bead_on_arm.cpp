@@ -1,11 +1,9 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A bead that slides on a turning arm: r'' = w^2 r, and w (I + m r^2) stays. Source: Lagrange; e.g.
-// Goldstein, Classical Mechanics, 1.6 (there with a constant speed).
+// A bead that slides on a turning arm: r'' = w^2 r, and w (I + m r^2) stays. Source: Lagrange.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kBead = 0.5, kArm = 2, kStart = 0.4, kSpin = 3;  // kg, kg, m, rad/s
@@ -17,13 +15,13 @@ Problem build(std::string_view, int) {
       thrown(piece("bead", {kStart, 0}, untouchable(Circle{0.1}), kBead), {0, kStart * kSpin}, kSpin)};
   problem.scene.joints = {hinge(kWorld, {}, "arm", {}),
                           PrismaticJoint{.name = "slide", .body_a = "arm", .body_b = "bead"}};
-  const Real inertia = kArm * (4 + 0.1L * 0.1L) / 12 + kBead * 0.1L * 0.1L / 2;
+  const Real inertia = kArm * 4.01L / 12 + kBead * 0.01L / 2;
   const Real momentum = kSpin * (inertia + kBead * Real(kStart) * kStart);
   const auto spin = [=](Real r) { return momentum / (inertia + kBead * r * r); };
-  const Phases path({kStart, 0, 0}, {{[=](const Trajectory::State& y, Trajectory::State& rate) {
-                      rate = {y[1], spin(y[0]) * spin(y[0]) * y[0], spin(y[0])};
-                    }}},
-                    1);
+  const auto law = [=](const Trajectory::State& y, Trajectory::State& rate) {
+    rate = {y[1], spin(y[0]) * spin(y[0]) * y[0], spin(y[0])};
+  };
+  const Phases path({kStart, 0, 0}, {{law}}, 1);
   problem.truth = follow(problem.scene, "r'' = w^2 r, w (I + m r^2) constant", [=](Real t, Moving moving) {
     const auto y = path.at(t);
     const Vec2<Real> way = y[0] * direction(y[2]);

@@ -4,7 +4,6 @@
 // Three discs in a square of walls, elastic. Source: reflection; conservation of momentum and energy.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int) {

@@ -4,7 +4,6 @@
 // m2/2) g. Source: d'Alembert; virtual work.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kSingle = 3, kDouble = 2, kRatio = 2;  // kg, kg, 1

@@ -6,7 +6,6 @@
 // slip decays at mu g (1 + m/M). Source: Coulomb, Newton.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kFriction = 0.3, kBlock = 1, kCart = 3, kSpeed = 2;  // kg, m/s

@@ -6,7 +6,6 @@
 // 3 (1998).
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kHeight = 1, kRadius = 0.25;  // m

@@ -5,7 +5,6 @@
 // it bounces. Source: Galileo; Newton's restitution.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTilt = 0.3, kRestitution = 0.8, kRadius = 0.2, kDuration = 1.5;  // rad, 1, m, s

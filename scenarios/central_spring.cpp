@@ -4,7 +4,6 @@
 // t, y = (v/w) sin w t. Source: Newton, Principia, I, 10.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kStrength = 4, kStart = 1.5, kSpeed = 1.2;  // 1/s^2, m, m/s

@@ -3,7 +3,6 @@
 // Discs piled up exactly above each other: an equilibrium, though not a stable one. Source: statics.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int count) {

@@ -6,7 +6,6 @@
 // Coulomb, in the frame of the belt.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kFriction = 0.3, kSpeed = 1.5;  // m/s

@@ -5,7 +5,6 @@
 // where m g sin(a)/3 = mu N, and leaves it then. Source: e.g. Kleppner and Kolenkow, 5.6; `cylinder_truth`.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view variant, int) {

@@ -6,7 +6,6 @@
 // e^(-c t). Source: the linear first-order equation.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kLinear = 0.8, kAngular = 1.5;  // 1/s

@@ -6,7 +6,6 @@
 // A mass on a damped spring, below, at and above critical damping. Source: Taylor, Classical Mechanics, 5.4.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kMass = 2, kStiffness = 8, kStart = 0.5, kRest = 3;  // kg, N/m, m, m

@@ -6,7 +6,6 @@
 // A disc at rest between two smooth slopes, of 30 and 45 degrees. Source: statics.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int) {

@@ -7,7 +7,6 @@
 // is heavier or lighter than the link above it. Source: Lagrange; `BobChain`.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view variant, int) {

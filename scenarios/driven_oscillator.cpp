@@ -6,7 +6,6 @@
 // grows as F/(2 m w^2) (sin w t - w t cos w t) at resonance. Source: e.g. Taylor, Classical Mechanics, 5.5.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kMass = 2, kStiffness = 8, kForce = 3, kRest = 3;  // kg, N/m, N, m
@@ -20,15 +19,11 @@ Problem build(std::string_view variant, int) {
                           SinusoidalForce{"mass", {kForce, 0}, {}, drive}};
   const auto path = [=](Real t, Moving moving) {
     const auto [c, s] = direction(own * t);
-    if (drive == own) {
-      moving[0].position.x = kForce / (2 * kStiffness) * (s - own * t * c);
-      moving[0].velocity.x = kForce / (2 * kStiffness) * own * own * t * s;
-      return;
-    }
     const auto [cd, sd] = direction(drive * t);
-    const Real size = kForce / kMass / (own * own - drive * Real(drive));
-    moving[0].position.x = size * (sd - drive / own * s);
-    moving[0].velocity.x = size * drive * (cd - c);
+    const bool same = drive == own;
+    const Real size = kForce / kMass / (same ? 2 * own * own : own * own - drive * Real(drive));
+    moving[0].position.x = size * (same ? s - own * t * c : sd - drive / own * s);
+    moving[0].velocity.x = size * (same ? own * own * t * s : drive * (cd - c));
   };
   problem.truth = follow(problem.scene, "free and driven oscillation superposed (closed form)", path);
   problem.precise = within(1e-9);

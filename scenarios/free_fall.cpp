@@ -9,7 +9,6 @@
 // the step size. Source of the closed forms: any mechanics text, e.g. Taylor, Classical Mechanics, ch. 2.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kDuration = 10;

@@ -6,7 +6,6 @@
 // Coulomb.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTilt = 0.7;  // rad

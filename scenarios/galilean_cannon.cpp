@@ -6,7 +6,6 @@
 // Harter et al., Am. J. Phys. 39 (1971).
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view variant, int) {

@@ -4,7 +4,6 @@
 // Source: d'Alembert; virtual work.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTorque = 0.5, kRatio = -2;  // N m, 1

@@ -4,7 +4,6 @@
 // Source: Galileo.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int) {

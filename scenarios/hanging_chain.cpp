@@ -6,7 +6,6 @@
 // link's weight, H the tension sideways. Source: moments about the ends of each link.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kSteepness = 0.4;  // W/H
@@ -14,18 +13,18 @@ constexpr double kSteepness = 0.4;  // W/H
 Problem build(std::string_view, int count) {
   Problem problem{.scene = scene_of("hanging_chain", count), .duration = 1};
   Vec2<Real> end{};
+  std::string before(kWorld);
   for (int k = 1; k <= count; ++k) {
     const Real angle = std::atan(kSteepness * (k - (count + 1) / Real(2)));
-    const std::string before = k == 1 ? std::string(kWorld) : problem.scene.bodies.back().name;
     const Vec2<Real> centre = end + Real(0.5) * direction(angle);
     Body link = piece("link" + std::to_string(k), centre.as<double>(), untouchable(Box{1, 0.1}));
     link.angle = static_cast<double>(angle);
     problem.scene.joints.push_back(hinge(before, {k == 1 ? 0 : 0.5, 0}, link.name, {-0.5, 0}));
     problem.scene.bodies.push_back(link);
+    before = link.name;
     end += direction(angle);
   }
-  const std::string last = problem.scene.bodies.back().name;
-  problem.scene.joints.push_back(hinge(last, {0.5, 0}, kWorld, end.as<double>()));
+  problem.scene.joints.push_back(hinge(before, {0.5, 0}, kWorld, end.as<double>()));
   problem.truth = equilibrium(problem.scene, "tan(phi_k) = (W/H)(k - (N + 1)/2)");
   problem.conserved = {.energy = true};
   problem.precise = within(1e-10);

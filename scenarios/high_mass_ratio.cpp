@@ -3,7 +3,6 @@
 // A heavy box on a light one: it rests, whatever the ratio. Source: statics.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view variant, int) {

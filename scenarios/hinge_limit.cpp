@@ -7,7 +7,6 @@
 // Source: the pendulum, q'' = -(3 g/(2 L)) cos q; a limit takes no rebound.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kLength = 1, kLimit = -1;  // m, rad
@@ -19,21 +18,14 @@ Problem build(std::string_view, int) {
   RevoluteJoint joint = hinge(kWorld, {}, "rod", {-kLength / 2, 0});
   joint.limits = Range{kLimit, 1};
   problem.scene.joints = {joint};
-  const Phase fall{
-      second_order_law([](Real q, Real) { return -3 * kGravity / (2 * Real(kLength)) * std::cos(q); }),
-      [](const auto& y) { return y[0] - kLimit; },
-      [](const auto&) {
-        return Trajectory::State{kLimit, 0};
-      }};
+  const auto law = [](Real q, Real) { return -3 * kGravity / (2 * Real(kLength)) * std::cos(q); };
+  const Phase fall{second_order_law(law), [](const auto& y) { return y[0] - kLimit; },
+                   [](const auto&) {
+                     return Trajectory::State{kLimit, 0};
+                   }};
   const Phases path({0, 0}, {fall, {second_order_law([](Real, Real) { return Real(0); })}}, problem.duration);
-  problem.truth = follow(
-      problem.scene, "a pendulum until the limit, then rest",
-      [path](Real t, Moving moving) {
-        const auto y = path.at(t);
-        const Vec2<Real> arm = kLength / 2 * direction(y[0]);
-        moving[0] = {arm, y[0], cross(y[1], arm), y[1]};
-      },
-      path.ends());
+  problem.truth =
+      turning_truth(problem.scene, "a pendulum until the limit, then rest", path, {}, {kLength / 2, 0});
   problem.precise = within(1e-9);
   return problem;
 }

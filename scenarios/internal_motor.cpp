@@ -4,7 +4,6 @@
 // torque until they have the motor's speed. Source: conservation of angular momentum.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTorque = 0.2, kInertia1 = 0.16, kInertia2 = 0.02;  // N m, kg m^2

@@ -6,7 +6,6 @@
 // Physics, 1.246; the ODEs stand in `ladder_truth`.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kAngle = 0.3;  // rad, from the vertical

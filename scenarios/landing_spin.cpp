@@ -7,7 +7,6 @@
 // Bodies, I, ch. 4; tangential restitution 0.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kHeight = 0.5, kRadius = 0.25, kRestitution = 0.6, kSpeed = 2, kSpin = 10;  // SI

@@ -4,7 +4,6 @@
 // as it is. Source: statics.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int rows) {

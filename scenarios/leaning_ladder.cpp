@@ -7,7 +7,6 @@
 // >= tan(a)/2; so do two cards that lean on each other. Else it slips: `Ladder`. Source: statics; Coulomb.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kAngle = 0.5;  // rad, from the vertical

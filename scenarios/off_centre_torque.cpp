@@ -13,7 +13,6 @@
 // space without contacts, so only r x F, the inertia, and the angle used within a step matter.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kPush = 1;    // s, duration of the world-fixed force

@@ -5,7 +5,6 @@
 // Monthly 116 (2009).
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kHeight = 0.25;  // m

@@ -9,7 +9,6 @@
 // elliptic integral; e.g. Landau and Lifshitz, Mechanics, 11.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kLength = 1;  // m
@@ -21,15 +20,12 @@ Problem build(std::string_view variant, int) {
   problem.scene.bodies = {
       piece("bob", kLength * Vec2d{std::sin(from), -std::cos(from)}, untouchable(Circle{0.1}), 2)};
   problem.scene.joints = {
-      DistanceJoint{.name = "rod", .body_a = std::string(kWorld), .body_b = "bob", .length = kLength}};
+      DistanceJoint{.name = "rod", .body_a = "world", .body_b = "bob", .length = kLength}};
   const auto law = [](Real angle, Real) { return -kGravity / Real(kLength) * std::sin(angle); };
   const Phases swing({from, 0}, {{second_order_law(law)}}, problem.duration);
-  problem.truth = follow(problem.scene, "phi'' = -(g/L) sin(phi), long double Runge-Kutta-Fehlberg 7(8)",
-                         [swing](Real t, Moving moving) {
-                           const auto y = swing.at(t);
-                           const Vec2<Real> rod = turned(y[0], {0, -kLength});
-                           moving[0] = {rod, 0, cross(y[1], rod), 0};
-                         });
+  problem.truth =
+      turning_truth(problem.scene, "phi'' = -(g/L) sin(phi), long double Runge-Kutta-Fehlberg 7(8)", swing,
+                    {}, {0, -kLength}, false);
   problem.conserved = {.energy = true};
   problem.precise = within(1e-9);
   return problem;

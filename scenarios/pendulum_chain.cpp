@@ -11,7 +11,6 @@
 // forces are large and the motion is soon like a whip, which shows the errors of iterative joint solvers.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kLength = 1, kMass = 1, kGravity = 9.81;

@@ -6,7 +6,6 @@
 // pi, Regul. Chaotic Dyn. 8 (2003).
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view variant, int) {

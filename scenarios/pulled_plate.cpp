@@ -6,7 +6,6 @@
 // A/(3 g), with A = F/(M + n m/3); else they slip at mu g. Source: Newton and Euler, I = m r^2/2.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kPull = 6, kPlate = 2, kDiscs = 3, kRadius = 0.2;  // N, kg, kg in all, m
@@ -22,13 +21,11 @@ Problem build(std::string_view variant, int) {
   scene.forces = {PointForce{.body = "plate", .force = {kPull, 0}}};
   const Real rolling = Real(kPull) / (kPlate + kDiscs / 3) / 3;
   const Real gain = std::fmin(rolling, Real(friction) * kGravity);  // of each disc
-  const Real plate = (kPull - kDiscs * gain) / kPlate;
-  problem.truth = follow_in_contact(scene, "a third of the plate's acceleration F/(M + n m/3), or mu g",
-                                    [=](Real t, Moving moving) {
-                                      moving[0] = coast(moving[0], t, {{plate, 0}});
-                                      for (Motion& disc : moving.subspan(1))
-                                        disc = coast(disc, t, {{gain, 0}, 2 * gain / kRadius});
-                                    });
+  const auto path = [=](Real t, Moving moving) {
+    moving[0] = coast(moving[0], t, {{(kPull - kDiscs * gain) / kPlate, 0}});
+    for (Motion& disc : moving.subspan(1)) disc = coast(disc, t, {{gain, 0}, 2 * gain / kRadius});
+  };
+  problem.truth = follow_in_contact(scene, "a third of the plate's F/(M + n m/3), or mu g", path);
   problem.precise = within(1e-10);
   return problem;
 }

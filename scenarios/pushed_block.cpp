@@ -6,7 +6,6 @@
 // then comes to rest at -mu g. Source: Coulomb.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kFriction = 0.5, kMass = 2, kPush = 0.5;  // kg, s

@@ -5,7 +5,6 @@
 // A block on a ramp: it slips iff tan(tilt) > mu, and then at a = g (sin - mu cos). Source: Coulomb, 1785.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTilt = 0.4;  // rad

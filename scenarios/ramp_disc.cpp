@@ -6,7 +6,6 @@
 // cos), and friction turns it at 2 mu g cos/r. Source: Newton and Euler with Coulomb friction, I = m r^2/2.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTilt = 0.4, kRadius = 0.25;  // rad, m

@@ -5,7 +5,6 @@
 // stays. Source: Galileo; the scene's rule.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kRestitution = 0.5, kRadius = 0.2;  // m

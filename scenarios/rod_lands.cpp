@@ -7,7 +7,6 @@
 // restitution; e.g. Kleppner and Kolenkow, ch. 6.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kAngle = 0.3, kRestitution = 0.5, kLength = 1, kThick = 0.1, kDrop = 0.2;  // SI

@@ -7,32 +7,25 @@
 // with which the mass swings on. Source: Galileo; a rope takes no rebound; the pendulum.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
-constexpr double kFrom = 0.6, kLength = 1;  // m
-
 Problem build(std::string_view variant, int) {
-  const double x = choose(variant, {{"stops", 0}, {"swings", kFrom}});
+  const double x = choose(variant, {{"stops", 0}, {"swings", 0.6}});
   Problem problem{.scene = scene_of("rope", variant), .duration = 1.5};
   problem.scene.bodies = {piece("mass", {x, -0.2}, untouchable(Circle{0.1}), 2)};
-  problem.scene.joints = {DistanceJoint{.name = "rope",
-                                        .body_a = std::string(kWorld),
-                                        .body_b = "mass",
-                                        .length = kLength,
-                                        .range = Range{0, kLength}}};
+  DistanceJoint rope{.name = "rope", .body_a = "world", .body_b = "mass", .length = 1};
+  rope.range = Range{0, 1};
+  problem.scene.joints = {rope};
   const Real angle = std::asin(Real(x)), depth = std::cos(angle);
   const Real taut = std::sqrt(2 * (depth - 0.2L) / kGravity), rate = -kGravity * taut * std::sin(angle);
-  const auto law = [](Real q, Real) { return -kGravity / Real(kLength) * std::sin(q); };
+  const auto law = [](Real q, Real) { return -kGravity * std::sin(q); };
   const Phases swing({angle, rate}, {{second_order_law(law)}}, problem.duration);
-  problem.truth = follow(problem.scene, "free fall, then a pendulum with the speed across the rope",
-                         [=](Real t, Moving moving) {
-                           moving[0] = coast(moving[0], t, {{0, -kGravity}});
-                           if (t < taut) return;
-                           const auto y = swing.at(t - taut);
-                           const Vec2<Real> arm = turned(y[0], {0, -kLength});
-                           moving[0] = {arm, 0, cross(y[1], arm), 0};
-                         },
+  const auto path = [=](Real t, Moving moving) {
+    const auto y = swing.at(std::fmax(t - taut, Real(0)));
+    const Vec2<Real> arm = turned(y[0], {0, -1});
+    moving[0] = t < taut ? coast(moving[0], t, {{0, -kGravity}}) : Motion{arm, 0, cross(y[1], arm), 0};
+  };
+  problem.truth = follow(problem.scene, "free fall, then a pendulum with the speed across the rope", path,
                          {static_cast<double>(taut)});
   problem.precise = within(1e-9);
   return problem;

@@ -6,18 +6,16 @@
 // a^2/12 of a triangle of equal sides, and that of two discs by the parallel axes. Source: Huygens; Steiner.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTorque = 0.5, kMass = 3;  // N m, kg
 
 Problem build(std::string_view, int) {
   Problem problem{.scene = scene_of("shapes_of_inertia", "", 0), .duration = 1};
-  const double high = std::sqrt(0.75), third = high / 3;
+  const double third = std::sqrt(0.75) / 3;  // of the height
   Body pair = piece("pair", {2, 0}, untouchable(Circle{0.2}), kMass);
   pair.shapes.push_back(pair.shapes[0]);
-  pair.shapes[0].position = {-0.5, 0};
-  pair.shapes[1].position = {0.5, 0};
+  for (const int side : {0, 1}) pair.shapes[side].position = {side - 0.5, 0};
   problem.scene.bodies = {
       piece("box", {-4, 0}, untouchable(Box{0.8, 0.3}), kMass),
       piece("disc", {-2, 0}, untouchable(Circle{0.4}), kMass),
@@ -25,11 +23,11 @@ Problem build(std::string_view, int) {
       pair};
   for (const Body& body : problem.scene.bodies) problem.scene.forces.push_back(Torque{body.name, kTorque});
   const std::vector<Real> gyration = {(0.64L + 0.09L) / 12, 0.16L / 2, 1 / Real(12), 0.04L / 2 + 0.25L};
-  problem.truth = follow(problem.scene, "T t/I by each shape's formula (Huygens, Steiner)",
-                         [gyration](Real t, Moving moving) {
-                           for (std::size_t i = 0; i < moving.size(); ++i)
-                             moving[i] = coast(moving[i], t, {{}, kTorque / (kMass * gyration[i])});
-                         });
+  const auto path = [gyration](Real t, Moving moving) {
+    for (std::size_t i = 0; i < moving.size(); ++i)
+      moving[i] = coast(moving[i], t, {{}, kTorque / (kMass * gyration[i])});
+  };
+  problem.truth = follow(problem.scene, "T t/I by each shape's formula (Huygens, Steiner)", path);
   problem.precise = within(1e-10);
   return problem;
 }

@@ -7,7 +7,6 @@
 // Source: Coulomb; Euler, 1758; Coriolis, Theorie mathematique des effets du jeu de billard, 1835.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kFriction = 0.2, kRadius = 0.25;  // m

@@ -5,7 +5,6 @@
 // A block slides to rest: t = v0/(mu g) and x = v0^2/(2 mu g). Source: Coulomb.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kFriction = 0.4, kSpeed = 3;  // m/s

@@ -7,7 +7,6 @@
 // thickness h). Source: Newton's restitution with J = (1 + e) u/(1/m + 1/M + d^2/I).
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kSpeed = 3, kMass = 3, kLength = 2, kThick = 0.1, kOff = 0.7, kRadius = 0.2;

@@ -5,7 +5,6 @@
 // edge, I q'' = -m g x with x the way from the edge to the centre. Source: statics; Euler.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kHalf = 0.125;  // m, of its height
@@ -23,10 +22,8 @@ Problem build(std::string_view variant, int) {
   const Real inertia = (1 + 4 * kHalf * kHalf) / 12 + length_squared(arm);
   const auto law = [=](Real angle, Real) { return -kGravity * turned(angle, arm).x / inertia; };
   const Phases fall({0, 0}, {{second_order_law(law)}}, 1);
-  problem.truth = follow_in_contact(problem.scene, "a pendulum about the edge", [=](Real t, Moving moving) {
-    const auto y = fall.at(t);
-    moving[0] = {turned(y[0], arm), y[0], cross(y[1], turned(y[0], arm)), y[1]};
-  });
+  problem.truth = turning_truth(problem.scene, "a pendulum about the edge", fall, {}, arm);
+  problem.truth.contacts_last = true;
   return problem;
 }
 

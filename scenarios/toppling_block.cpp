@@ -7,7 +7,6 @@
 // about it like a pendulum. Source: statics; Euler, I = (4/3) m rho^2.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kWidth = 0.4, kHeight = 1;  // m
@@ -25,11 +24,8 @@ Problem build(std::string_view variant, int) {
   const Real rho = std::hypot(kWidth, kHeight) / 2, from = std::atan2(kHeight, -kWidth) - tilt;
   const auto law = [=](Real psi, Real) { return -kGravity * 3 / 4 / rho * std::cos(psi); };
   const Phases fall({from, 0}, {{second_order_law(law)}}, 1);
-  problem.truth = follow_in_contact(problem.scene, "a pendulum about its edge", [=](Real t, Moving moving) {
-    const auto y = fall.at(t);
-    const Vec2<Real> arm = rho * direction(y[0]);
-    moving[0] = {edge + arm, moving[0].angle + y[0] - from, cross(y[1], arm), y[1]};
-  });
+  problem.truth = turning_truth(problem.scene, "a pendulum about its edge", fall, edge, {rho, 0});
+  problem.truth.contacts_last = true;
   return problem;
 }
 

@@ -5,7 +5,6 @@
 // A torque for a while, on a disc and on a box: the spin grows at T/I, and stays. Source: Euler.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kTorque = 1.5, kFrom = 0.25, kFor = 0.5;  // N m, s, s

@@ -7,7 +7,6 @@
 // with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kLight = 1, kHeavy = 3;  // kg
@@ -16,18 +15,17 @@ Problem build(std::string_view variant, int) {
   const double e = choose(variant, {{"circle", 0}, {"ellipse", 0.5}});
   Problem problem{.scene = scene_of("two_body", variant, 0), .duration = 2 * std::numbers::pi};
   const double light = kHeavy / (kLight + kHeavy), heavy = light - 1;  // parts of the way between them
-  const Motion start = orbit(e, 0);
-  const Vec2d way = start.position.as<double>(), rate = start.velocity.as<double>();
+  const Vec2d way{1 - e, 0}, rate = orbit(e, 0).velocity.as<double>();
   problem.scene.bodies = {
       thrown(piece("light", light * way, untouchable(Circle{0.1}), kLight), light * rate),
       thrown(piece("heavy", heavy * way, untouchable(Circle{0.15}), kHeavy), heavy * rate)};
   problem.scene.forces = {AttractionForce{.body = "light", .centre_body = "heavy", .strength = light}};
-  problem.truth =
-      follow(problem.scene, "Kepler's equation for the way between them", [=](Real t, Moving moving) {
-        const Motion now = orbit(e, t);
-        moving[0] = {light * now.position, 0, light * now.velocity, 0};
-        moving[1] = {heavy * now.position, 0, heavy * now.velocity, 0};
-      });
+  const auto path = [=](Real t, Moving moving) {
+    const Motion now = orbit(e, t);
+    moving[0] = {light * now.position, 0, light * now.velocity, 0};
+    moving[1] = {heavy * now.position, 0, heavy * now.velocity, 0};
+  };
+  problem.truth = follow(problem.scene, "Kepler's equation for the way between them", path);
   problem.conserved = {.energy = true, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
   problem.precise = within(1e-7);
   return problem;

@@ -3,7 +3,6 @@
 // A stack of equal boxes on the ground stays as it is. Source: statics.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 Problem build(std::string_view, int count) {

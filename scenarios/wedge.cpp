@@ -7,7 +7,6 @@
 // Kolenkow, 2.20.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kWedge = 2, kBlock = 1;  // kg

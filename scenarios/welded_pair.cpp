@@ -4,7 +4,6 @@
 // Source: Galileo, Euler.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr Real kArm[] = {-0.6, 0.2};  // m from the centre of mass; m1 r1 + m2 r2 = 0

@@ -12,18 +12,9 @@
 #include "scenarios/truth/parts.h"
 
 namespace plumb::scenarios::truth {
-namespace {
 
-constexpr std::size_t kMostImpacts = 100'000;
-
-struct Impact {
-  Real delay = std::numeric_limits<Real>::infinity();
-  std::size_t first = 0, second = 0;
-  const Wall* wall = nullptr;  // in place of the second disc
-};
-
-/// Returns the time until the two touch; infinite if they miss. After an impact a pair separates; after a
-/// plastic one rounding alone makes it approach, which does not count.
+// After an impact a pair separates; after a plastic one rounding alone makes it approach, which does not
+// count.
 Real time_to_touch(const Disc& first, const Disc& second) {
   constexpr Real kNever = std::numeric_limits<Real>::infinity();
   const Vec2<Real> d = second.motion.position - first.motion.position;
@@ -39,6 +30,16 @@ Real time_to_touch(const Disc& first, const Disc& second) {
   const Real gap = length_squared(d) - reach * reach;
   return std::max<Real>(0, gap / (approach + std::sqrt(discriminant)));
 }
+
+namespace {
+
+constexpr std::size_t kMostImpacts = 100'000;
+
+struct Impact {
+  Real delay = std::numeric_limits<Real>::infinity();
+  std::size_t first = 0, second = 0;
+  const Wall* wall = nullptr;  // in place of the second disc
+};
 
 /// Returns the time until a disc touches a wall: the first root of gap + rate t + half t^2 at which it
 /// approaches, in the form without cancellation.

@@ -14,6 +14,9 @@ struct Disc {
   Motion motion{};
 };
 
+/// Returns the time until two discs without gravity touch, s; infinite if they miss.
+Real time_to_touch(const Disc& first, const Disc& second);
+
 /// A fixed line that reflects discs on the side of its normal.
 struct Wall {
   Vec2<Real> point{};   ///< m

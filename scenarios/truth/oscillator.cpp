@@ -1,6 +1,7 @@
 #include "scenarios/truth/oscillator.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace plumb::scenarios::truth {
 
@@ -14,6 +15,18 @@ Swing damped_swing(Swing start, Real w, Real zeta, Real time) {
   const Real place = start.place * c + slope * s;
   const Real rate = slope * c - start.place * w * w * square * s - zeta * w * place;
   return {decay * place, decay * rate};
+}
+
+Swing chain_swing(int count, int j, Real w, Real pulled, Real time) {
+  const Real unit = std::numbers::pi_v<Real> / (count + 1);
+  Swing sum;
+  for (int k = 1; k <= count; ++k) {
+    const Real size = 2 * pulled / (count + 1) * std::sin(k * unit) * std::sin(j * k * unit);
+    const Real rate = 2 * w * std::sin(k * unit / 2);
+    sum.place += size * std::cos(rate * time);
+    sum.rate -= size * rate * std::sin(rate * time);
+  }
+  return sum;
 }
 
 }  // namespace plumb::scenarios::truth

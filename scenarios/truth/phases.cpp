@@ -33,6 +33,7 @@ Phases::Phases(Trajectory::State start, std::vector<Phase> phases, Real horizon,
     if (phase.then) start = phase.then(start);
     now += *end;
     ends_.push_back(static_cast<double>(now));
+    if (phase.then) jumps_.push_back(ends_.back());
   }
 }
 
@@ -40,6 +41,22 @@ Trajectory::State Phases::at(Real time) const {
   std::size_t part = parts_.size() - 1;
   while (part > 0 && parts_[part].start > time) --part;
   return parts_[part].path->at(time - parts_[part].start);
+}
+
+Truth turning_truth(const Scene& scene, std::string source, const Phases& path, Vec2<Real> pivot,
+                    Vec2<Real> arm, bool turns) {
+  const Real first = path.at(0)[0];
+  return follow(
+      scene, std::move(source),
+      [=](Real time, Moving moving) {
+        const Trajectory::State y = path.at(time);
+        const Vec2<Real> now = turned(y[0], arm);
+        const Motion start = moving[0];
+        moving[0] = {pivot + now, start.angle, cross(y[1], now), 0};
+        if (turns) moving[0].angle += y[0] - first;
+        if (turns) moving[0].angular_velocity = y[1];
+      },
+      path.jumps());
 }
 
 Trajectory::Law second_order_law(std::function<Real(Real q, Real rate)> acceleration) {

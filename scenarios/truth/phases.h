@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "scenarios/truth/parts.h"
 #include "scenarios/truth/trajectory.h"
 
 namespace plumb::scenarios::truth {
@@ -29,14 +31,23 @@ class Phases {
   /// Returns the times at which phases end, s.
   const std::vector<double>& ends() const { return ends_; }
 
+  /// Returns those of them at which the state jumps, s.
+  const std::vector<double>& jumps() const { return jumps_; }
+
  private:
   struct Part {
     Real start;
     std::shared_ptr<const Trajectory> path;
   };
   std::vector<Part> parts_;
-  std::vector<double> ends_;
+  std::vector<double> ends_, jumps_;
 };
+
+/// Returns the truth of the one dynamic body of `scene`, whose centre goes round `pivot`: at (angle, rate) =
+/// `path` it is at pivot + `arm` turned by the angle. The body turns with the arm if `turns`. Its impacts
+/// are the jumps of the path.
+Truth turning_truth(const Scene& scene, std::string source, const Phases& path, Vec2<Real> pivot,
+                    Vec2<Real> arm, bool turns = true);
 
 /// Returns the law of y = (q, q') with q'' = `acceleration`(q, q').
 Trajectory::Law second_order_law(std::function<Real(Real q, Real rate)> acceleration);
