@@ -8,16 +8,14 @@ namespace plumb::scenarios {
 namespace {
 using namespace truth;
 
-constexpr double kSteepness = 0.4;  // W/H
-
 Problem build(std::string_view, int count) {
   Problem problem{.scene = scene_of("hanging_chain", count), .duration = 1};
   Vec2<Real> end{};
   std::string before(kWorld);
   for (int k = 1; k <= count; ++k) {
-    const Real angle = std::atan(kSteepness * (k - (count + 1) / Real(2)));
-    const Vec2<Real> centre = end + Real(0.5) * direction(angle);
-    Body link = piece("link" + std::to_string(k), centre.as<double>(), untouchable(Box{1, 0.1}));
+    const Real angle = std::atan(0.4L * (k - (count + 1) / Real(2)));
+    const Vec2d centre = (end + Real(0.5) * direction(angle)).as<double>();
+    Body link = piece("link" + std::to_string(k), centre, untouchable(Box{1, 0.1}));
     link.angle = static_cast<double>(angle);
     problem.scene.joints.push_back(hinge(before, {k == 1 ? 0 : 0.5, 0}, link.name, {-0.5, 0}));
     problem.scene.bodies.push_back(link);

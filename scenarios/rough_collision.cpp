@@ -22,8 +22,7 @@ Problem build(std::string_view variant, int) {
   const Real at = time_to_touch({1, kCue, a}, {1, kObject, motion_of(object)});
   const Vec2<Real> n = -1 / Real(kCue + kObject) * coast(a, at).position, across = perpendicular(n);
   const Real push = (1 + Real(kRestitution)) * dot(a.velocity, n) / 2;
-  const Real slip = dot(a.velocity, across) + a.angular_velocity * kCue;  // positive
-  const Real rub = -std::fmin(slip / 6, friction * push);
+  const Real rub = -std::fmin((dot(a.velocity, across) + a.angular_velocity * kCue) / 6, friction * push);
   const Vec2<Real> impulse = rub * across - push * n;  // on the cue
   problem.truth = one_impact(problem.scene, "Newton's restitution; friction ends the slip, or slips", at,
                              {{impulse, 2 * rub / kCue}, {-impulse, 2 * rub / kObject}});

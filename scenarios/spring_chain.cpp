@@ -17,14 +17,14 @@ Problem build(std::string_view, int count) {
   for (int i = 1; i <= count; ++i)
     problem.scene.bodies.push_back(piece(name(i), {1.0 * i, 0}, untouchable(Circle{0.1}), kMass));
   problem.scene.bodies[0].position.x += kPulled;
-  for (int i = 0; i <= count; ++i)
-    problem.scene.forces.push_back(
-        SpringForce{name(i), name(i + 1), {}, {i == count ? count + 1.0 : 0, 0}, 1, kStiffness});
+  for (int i = 0; i <= count; ++i) {
+    const Vec2d anchor{i == count ? count + 1.0 : 0, 0};
+    problem.scene.forces.push_back(SpringForce{name(i), name(i + 1), {}, anchor, 1, kStiffness});
+  }
   const auto path = [count](Real t, Moving moving) {
     for (int j = 1; j <= count; ++j) {
       const Swing now = chain_swing(count, j, std::sqrt(Real(kStiffness) / kMass), kPulled, t);
-      moving[j - 1].position.x = j + now.place;
-      moving[j - 1].velocity.x = now.rate;
+      moving[j - 1] = {{j + now.place, 0}, 0, {now.rate, 0}, 0};
     }
   };
   problem.truth = follow(problem.scene, "normal modes, w_k = 2 sqrt(k/m) sin(k pi/(2 (N + 1)))", path);
@@ -33,11 +33,7 @@ Problem build(std::string_view, int count) {
   return problem;
 }
 
-const Register r{{.name = "spring_chain",
-                  .summary = "N masses and springs between walls",
-                  .sizes = {2, 12},
-                  .scales = true,
-                  .build = build}};
+const Register r{{"spring_chain", "N masses and springs between walls", {""}, {2, 12}, true, build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

@@ -12,7 +12,7 @@ namespace plumb::scenarios::truth {
 Scene scene_of(std::string_view name, std::string_view variant, double gravity) {
   std::string label(name);
   if (!variant.empty()) label += "/" + std::string(variant);
-  return {.name = std::move(label), .gravity = {0, -gravity}};
+  return {.name = std::move(label), .gravity = {0, 0 - gravity}};  // no negative zero
 }
 
 Scene scene_of(std::string_view name, int size, double gravity) {

@@ -19,4 +19,6 @@ if(TARGET test_scenarios)
   target_sources(test_scenarios PRIVATE ${example})
   set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/doc_example_test.cpp APPEND PROPERTY
     COMPILE_DEFINITIONS PLUMB_DOC_EXAMPLE="${example}")
+  set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/registry_test.cpp APPEND PROPERTY
+    COMPILE_DEFINITIONS PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endif()
