@@ -99,6 +99,8 @@ class Growth {
     differences_.resize(bodies);
     growth_.resize(bodies);
     held_.resize(bodies);
+    pulled_.resize(bodies);
+    levers_.resize(bodies);
     groups_ = jointed_groups(problem.scene);
     if (method.order == 1) start_joints();
     has_turning_force_.resize(bodies, false);
@@ -129,6 +131,8 @@ class Growth {
     for (const Joint& joint : problem_.scene.joints) {
       std::visit(
           [&](const auto& j) {
+            if constexpr (requires { j.anchor_a; }) add_lever(j.body_a, j.anchor_a);
+            if constexpr (requires { j.anchor_b; }) add_lever(j.body_b, j.anchor_b);
             for (const std::string& name : {j.body_a, j.body_b})
               if (const auto body = find_body(problem_.scene, name))
                 differences_[*body] = {problem_.scene.bodies[*body].gravity_scale * problem_.scene.gravity,
@@ -138,14 +142,21 @@ class Growth {
     }
   }
 
+  void add_lever(const std::string& name, Vec2d anchor) {
+    if (const auto body = find_body(problem_.scene, name))
+      levers_[*body] = std::max(levers_[*body], magnitude(anchor));
+  }
+
   double substep() const { return method_.substep; }
   bool adaptive() const { return method_.order == 0; }
 
   void keep(std::vector<StateBound>& out) const {
-    const double h = substep();
+    const double h = substep() * (1 + kRoundings * method_.epsilon);
     for (std::size_t body = 0; body < now_.size(); ++body) {
       StateBound bound = total(now_[body]);
-      const double late = h * held_[body], turning = late * turn_per_push(body);
+      const double late = h * held_[body];
+      const double turning = late * turn_per_push(body, bounding_radius(problem_.scene.bodies[body])) +
+                             h * pulled_[body] * turn_per_push(body, levers_[body]);
       bound.velocity += late;
       bound.position += h * late;
       bound.angular_velocity += turning;
@@ -154,11 +165,11 @@ class Growth {
     }
   }
 
-  // Returns the angular acceleration that the acceleration of a force at the body's rim goes with.
-  double turn_per_push(std::size_t index) const {
+  // Returns the angular acceleration by a force at a lever, per acceleration.
+  double turn_per_push(std::size_t index, double lever) const {
     const Body& body = problem_.scene.bodies[index];
-    if (held_[index] == 0 || body.fixed_rotation) return 0;
-    return body.mass * bounding_radius(body) / inertia_of(body);
+    if (lever == 0 || body.type != BodyType::Dynamic || body.fixed_rotation) return 0;
+    return body.mass * lever / inertia_of(body);
   }
 
   // Adds what the forces of lasting contacts do when they act a substep early or late. Across the motion that
@@ -237,6 +248,9 @@ class Growth {
     const double angular_change =
         last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
     Parts growth;
+    pulled_[body] = std::max(
+        pulled_[body],
+        magnitude(acceleration - problem_.scene.bodies[body].gravity_scale * problem_.scene.gravity));
     if (problem_.truth.contacts_last)
       hold(body, acceleration, angular_acceleration, after.velocity, !last.acceleration, growth);
     if (method_.order == 1) {
@@ -367,7 +381,9 @@ class Growth {
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
   std::vector<Parts> growth_;
-  std::vector<double> held_;  // m/s^2, the largest acceleration so far by a body's contacts
+  // m/s^2, the largest acceleration so far by a body's lasting contacts, and by what is not gravity.
+  std::vector<double> held_, pulled_;
+  std::vector<double> levers_;  // m, from a body's centre to its farthest joint
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> has_turning_force_;
   bool has_pulls_ = false;

@@ -41,7 +41,9 @@ inline constexpr double kRoundings = 4;
 ///
 /// **Forces that turn.** An angle error turns the acceleration of a body-fixed force (|F|/m per rad). For a
 /// world-fixed force at a point of the body it changes the torque (|F||r|/I per rad). Both are fed back; the
-/// rest of the motion of a jointed body is fed back only through its own variation.
+/// rest of the motion of a jointed body is fed back only through its own variation. A joint's force that acts
+/// a substep early or late turns the body until the joint takes it back: h m r/I |a - g| in the angular
+/// velocity and h times that in the angle, with r the joint's distance from the centre.
 ///
 /// **Lasting contacts.** Their forces act up to a substep early or late, whatever the order of the method.
 /// With f = a - g: h |f| in velocity and h^2 |f| in position while they last, which the contact itself takes

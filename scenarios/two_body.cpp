@@ -17,13 +17,13 @@ Problem build(std::string_view variant, int) {
   const double light = kHeavy / (kLight + kHeavy), heavy = light - 1;  // parts of the way between them
   const Vec2d way{1 - e, 0}, rate = orbit(e, 0).velocity.as<double>();
   problem.scene.bodies = {
-      thrown(piece("light", light * way, untouchable(Circle{0.1}), kLight), light * rate),
-      thrown(piece("heavy", heavy * way, untouchable(Circle{0.15}), kHeavy), heavy * rate)};
+      thrown(piece("light", light * way, untouchable(Circle{0.1}), kLight), light * rate, 1),
+      thrown(piece("heavy", heavy * way, untouchable(Circle{0.15}), kHeavy), heavy * rate, -2)};
   problem.scene.forces = {AttractionForce{.body = "light", .centre_body = "heavy", .strength = light}};
   const auto path = [=](Real t, Moving moving) {
     const Motion now = orbit(e, t);
-    moving[0] = {light * now.position, 0, light * now.velocity, 0};
-    moving[1] = {heavy * now.position, 0, heavy * now.velocity, 0};
+    moving[0] = {light * now.position, t, light * now.velocity, 1};
+    moving[1] = {heavy * now.position, -2 * t, heavy * now.velocity, -2};
   };
   problem.truth = follow(problem.scene, "Kepler's equation for the way between them", path);
   problem.conserved = {.energy = true, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
