@@ -22,19 +22,19 @@ Problem build(std::string_view, int) {
     rate = {y[1], spin(y[0]) * spin(y[0]) * y[0], spin(y[0])};
   };
   const Phases path({kStart, 0, 0}, {{law}}, 1);
-  problem.truth = follow(problem.scene, "r'' = w^2 r, w (I + m r^2) constant", [=](Real t, Moving moving) {
+  const auto motion = [=](Real t, Moving moving) {
     const auto y = path.at(t);
     const Vec2<Real> way = y[0] * direction(y[2]);
     moving[0] = {{}, y[2], {}, spin(y[0])};
     moving[1] = {way, y[2], y[1] * direction(y[2]) + cross(spin(y[0]), way), spin(y[0])};
-  });
+  };
+  problem.truth = integrated(follow(problem.scene, "r'' = w^2 r, w (I + m r^2) constant", motion));
   problem.conserved = {.energy = true, .angular_momentum = true};
   problem.precise = within(1e-9);
   return problem;
 }
 
-const Register r{
-    {.name = "bead_on_arm", .summary = "a bead slides outwards on a turning arm", .build = build}};
+const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a turning arm", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

@@ -25,8 +25,8 @@ Problem build(std::string_view variant, int) {
     const Vec2<Real> arm = turned(y[0], {0, -1});
     moving[0] = t < taut ? coast(moving[0], t, {{0, -kGravity}}) : Motion{arm, 0, cross(y[1], arm), 0};
   };
-  problem.truth = follow(problem.scene, "free fall, then a pendulum with the speed across the rope", path,
-                         {static_cast<double>(taut)});
+  problem.truth =
+      integrated(follow(problem.scene, "free fall, then a pendulum", path, {static_cast<double>(taut)}));
   problem.precise = within(1e-9);
   return problem;
 }

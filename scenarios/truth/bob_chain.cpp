@@ -51,17 +51,18 @@ Truth BobChain::truth(const Scene& scene) const {
     chain.rates(y, rate);
   };
   const auto path = std::make_shared<const Trajectory>(start, law, 1.0L / 240);
-  return follow(scene, "Lagrange's equations in absolute angles, long double Runge-Kutta-Fehlberg 7(8)",
-                [path](Real time, Moving moving) {
-                  const Trajectory::State y = path->at(time);
-                  Motion end;
-                  for (std::size_t i = 0; i < moving.size(); ++i) {
-                    const Vec2<Real> rod = turned(y[i], {0, -1});
-                    end.position += rod;
-                    end.velocity += cross(y[moving.size() + i], rod);
-                    moving[i] = end;
-                  }
-                });
+  return integrated(follow(scene,
+                           "Lagrange's equations in absolute angles, long double Runge-Kutta-Fehlberg 7(8)",
+                           [path](Real time, Moving moving) {
+                             const Trajectory::State y = path->at(time);
+                             Motion end;
+                             for (std::size_t i = 0; i < moving.size(); ++i) {
+                               const Vec2<Real> rod = turned(y[i], {0, -1});
+                               end.position += rod;
+                               end.velocity += cross(y[moving.size() + i], rod);
+                               moving[i] = end;
+                             }
+                           }));
 }
 
 Real laguerre(int n, Real x) {

@@ -44,13 +44,13 @@ Truth cylinder_truth(const Scene& scene, double angle, double friction, double d
   const Phase flight{[](const State& y, State& rate) { rate = {y[1], 0, y[3], 0, y[5], -kGravity}; }};
   const auto phases = mu > 0 ? std::vector{roll, slip, flight} : std::vector{slip, flight};
   const Phases path({angle, 0, 0, 0}, phases, duration);
-  return follow_in_contact(scene,
-                           "Newton and Euler with Coulomb friction, long double Runge-Kutta-Fehlberg 7(8)",
-                           [path](Real t, Moving moving) {
-                             State y = path.at(t);
-                             if (y.size() == 4) y = fly(y);
-                             moving[0] = {{y[0], y[4]}, y[2], {y[1], y[5]}, y[3]};
-                           });
+  return integrated(follow_in_contact(
+      scene, "Newton and Euler with Coulomb friction, long double Runge-Kutta-Fehlberg 7(8)",
+      [path](Real t, Moving moving) {
+        State y = path.at(t);
+        if (y.size() == 4) y = fly(y);
+        moving[0] = {{y[0], y[4]}, y[2], {y[1], y[5]}, y[3]};
+      }));
 }
 
 }  // namespace plumb::scenarios::truth

@@ -62,13 +62,13 @@ Truth ladder_truth(const Scene& scene, double angle, double friction, double dur
   if (friction > 0 && !path.ends().empty())
     throw Error(Error::Kind::Run, "ladder", "friction", std::to_string(friction),
                 "it leaves the wall, for which no truth is written");
-  return follow_in_contact(
+  return integrated(follow_in_contact(
       scene, "Newton and Euler with Coulomb friction, long double Runge-Kutta-Fehlberg 7(8)",
       [path, angle](Real t, Moving moving) {
         const State y = path.at(t);
         const Real c = std::cos(y[0]), s = std::sin(y[0]);
         moving[0] = {{y[2], kHalf * c}, moving[0].angle + y[0] - angle, {y[3], -kHalf * s * y[1]}, y[1]};
-      });
+      }));
 }
 
 }  // namespace plumb::scenarios::truth

@@ -104,6 +104,11 @@ Truth follow_in_contact(const Scene& scene, std::string source, Path path, std::
   return truth;
 }
 
+Truth integrated(Truth truth) {
+  truth.kind = TruthKind::Integrated;
+  return truth;
+}
+
 Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Acceleration> jumps) {
   const Acceleration fall{scene.gravity.as<Real>()};
   const auto path = [at, jumps = std::move(jumps), fall](Real time, Moving moving) {
@@ -119,7 +124,9 @@ Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Ac
 }
 
 Truth equilibrium(const Scene& scene, std::string source) {
-  return follow_in_contact(scene, std::move(source), [](Real, Moving) {});
+  Truth truth = follow_in_contact(scene, std::move(source), [](Real, Moving) {});
+  truth.kind = TruthKind::Equilibrium;
+  return truth;
 }
 
 }  // namespace plumb::scenarios::truth

@@ -74,6 +74,9 @@ Truth follow(const Scene& scene, std::string source, Path path, std::vector<doub
 /// Likewise, where contacts last: they push and rub between impacts.
 Truth follow_in_contact(const Scene& scene, std::string source, Path path, std::vector<double> impacts = {});
 
+/// Returns the truth as one that is integrated.
+Truth integrated(Truth truth);
+
 /// Returns the truth of bodies that fly freely but for one impact `at` a time. Each velocity then jumps by
 /// its part of `jumps`, in the order of the dynamic bodies.
 Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Acceleration> jumps);

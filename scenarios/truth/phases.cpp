@@ -46,7 +46,7 @@ Trajectory::State Phases::at(Real time) const {
 Truth turning_truth(const Scene& scene, std::string source, const Phases& path, Vec2<Real> pivot,
                     Vec2<Real> arm, bool turns) {
   const Real first = path.at(0)[0];
-  return follow(
+  return integrated(follow(
       scene, std::move(source),
       [=](Real time, Moving moving) {
         const Trajectory::State y = path.at(time);
@@ -56,7 +56,7 @@ Truth turning_truth(const Scene& scene, std::string source, const Phases& path, 
         if (turns) moving[0].angle += y[0] - first;
         if (turns) moving[0].angular_velocity = y[1];
       },
-      path.jumps());
+      path.jumps()));
 }
 
 Trajectory::Law second_order_law(std::function<Real(Real q, Real rate)> acceleration) {

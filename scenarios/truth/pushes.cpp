@@ -78,7 +78,8 @@ Problem pushed(Scene scene) {
                          std::ranges::transform(bodies, out.begin(),
                                                 [&](const auto& body) { return rounded(body->at(time)); });
                        },
-                   .discrete = discrete_euler(motions_of(problem.scene), law, ends_on_a_step)};
+                   .discrete = discrete_euler(motions_of(problem.scene), law, ends_on_a_step),
+                   .kind = TruthKind::Integrated};
   problem.precise = {.position = 1e-9, .angle = 1e-9, .velocity = 1e-9, .angular_velocity = 1e-9};
   // The centre has a constant acceleration, which velocity Verlet integrates exactly, except in the substep
   // in which the push ends. With its mean force F s (0 < s < 1) the velocity is right, and the displacement

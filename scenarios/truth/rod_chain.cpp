@@ -108,9 +108,9 @@ std::vector<Motion> RodChain::motions(const State& state) const {
 
 Truth rod_chain_truth(int count) {
   return {.source = "Lagrange's equations in absolute angles, long double Runge-Kutta-Fehlberg 7(8)",
-          .exact = [truth = ChainTruth::of(count)](double time, std::span<BodyState> out) {
-            truth->at(time, out);
-          }};
+          .exact = [truth = ChainTruth::of(count)](double time,
+                                                   std::span<BodyState> out) { truth->at(time, out); },
+          .kind = TruthKind::Integrated};
 }
 
 double rod_chain_digits(int count) {
