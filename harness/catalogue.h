@@ -11,7 +11,7 @@ namespace plumb::harness {
 /// "closed_form", "integrated" or "equilibrium".
 std::string_view name_of(scenarios::TruthKind kind);
 
-/// What a case is about, from its scene: joints before contacts, contacts before forces.
+/// Topic of a case, from its scene: joints before contacts, contacts before forces.
 enum class Topic { FreeMotion, Forces, Joints, Impacts, LastingContacts, Equilibrium };
 std::string_view name_of(Topic topic);  ///< for headings: "lasting contacts"
 

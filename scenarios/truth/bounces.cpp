@@ -23,7 +23,7 @@ Swing Bounces::at(Real time) const {
   if (next == impacts_.begin()) return {height_ - gravity_ * time * time / 2, -gravity_ * time};
   const Impact& last = *std::prev(next);
   const Real since = time - last.time;
-  if (since * gravity_ >= 2 * last.speed) return {};  // what is left of the series, or rest
+  if (since * gravity_ >= 2 * last.speed) return {};  // the rest of the series, or after it
   return {since * (last.speed - gravity_ * since / 2), last.speed - gravity_ * since};
 }
 

@@ -30,7 +30,7 @@ Motion through_quadratic_drag(const Motion& from, Real mass, Real coefficient, R
           from.angular_velocity};
 }
 
-/// What slows a body down.
+/// Drag on a body.
 struct Drag {
   Real mass = 1, linear = 0, quadratic = 0;  // kg, N s/m, N s^2/m^2
 };
