@@ -16,7 +16,7 @@ Problem build(std::string_view variant, int) {
                                       Combine::Minimum, Combine::Average};
   const auto which = static_cast<std::size_t>(choose(
       variant, {{"geometric_mean", 0}, {"product", 1}, {"maximum", 2}, {"minimum", 3}, {"average", 4}}));
-  const std::vector<Real> friction = {std::sqrt(0.12L), 0.12L, 0.6L, 0.2L, 0.4L};
+  const std::vector<Real> friction = {std::sqrt(Real(0.12)), 0.12L, 0.6L, 0.2L, 0.4L};
   problem.scene.contact_rules.friction = rules[which];
   problem.scene.bodies = {ramp(kTilt, 0.2),
                           on_ramp(kTilt, piece("block", {}, solid(Box{0.5, 0.25}, 0.6)), 0.125)};

@@ -17,7 +17,7 @@ Problem build(std::string_view variant, int) {
   rope.range = Range{0, 1};
   problem.scene.joints = {rope};
   const Real angle = std::asin(Real(x)), depth = std::cos(angle);
-  const Real taut = std::sqrt(2 * (depth - 0.2L) / kGravity), rate = -kGravity * taut * std::sin(angle);
+  const Real taut = std::sqrt(2 * (depth - Real(0.2)) / kGravity), rate = -kGravity * taut * std::sin(angle);
   const auto law = [](Real q, Real) { return -kGravity * std::sin(q); };
   const Phases swing({angle, rate}, {{second_order_law(law)}}, problem.duration);
   const auto path = [=](Real t, Moving moving) {
