@@ -11,6 +11,7 @@ using Action = std::function<int()>;
 
 // Each adds its subcommand to `app` and sets `chosen` to its action when the subcommand is given.
 void add_list(CLI::App& app, Action& chosen);
+void add_new(CLI::App& app, Action& chosen);
 void add_engines(CLI::App& app, Action& chosen);
 void add_explain(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);

@@ -9,6 +9,8 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "app/usage.h"
+#include "harness/catalogue.h"
 #include "harness/known_limits_page.h"
 #include "harness/style.h"
 #include "scenarios/scenario.h"
@@ -16,6 +18,8 @@
 namespace plumb::app {
 namespace {
 
+using harness::CatalogueEntry;
+using harness::CatalogueFilter;
 using harness::Style;
 using scenarios::Scenario;
 
@@ -31,28 +35,52 @@ std::string sizes_text(const Scenario& scenario) {
   return joined(sizes);
 }
 
-std::string as_text(const Style& style) {
+// Lists scenarios by topic, each with those of its variants and sizes that were found.
+std::string as_text(const CatalogueFilter& filter, const Style& style) {
   std::string out;
-  for (const Scenario& scenario : scenarios::all()) {
+  const CatalogueEntry* before = nullptr;
+  const std::vector<CatalogueEntry> entries = harness::catalogue(filter);
+  for (std::size_t i = 0; i < entries.size(); before = &entries[i++]) {
+    const CatalogueEntry& entry = entries[i];
+    const Scenario& scenario = *entry.instance.scenario;
+    if (before != nullptr && before->instance.scenario == &scenario && before->topic == entry.topic) continue;
+    if (before == nullptr || before->topic != entry.topic)
+      out += fmt::format("{}{}\n", before == nullptr ? "" : "\n",
+                         style.paint(harness::name_of(entry.topic), Style::Ink::Dim));
+    std::vector<std::string> variants;
+    for (std::size_t k = i; k < entries.size() && entries[k].topic == entry.topic; ++k)
+      if (entries[k].instance.scenario == &scenario &&
+          std::find(variants.begin(), variants.end(), entries[k].instance.variant) == variants.end())
+        variants.push_back(entries[k].instance.variant);
     out += style.paint(scenario.name, Style::Ink::Bold) + "\n";
     out += "  " + harness::wrap(scenario.summary, style.width - 2, 2) + "\n";
     if (scenario.variants.size() > 1)
-      out += "  " + harness::wrap("variants: " + joined(scenario.variants), style.width - 2, 12) + "\n";
+      out += "  " + harness::wrap("variants: " + joined(variants), style.width - 2, 12) + "\n";
     if (scenario.scales)
       out += "  " + harness::wrap("sizes: " + sizes_text(scenario) + ", or any", style.width - 2, 9) + "\n";
   }
   return out;
 }
 
-std::string as_json() {
+std::string as_json(const CatalogueFilter& filter) {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
+  const std::vector<CatalogueEntry> entries = harness::catalogue(filter);
   for (const Scenario& scenario : scenarios::all()) {
+    Json cases = Json::array();
+    for (const CatalogueEntry& entry : entries)
+      if (entry.instance.scenario == &scenario)
+        cases.push_back({{"label", entry.instance.label()},
+                         {"topic", harness::name_of(entry.topic)},
+                         {"truth", harness::name_of(entry.kind)},
+                         {"source", entry.source}});
+    if (cases.empty()) continue;
     out.push_back({{"name", scenario.name},
                    {"summary", scenario.summary},
                    {"variants", scenario.variants},
                    {"sizes", scenario.sizes},
-                   {"scales", scenario.scales}});
+                   {"scales", scenario.scales},
+                   {"cases", cases}});
   }
   return out.dump(2) + "\n";
 }
@@ -60,20 +88,38 @@ std::string as_json() {
 }  // namespace
 
 void add_list(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("list", "the scenarios, with their variants and sizes");
-  auto format = std::make_shared<std::string>("console");
-  command->add_option("--format", *format, "console or json")->check(CLI::IsMember({"console", "json"}));
-  auto limits = std::make_shared<bool>(false);
-  command->add_flag("--known-limits", *limits,
+  struct Options {
+    std::string format = "console";
+    CatalogueFilter filter{};
+    bool limits = false, page = false;
+  };
+  CLI::App* command = app.add_subcommand("list", "the scenarios by topic, with their variants and sizes");
+  auto options = std::make_shared<Options>();
+  command->add_option("--format", options->format, "console or json")
+      ->check(CLI::IsMember({"console", "json"}));
+  command->add_option("--filter", options->filter.text, "cases whose name, summary or source has this text")
+      ->type_name("TEXT");
+  command->add_option("--truth", options->filter.truth, "cases whose truth is of this kind")
+      ->check(CLI::IsMember({"closed_form", "integrated", "equilibrium"}));
+  command->add_flag("--known-limits", options->limits,
                     "the bounds that engines are known to miss, as docs/known-limits.md");
-  command->footer("Examples:\n  plumb list\n  plumb list --format json");
-  command->callback([&chosen, format, limits] {
-    chosen = [format, limits] {
-      if (*limits) {
+  command->add_flag("--page", options->page, "every case with its source, as docs/scenarios.md");
+  command->footer(
+      "Examples:\n  plumb list\n  plumb list --filter friction --truth closed_form\n  plumb list --format "
+      "json");
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      if (options->limits) {
         print(harness::known_limits_page());
-        return kOk;
+      } else if (options->page) {
+        print(harness::catalogue_page());
+      } else if (options->format == "json") {
+        print(as_json(options->filter));
+      } else {
+        const std::string text = as_text(options->filter, Style::of_file(STDOUT_FILENO));
+        if (text.empty()) throw UsageError("no case matches; see `plumb list`");
+        print(text);
       }
-      print(*format == "json" ? as_json() : as_text(Style::of_file(STDOUT_FILENO)));
       return kOk;
     };
   });

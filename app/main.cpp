@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
       "130 interrupted.");
   Action action;
   add_list(app, action);
+  add_new(app, action);
   add_engines(app, action);
   add_explain(app, action);
   add_run(app, action);

@@ -98,6 +98,9 @@ class Growth {
     now_.resize(bodies);
     differences_.resize(bodies);
     growth_.resize(bodies);
+    held_.resize(bodies);
+    pulled_.resize(bodies);
+    levers_.resize(bodies);
     groups_ = jointed_groups(problem.scene);
     if (method.order == 1) start_joints();
     has_turning_force_.resize(bodies, false);
@@ -128,6 +131,8 @@ class Growth {
     for (const Joint& joint : problem_.scene.joints) {
       std::visit(
           [&](const auto& j) {
+            if constexpr (requires { j.anchor_a; }) add_lever(j.body_a, j.anchor_a);
+            if constexpr (requires { j.anchor_b; }) add_lever(j.body_b, j.anchor_b);
             for (const std::string& name : {j.body_a, j.body_b})
               if (const auto body = find_body(problem_.scene, name))
                 differences_[*body] = {problem_.scene.bodies[*body].gravity_scale * problem_.scene.gravity,
@@ -137,11 +142,49 @@ class Growth {
     }
   }
 
+  void add_lever(const std::string& name, Vec2d anchor) {
+    if (const auto body = find_body(problem_.scene, name))
+      levers_[*body] = std::max(levers_[*body], magnitude(anchor));
+  }
+
   double substep() const { return method_.substep; }
   bool adaptive() const { return method_.order == 0; }
 
   void keep(std::vector<StateBound>& out) const {
-    for (const Parts& parts : now_) out.push_back(total(parts));
+    const double h = substep() * (1 + kRoundings * method_.epsilon);
+    for (std::size_t body = 0; body < now_.size(); ++body) {
+      StateBound bound = total(now_[body]);
+      const double late = h * held_[body];
+      const double turning = late * turn_per_push(body, bounding_radius(problem_.scene.bodies[body])) +
+                             h * pulled_[body] * turn_per_push(body, levers_[body]);
+      bound.velocity += late;
+      bound.position += h * late;
+      bound.angular_velocity += turning;
+      bound.angle += h * turning;
+      out.push_back(bound);
+    }
+  }
+
+  // Returns the angular acceleration by a force at a lever, per acceleration.
+  double turn_per_push(std::size_t index, double lever) const {
+    const Body& body = problem_.scene.bodies[index];
+    if (lever == 0 || body.type != BodyType::Dynamic || body.fixed_rotation) return 0;
+    return body.mass * lever / inertia_of(body);
+  }
+
+  // Adds what the forces of lasting contacts do when they act a substep early or late. Across the motion that
+  // the contacts leave the body they take the error back, so it does not add up (`held_`). Along the motion
+  // it stays, from where the contacts begin.
+  void hold(std::size_t index, Vec2d acceleration, double angular_acceleration, Vec2d velocity, bool begins,
+            Parts& growth) {
+    const Body& body = problem_.scene.bodies[index];
+    const Vec2d force = acceleration - body.gravity_scale * problem_.scene.gravity;
+    held_[index] = std::max(held_[index], magnitude(force));
+    const double speed = magnitude(velocity);
+    if (!begins) return;
+    if (speed > 0)
+      growth.velocity += substep() * std::abs(dot(force, velocity)) / (speed * speed) * absolute(velocity);
+    growth.angular_velocity += substep() * std::abs(angular_acceleration);
   }
 
   void interval(long i) {
@@ -205,16 +248,23 @@ class Growth {
     const double angular_change =
         last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
     Parts growth;
+    pulled_[body] = std::max(
+        pulled_[body],
+        magnitude(acceleration - problem_.scene.bodies[body].gravity_scale * problem_.scene.gravity));
+    if (problem_.truth.contacts_last)
+      hold(body, acceleration, angular_acceleration, after.velocity, !last.acceleration, growth);
     if (method_.order == 1) {
-      growth = {h * span * absolute(acceleration), h * absolute(change),
-                h * span * std::abs(angular_acceleration), h * std::abs(angular_change)};
+      growth.position = h * span * absolute(acceleration);
+      growth.velocity += h * absolute(change);
+      growth.angle = h * span * std::abs(angular_acceleration);
+      growth.angular_velocity += h * std::abs(angular_change);
     } else {
       const Vec2d jerk = (1 / span) * change;
       const double angular_jerk = angular_change / span;
       growth.position = h * h * absolute(change);
       growth.angle = h * h * std::abs(angular_change);
-      if (last.jerk) growth.velocity = h * h * absolute(jerk - *last.jerk);
-      if (last.angular_jerk) growth.angular_velocity = h * h * std::abs(angular_jerk - *last.angular_jerk);
+      if (last.jerk) growth.velocity += h * h * absolute(jerk - *last.jerk);
+      if (last.angular_jerk) growth.angular_velocity += h * h * std::abs(angular_jerk - *last.angular_jerk);
       if (last.acceleration) last.jerk = jerk;
       if (last.angular_acceleration) last.angular_jerk = angular_jerk;
     }
@@ -272,7 +322,8 @@ class Growth {
       const double delay = std::min(step + along(position, normal) / closing, truth_.scale().duration);
       const double lever = std::max(jump.distance - closing * delay, jump.distance / 10);
       const double turn = (jump.sliding * delay + along(position, tangent)) / lever;
-      const double share = (turn * jump.sliding + along(velocity, normal)) / closing;
+      const double gained = std::abs(dot(relative_gravity(jump), normal)) * delay;
+      const double share = (turn * jump.sliding + along(velocity, normal) + gained) / closing;
       const double size = magnitude(jump.velocity);
       bound.velocity += size * (share * absolute(normal) + turn * absolute(tangent));
       bound.angular_velocity +=
@@ -281,6 +332,14 @@ class Growth {
       bound.angle += jump.angular_velocity * delay;
       windows_.push_back({jump.body, time, delay, jump.velocity, jump.angular_velocity});
     }
+  }
+
+  // Returns the acceleration by gravity towards what the body hits: it goes on until the impact is noticed.
+  Vec2d relative_gravity(const Jump& jump) const {
+    double scale = problem_.scene.bodies[jump.body].gravity_scale;
+    if (jump.partner && problem_.scene.bodies[*jump.partner].type == BodyType::Dynamic)
+      scale -= problem_.scene.bodies[*jump.partner].gravity_scale;
+    return scale * problem_.scene.gravity;
   }
 
   // Returns angular velocity per unit of jump: the impulse's lever arm is off by the error of the contact
@@ -322,6 +381,9 @@ class Growth {
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
   std::vector<Parts> growth_;
+  // m/s^2, the largest acceleration so far by a body's lasting contacts, and by what is not gravity.
+  std::vector<double> held_, pulled_;
+  std::vector<double> levers_;  // m, from a body's centre to its farthest joint
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<bool> has_turning_force_;
   bool has_pulls_ = false;

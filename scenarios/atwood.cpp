@@ -4,7 +4,6 @@
 // Atwood's machine: two masses on a rope over two pulleys, a = (m1 - m2) g/(m1 + m2). Source: Atwood 1784.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kHeavy = 3, kLight = 2, kGravity = 9.81;  // kg, m/s^2

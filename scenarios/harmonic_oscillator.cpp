@@ -7,7 +7,6 @@
 // h/2, and explicit Euler multiplies the energy by 1 + w^2 h^2 a step: the recurrence gives both.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
 constexpr double kMass = 2, kStiffness = 8, kStart = 0.5, kRest = 3;  // kg, N/m, m, m

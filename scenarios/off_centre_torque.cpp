@@ -1,202 +1,40 @@
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-
-#include "scenarios/scenario.h"
-#include "scenarios/truth/fresnel.h"
-#include "scenarios/truth/motion.h"
-#include "scenarios/truth/stepping.h"
-#include "scenarios/truth/trajectory.h"
+#include "scenarios/truth/pushes.h"
 
 // Forces beside the centre of mass accelerate and turn a body; without torque its spin is constant. In free
 // space without contacts, so only r x F, the inertia, and the angle used within a step matter.
 namespace plumb::scenarios {
 namespace {
-
 using namespace truth;
 
-constexpr double kPush = 1;    // s, duration of the world-fixed force
-constexpr double kWatch = 3;   // s, duration of push and free flight, and of the thruster
-constexpr double kSpins = 10;  // s
-
-Body box(std::string name, double mass, double width, double height, Vec2d position, double spin = 0,
-         Vec2d velocity = {}) {
-  return {.name = std::move(name),
-          .position = position,
-          .velocity = velocity,
-          .angular_velocity = spin,
-          .mass = mass,
-          .inertia = mass * (width * width + height * height) / 12,
-          .shapes = {untouchable(Box{width, height})}};
-}
-
-Scene empty(std::string_view variant) {
-  return {.name = "off_centre_torque/" + std::string(variant), .gravity = {0, 0}};
-}
-
-/// A force of fixed direction in the world at the point p of the body, for kPush: I angle'' = R(angle) p x F,
-/// the equation of a pendulum; then the body coasts. The centre accelerates along F: x'' = F/m.
-class Pushed {
- public:
-  Pushed(const Body& body, const PointForce& push)
-      : start_(motion_of(body)),
-        linear_(1 / static_cast<Real>(body.mass) * push.force.as<Real>()),
-        force_(1 / static_cast<Real>(*body.inertia) * push.force.as<Real>()),
-        point_(push.point.as<Real>()),
-        turning_(
-            {start_.angle, start_.angular_velocity},
-            [force = force_, point = point_](const Trajectory::State& y, Trajectory::State& rate) {
-              rate = {y[1], cross(turned(y[0], point), force)};
-            },
-            1.0L / 64) {}
-
-  Acceleration acceleration(const Motion& motion) const {
-    return {linear_, cross(turned(motion.angle, point_), force_)};
-  }
-
-  Motion at(Real time) const {
-    const Real pushed = std::fmin(time, static_cast<Real>(kPush));
-    Motion motion = coast(start_, pushed, {linear_});
-    const Trajectory::State turn = turning_.at(pushed);
-    motion.angle = turn[0];
-    motion.angular_velocity = turn[1];
-    return coast(motion, time - pushed);
-  }
-
- private:
-  Motion start_;
-  Vec2<Real> linear_, force_, point_;  // force_ over the inertia
-  Trajectory turning_;
-};
-
-/// Builds a problem of bodies pushed for kPush, one force each, in the bodies' order.
-Problem pushed(Scene scene) {
-  std::vector<std::shared_ptr<const Pushed>> bodies;
-  double strongest = 0;  // F/m
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto& push = std::get<PointForce>(scene.forces[i]);
-    bodies.push_back(std::make_shared<const Pushed>(scene.bodies[i], push));
-    strongest = std::max(strongest, std::sqrt(length_squared(push.force)) / scene.bodies[i].mass);
-  }
-  Problem problem{.scene = std::move(scene), .duration = kWatch};
-  const auto law = [bodies](std::size_t i, double time, const Motion& motion) {
-    return time < kPush * (1 - 1e-9) ? bodies[i]->acceleration(motion) : Acceleration{};
-  };
-  // If the push ends inside a step, the part of it that counts is the engine's own choice.
-  const auto ends_on_a_step = [](double substep) {
-    const double steps = kPush / substep;
-    return std::fabs(steps - std::round(steps)) < 1e-9 * steps;
-  };
-  problem.truth = {.source = "I angle'' = r x F, long double Runge-Kutta-Fehlberg 7(8); x'' = F/m",
-                   .exact =
-                       [bodies](double time, std::span<BodyState> out) {
-                         std::ranges::transform(bodies, out.begin(),
-                                                [&](const auto& body) { return rounded(body->at(time)); });
-                       },
-                   .discrete = discrete_euler(motions_of(problem.scene), law, ends_on_a_step)};
-  problem.precise = {.position = 1e-9, .angle = 1e-9, .velocity = 1e-9, .angular_velocity = 1e-9};
-  // The centre has a constant acceleration, which velocity Verlet integrates exactly, except in the substep
-  // in which the push ends. With its mean force F s (0 < s < 1) the velocity is right, and the displacement
-  // is off by (F/m) h^2 s (1 - s)/2 <= F/m h^2/8.
-  problem.second_order = {.position = strongest / 8, .velocity = 0};
-  return problem;
-}
-
-Problem corner_force() {
-  Scene scene = empty("corner_force");
-  scene.bodies = {box("box", 2, 1, 0.5, {0.5, -0.25})};
-  scene.forces = {PointForce{.body = "box", .force = {-2, 2.5}, .point = {0.5, 0.25}, .duration = kPush}};
-  return pushed(std::move(scene));
-}
-
-/// Two boxes of the same mass with the same push at the middle of the right edge: their centres move alike,
-/// and the thin box turns faster.
-Problem thin_and_square() {
-  Scene scene = empty("thin_and_square");
-  scene.bodies = {box("thin", 2, 1, 0.05, {0, 4}), box("square", 2, 1, 1, {0, -4})};
-  for (const Body& body : scene.bodies)
-    scene.forces.push_back(
-        PointForce{.body = body.name, .force = {0.5, 2}, .point = {0.5, 0}, .duration = kPush});
-  return pushed(std::move(scene));
-}
-
-/// A force fixed in the body: the angle is alpha t^2/2 and the path an Euler spiral.
-Problem thruster() {
-  Problem problem{.scene = empty("thruster"), .duration = kWatch};
-  const Body body = box("rocket", 2, 1, 0.5, {0, 0});
-  const Vec2d force{4, 0}, point{-0.5, -0.25};
-  problem.scene.bodies = {body};
-  problem.scene.forces = {
-      PointForce{.body = body.name, .force = force, .point = point, .frame = Frame::Body}};
-
-  const Real alpha = cross(point, force) / static_cast<Real>(*body.inertia);
-  const Vec2<Real> linear = 1 / static_cast<Real>(body.mass) * force.as<Real>();
-  const auto law = [=](std::size_t, double, const Motion& motion) -> Acceleration {
-    return {turned(motion.angle, linear), alpha};
-  };
-  problem.truth = {
-      .source = "Fresnel integrals",
-      .exact = [=](double time,
-                   std::span<BodyState> out) { out[0] = rounded(truth::thruster(linear, alpha, time)); },
-      .discrete = discrete_euler(motions_of(problem.scene), law)};
-  problem.precise = {.position = 1e-9, .angle = 1e-9, .velocity = 1e-9, .angular_velocity = 1e-9};
-  // The torque is constant, so the angle is exact. Velocity Verlet gives x(t + h) - 2 x(t) + x(t - h) = h^2
-  // a(t), and the motion has h^4 a''/12 more. Summed twice, and with a'(0) = 0, that is h^2 (a(t) - a(0))/12
-  // <= h^2 |a|/6. The trapezoidal velocity is off by h^2 (a'(t) - a'(0))/12 = h^2 alpha t |a|/12. Higher
-  // terms add less than a tenth while the body turns less than a radian a substep.
-  const double a = static_cast<double>(linear.x);
-  problem.second_order = {.position = 1.1 * a / 6,
-                          .angle = 0,
-                          .velocity = 1.1 * static_cast<double>(alpha) * kWatch * a / 12,
-                          .angular_velocity = 0};
-  return problem;
-}
-
-/// Pure spin, of a body at rest and of a moving one. Everything is conserved.
-Problem spin(std::string_view variant, double rate) {
-  Problem problem{.scene = empty(variant), .duration = kSpins};
-  problem.scene.bodies = {box("still", 1, 1, 0.25, {0, 0}, rate),
-                          box("drifting", 2, 0.5, 0.5, {-1, 2}, -rate, {0.75, -0.5})};
-  const std::vector<Motion> start = motions_of(problem.scene);
-  problem.truth = {.source = "angle0 + w t (Newton's first law)",
-                   .exact =
-                       [=](double time, std::span<BodyState> out) {
-                         std::ranges::transform(start, out.begin(),
-                                                [&](const Motion& m) { return rounded(coast(m, time)); });
-                       },
-                   .discrete = discrete_constant(start, std::vector<Acceleration>(start.size()))};
-  problem.conserved = {.energy = true, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
-  // Relative 1e-12 of the rotation and of the extent of about ten metres.
-  problem.precise = {.position = 1e-12 * 10,
-                     .angle = 1e-12 * rate * kSpins,
-                     .velocity = 1e-12,
-                     .angular_velocity = 1e-12 * rate,
-                     .energy = 1e-12,
-                     .momentum = 1e-12,
-                     .angular_momentum = 1e-12};
-  problem.second_order = {.position = 0,
-                          .angle = 0,
-                          .velocity = 0,
-                          .angular_velocity = 0,
-                          .energy = 0,
-                          .momentum = 0,
-                          .angular_momentum = 0};
-  return problem;
-}
-
 Problem build(std::string_view variant, int) {
-  if (variant == "thin_and_square") return thin_and_square();
-  if (variant == "thruster") return thruster();
-  if (variant == "spin_1") return spin(variant, 1);
-  if (variant == "spin_100") return spin(variant, 100);
-  return corner_force();
+  Scene scene = scene_of("off_centre_torque", variant, 0);
+  if (variant == "corner_force") {
+    scene.bodies = {free_box("box", 2, 1, 0.5, {0.5, -0.25})};
+    scene.forces = {PointForce{"box", {-2, 2.5}, {0.5, 0.25}, Frame::World, 0, kPush}};
+  } else if (variant ==
+             "thin_and_square") {  // pushed alike: their centres move alike, the thin one turns faster
+    scene.bodies = {free_box("thin", 2, 1, 0.05, {0, 4}), free_box("square", 2, 1, 1, {0, -4})};
+    for (const char* name : {"thin", "square"})
+      scene.forces.push_back(PointForce{name, {0.5, 2}, {0.5, 0}, Frame::World, 0, kPush});
+  } else if (variant == "thruster") {
+    scene.bodies = {free_box("rocket", 2, 1, 0.5, {0, 0})};
+    scene.forces = {PointForce{"rocket", {4, 0}, {-0.5, -0.25}, Frame::Body}};
+    return thrust(std::move(scene));
+  } else {
+    const double rate = variant == "spin_100" ? 100 : 1;
+    scene.bodies = {thrown(free_box("still", 1, 1, 0.25, {0, 0}), {}, rate),
+                    thrown(free_box("drifting", 2, 0.5, 0.5, {-1, 2}), {0.75, -0.5}, -rate)};
+    return coasting(std::move(scene));
+  }
+  return pushed(std::move(scene));
 }
 
-const Register r{{.name = "off_centre_torque",
-                  .summary = "pushes beside the centre of mass, a thruster, and pure spin",
-                  .variants = {"corner_force", "thruster", "spin_1", "spin_100", "thin_and_square"},
-                  .build = build}};
+const Register r{{"off_centre_torque",
+                  "pushes beside the centre of mass, a thruster, and pure spin",
+                  {"corner_force", "thruster", "spin_1", "spin_100", "thin_and_square"},
+                  {1},
+                  false,
+                  build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

@@ -27,6 +27,13 @@ struct Bounds {
   double penetration = kNone;       ///< m
 };
 
+/// How exact motion is known.
+enum class TruthKind {
+  ClosedForm,   ///< a formula, or formulas joined at events
+  Integrated,   ///< equations of motion in coordinates of their own, solved to about 15 digits
+  Equilibrium,  ///< nothing moves, by statics
+};
+
 /// Exact motion, computed by no engine.
 struct Truth {
   /// Source: the formula's name and its origin.
@@ -41,6 +48,11 @@ struct Truth {
 
   /// Times at which the exact velocities jump, s.
   std::vector<double> impacts{};
+
+  /// True if contacts last: bodies push and rub each other between impacts.
+  bool contacts_last = false;
+
+  TruthKind kind = TruthKind::ClosedForm;
 };
 
 /// Quantities that the scene's physics conserves.

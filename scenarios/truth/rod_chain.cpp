@@ -1,9 +1,46 @@
 #include "scenarios/truth/rod_chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <memory>
+
+#include "scenarios/truth/parts.h"
 
 namespace plumb::scenarios::truth {
+namespace {
+
+/// Solves an independent formulation (minimal coordinates, Lagrange) in extended precision. The solution is
+/// kept while the program runs, because all engines are compared with it.
+class ChainTruth {
+ public:
+  explicit ChainTruth(int count)
+      : chain_(count, 1, kGravity),
+        path_(
+            Trajectory::State(2 * chain_.count(), 0),
+            [this](const Trajectory::State& y, Trajectory::State& rate) { chain_.rates(y, rate); },
+            1.0L / 480) {}
+  ChainTruth(const ChainTruth&) = delete;
+  ChainTruth& operator=(const ChainTruth&) = delete;
+
+  void at(double time, std::span<BodyState> out) const {
+    std::ranges::transform(chain_.motions(path_.at(time)), out.begin(), rounded);
+  }
+
+  static std::shared_ptr<const ChainTruth> of(int count) {
+    static std::map<int, std::shared_ptr<const ChainTruth>> known;
+    auto& truth = known[count];
+    if (!truth) truth = std::make_shared<const ChainTruth>(count);
+    return truth;
+  }
+
+ private:
+  RodChain chain_;
+  Trajectory path_;
+};
+
+}  // namespace
 
 RodChain::RodChain(int count, Real length, Real gravity)
     : count_(static_cast<std::size_t>(count)), length_(length), gravity_(gravity) {}
@@ -67,6 +104,20 @@ std::vector<Motion> RodChain::motions(const State& state) const {
     joint.velocity += 2 * half_velocity;
   }
   return motions;
+}
+
+Truth rod_chain_truth(int count) {
+  return {.source = "Lagrange's equations in absolute angles, long double Runge-Kutta-Fehlberg 7(8)",
+          .exact = [truth = ChainTruth::of(count)](double time,
+                                                   std::span<BodyState> out) { truth->at(time, out); },
+          .kind = TruthKind::Integrated};
+}
+
+double rod_chain_digits(int count) {
+  if (count == 1) return 1e-9;
+  if (count <= 5) return 1e-8;
+  const double slope = count <= 20 ? std::log(100) / std::log(4) : std::log(10) / std::log(5);
+  return 1e-6 * std::pow(count / 20.0, slope);
 }
 
 }  // namespace plumb::scenarios::truth

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "scenarios/scenario.h"
 #include "scenarios/truth/motion.h"
 #include "scenarios/truth/trajectory.h"
 
@@ -36,5 +37,13 @@ class RodChain {
   std::size_t count_;
   Real length_, gravity_;
 };
+
+/// Returns the truth of `count` rods of 1 m that start at rest along +x, in gravity of 9.81 m/s^2. It is kept
+/// while the program runs, because all engines are compared with it.
+Truth rod_chain_truth(int count);
+
+/// Returns the digits promised at t = 1 s with the tolerance 1e-9: 1e-9 for one rod, 1e-8 for 2 to 5, 1e-6
+/// for 20 and 1e-5 for 100. In between (and beyond) it follows the straight line through these in log-log.
+double rod_chain_digits(int count);
 
 }  // namespace plumb::scenarios::truth

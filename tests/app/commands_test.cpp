@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/json.h"
@@ -23,6 +25,31 @@ TEST(List, NamesEveryScenario) {
     EXPECT_EQ(json[i]["name"], scenario.name);
     EXPECT_EQ(json[i]["sizes"], Json(scenario.sizes));
   }
+}
+
+TEST(List, ShowsTheCasesThatAFilterLets) {
+  const Ran ran = plumb({"list", "--filter", "COULOMB", "--truth", "closed_form"});
+  EXPECT_NE(ran.out.find("ramp_block"), std::string::npos);
+  EXPECT_EQ(ran.out.find("vertical_stack"), std::string::npos);
+  const Json json = Json::parse(plumb({"list", "--truth", "equilibrium", "--format", "json"}).out);
+  ASSERT_FALSE(json.empty());
+  for (const Json& scenario : json)
+    for (const Json& one : scenario["cases"]) EXPECT_EQ(one["truth"], "equilibrium");
+  EXPECT_EQ(plumb({"list", "--filter", "perpetual motion"}).code, 2);
+  EXPECT_EQ(plumb({"list", "--truth", "guessed"}).code, 2);
+}
+
+TEST(New, WritesAScenarioOnceAndNothingElse) {
+  const Folder folder;
+  const Ran ran = plumb({"new", "scenario", "rolling_ring", "--folder", folder.path()});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  std::ifstream file(folder.path("rolling_ring.cpp"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find(".name = \"rolling_ring\""), std::string::npos);
+  EXPECT_EQ(text.find("new_scenario_name"), std::string::npos);
+  EXPECT_EQ(plumb({"new", "scenario", "rolling_ring", "--folder", folder.path()}).code, 2);
+  EXPECT_EQ(plumb({"new", "scenario", "Rolling/Ring", "--folder", folder.path()}).code, 2);
+  EXPECT_EQ(plumb({"new", "scenario", "ring", "--folder", folder.path("nowhere")}).code, 2);
 }
 
 TEST(Engines, NamesEveryEngineAndWhyOneIsMissing) {

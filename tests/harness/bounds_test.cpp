@@ -186,6 +186,99 @@ TEST(Bounds, DoNotHoldForWrongImpulses) {
   EXPECT_NE(missed(off).find("velocity_error"), std::string::npos) << missed(off);
 }
 
+// A block that slides on level ground at 3 m/s until friction, 0.4 of its weight, has stopped it.
+scenarios::Problem sliding() {
+  scenarios::Problem problem;
+  problem.scene.name = "sliding";
+  problem.scene.bodies = {{.name = "ground",
+                           .type = BodyType::Static,
+                           .position = {0, -1},
+                           .shapes = {{.geometry = Box{20, 2}, .friction = 0.4}}},
+                          {.name = "block",
+                           .position = {0, 0.125},
+                           .velocity = {3, 0},
+                           .shapes = {{.geometry = Box{0.5, 0.25}, .friction = 0.4}}}};
+  problem.truth.exact = [](double t, std::span<BodyState> out) {
+    const double rub = 0.4 * 9.81, moving = std::fmin(t, 3 / rub);
+    out[0] = {{0, -1}, 0, {}, 0};
+    out[1] = {{3 * moving - rub * moving * moving / 2, 0.125}, 0, {3 - rub * moving, 0}, 0};
+  };
+  problem.truth.contacts_last = true;
+  problem.duration = 1.5;
+  return problem;
+}
+
+// The block in steps of h, whose contact is felt from the `late`-th step on and then put right; it lies
+// `sunk` too low.
+Motion sliding_block(double friction, int late, double sunk) {
+  return [=](long step, double dt, std::span<BodyState> out) {
+    BodyState block{{0, 0.125}, 0, {3, 0}, 0};
+    for (long i = 0; i < step; ++i) {
+      const bool felt = i >= late;
+      block.velocity.x = std::fmax(block.velocity.x - (felt ? friction * 9.81 * dt : 0), 0);
+      block.velocity.y = felt ? 0 : block.velocity.y - 9.81 * dt;
+      block.position += dt * block.velocity;
+      if (felt) block.position.y = 0.125 - sunk;
+    }
+    out[0] = {{0, -1}, 0, {}, 0};
+    out[1] = block;
+  };
+}
+
+TEST(Bounds, HoldForContactsThatAreFeltAStepLate) {
+  const reference::Method euler = method(Scheme::SemiImplicitEuler, 1);
+  EXPECT_EQ(missed(run_fake(sliding(), sliding_block(0.4, 0, 0), euler)), "");
+  EXPECT_EQ(missed(run_fake(sliding(), sliding_block(0.4, 1, 0), euler)), "");
+}
+
+TEST(Bounds, DoNotHoldForWrongContacts) {
+  const reference::Method euler = method(Scheme::SemiImplicitEuler, 1);
+  EXPECT_NE(missed(run_fake(sliding(), sliding_block(0.4, 3, 0), euler)), "");
+  EXPECT_NE(missed(run_fake(sliding(), sliding_block(0.36, 0, 0), euler)), "");
+  // More than h^2 g too low.
+  EXPECT_NE(missed(run_fake(sliding(), sliding_block(0.4, 0, 0.01), euler)), "");
+  // Without a lasting contact there is no such room.
+  scenarios::Problem free = sliding();
+  free.truth.contacts_last = false;
+  EXPECT_NE(missed(run_fake(free, sliding_block(0.4, 1, 0), euler)), "");
+}
+
+// A ball that falls half a metre and bounces with `restitution`, noticed a step late.
+TEST(Bounds, KnowThatGravityGoesOnUntilAnImpactIsNoticed) {
+  scenarios::Problem problem;
+  problem.scene.name = "bouncing";
+  problem.scene.bodies = {
+      {.name = "ground",
+       .type = BodyType::Static,
+       .position = {0, -1},
+       .shapes = {{.geometry = Box{20, 2}, .restitution = 1}}},
+      {.name = "ball", .position = {0, 0.75}, .shapes = {{.geometry = Circle{0.25}, .restitution = 1}}}};
+  const double fall = std::sqrt(1 / 9.81);
+  problem.truth.impacts = {fall};
+  problem.truth.exact = [=](double t, std::span<BodyState> out) {
+    const double since = t < fall ? t : t - 2 * fall;  // the parabola is the same on both sides
+    out[0] = {{0, -1}, 0, {}, 0};
+    out[1] = {{0, 0.75 - 9.81 * since * since / 2}, 0, {0, -9.81 * since}, 0};
+  };
+  problem.conserved = {.energy = true};
+  problem.duration = 0.6;
+  const auto bouncing = [](double restitution) -> Motion {
+    return [=](long step, double dt, std::span<BodyState> out) {
+      BodyState ball{{0, 0.75}, 0, {}, 0};
+      for (long i = 0; i < step; ++i) {
+        ball.velocity.y -= 9.81 * dt;
+        if (ball.position.y < 0.25 && ball.velocity.y < 0) ball.velocity.y *= -restitution;
+        ball.position += dt * ball.velocity;
+      }
+      out[0] = {{0, -1}, 0, {}, 0};
+      out[1] = ball;
+    };
+  };
+  const reference::Method euler = method(Scheme::SemiImplicitEuler, 1);
+  EXPECT_EQ(missed(run_fake(problem, bouncing(1), euler)), "");
+  EXPECT_NE(missed(run_fake(problem, bouncing(0.6), euler)), "");
+}
+
 TEST(Bounds, StatedOnesGoBeforeDerivedOnes) {
   scenarios::Problem problem = thrown();
   problem.precise.position = 1e-6;

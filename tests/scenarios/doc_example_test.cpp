@@ -17,6 +17,9 @@ TEST(DocExample, IsAScenarioLikeAnyOther) {
   EXPECT_EQ(instances[0].build().scene.joints.size(), 1u);
 }
 
+// Like every scenario in this program it has been through the tests of all.
+TEST(NewScenario, IsAScenarioAsItIsWritten) { EXPECT_EQ(select("newly_written").size(), 1u); }
+
 TEST(DocExample, IsAtMostFortyLines) {
   std::ifstream file(PLUMB_DOC_EXAMPLE);
   ASSERT_TRUE(file) << PLUMB_DOC_EXAMPLE;

@@ -12,6 +12,7 @@
 
 #include "engine/scene/json.h"
 #include "engine/scene/validate.h"
+#include "harness/penetration.h"
 #include "scenarios/scenario.h"
 #include "tests/scenarios/physics.h"
 
@@ -144,7 +145,7 @@ TEST_P(EveryScenario, VelocityIsTheRateOfPosition) {
 
 TEST_P(EveryScenario, AccelerationIsWhatTheForcesGive) {
   if (!problem.scene.joints.empty()) GTEST_SKIP() << "joint forces are the truth's own affair";
-  if (has_contacts(problem.scene) && problem.truth.impacts.empty()) GTEST_SKIP() << "lasting contacts";
+  if (problem.truth.contacts_last) GTEST_SKIP() << "contacts push as well";
   const double delta = 1e-4 * std::min(1.0, problem.duration);
   const Scene& scene = problem.scene;
   const std::array pairs = {Pair{[](const BodyState& s) { return s.velocity.x; },
@@ -229,8 +230,37 @@ struct ExpectClosed {
   }
   void operator()(const DistanceJoint& j) const {
     const auto [d, u, place, speed] = between(j);
+    if (j.spring) return;
+    if (j.range) {
+      EXPECT_LE(norm(d), j.range->upper + place) << j.name << " at " << time;
+      EXPECT_GE(norm(d), j.range->lower - place) << j.name << " at " << time;
+      return;
+    }
     EXPECT_NEAR(norm(d), j.length, place) << j.name << " at " << time;
     EXPECT_NEAR(dot(d, u), 0, speed * j.length) << j.name << " at " << time;
+  }
+  void operator()(const WeldJoint& j) const {
+    const auto [d, u, place, speed] = between(j);
+    if (!j.linear_spring) {
+      EXPECT_LE(norm(d), place) << j.name << " at " << time;
+    }
+    if (!j.angular_spring) {
+      EXPECT_NEAR(turn(j), j.reference_angle, 8 * kEpsilon) << j.name << " at " << time;
+    }
+  }
+  void operator()(const PrismaticJoint& j) const {
+    const auto [d, u, place, speed] = between(j);
+    const auto a = find_body(scene, j.body_a);
+    const Vec2d axis = turned(a ? states[*a].angle : 0, 1 / norm(j.axis) * j.axis);
+    EXPECT_NEAR(cross(axis, d), 0, place) << j.name << " at " << time;
+    EXPECT_NEAR(turn(j), j.reference_angle, 8 * kEpsilon) << j.name << " at " << time;
+    if (!j.limits) return;
+    EXPECT_LE(dot(axis, d), j.limits->upper + place) << j.name << " at " << time;
+    EXPECT_GE(dot(axis, d), j.limits->lower - place) << j.name << " at " << time;
+  }
+  void operator()(const GearJoint& j) const {
+    const double a = states[*find_body(scene, j.body_a)].angle, b = states[*find_body(scene, j.body_b)].angle;
+    EXPECT_NEAR(b, j.ratio * a + j.phase, 8 * kEpsilon * (1 + std::fabs(b))) << j.name << " at " << time;
   }
   void operator()(const PulleyJoint& j) const {
     const double length = rope(j, states);
@@ -249,6 +279,10 @@ struct ExpectClosed {
     return {b.position - a.position, b.velocity - a.velocity, 4 * kEpsilon * (norm(a.position) + 1),
             8 * kEpsilon * (norm(a.velocity) + 1)};
   }
+  double turn(const auto& j) const {
+    const auto a = find_body(scene, j.body_a), b = find_body(scene, j.body_b);
+    return (b ? states[*b].angle : 0) - (a ? states[*a].angle : 0);
+  }
   double rope(const PulleyJoint& j, std::span<const BodyState> at) const {
     return norm(anchor_of(scene, at, j.body_a, j.anchor_a).position - j.ground_a) +
            j.ratio * norm(anchor_of(scene, at, j.body_b, j.anchor_b).position - j.ground_b);
@@ -262,6 +296,20 @@ TEST_P(EveryScenario, KeepsItsJointsTogether) {
     for (const Joint& joint : problem.scene.joints)
       std::visit(ExpectClosed{problem.scene, start, states, time}, joint);
   }
+}
+
+/// Whether a joint has a motor or a spring.
+bool stores_energy(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) {
+        bool stores = false;
+        if constexpr (requires { j.motor; }) stores = stores || j.motor.has_value();
+        if constexpr (requires { j.spring.has_value(); }) stores = stores || j.spring.has_value();
+        if constexpr (requires { j.angular_spring; })
+          stores = stores || j.angular_spring.has_value() || j.linear_spring.has_value();
+        return stores;
+      },
+      joint);
 }
 
 /// Of two discs: how far they are apart and how fast they close.
@@ -310,6 +358,33 @@ TEST_P(EveryScenario, DiscsTouchAtImpactsAndNeverOverlap) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
         EXPECT_GE(approach(scene, exact(problem.duration * k / 400), i, j).gap, -1e-14);
+}
+
+TEST_P(EveryScenario, NeverOverlaps) {
+  harness::PenetrationMeter meter(problem.scene);
+  if (!meter.possible()) GTEST_SKIP() << "nothing touches";
+  // Coordinates of tens of metres are rounded where shapes meet.
+  for (const double time : samples(0)) EXPECT_LE(meter.deepest(exact(time)), 200 * kEpsilon) << time;
+}
+
+TEST_P(EveryScenario, LosesEnergyToNothingButFrictionAndImpacts) {
+  const Scene& scene = problem.scene;
+  const bool driven =
+      std::ranges::any_of(scene.bodies, [](const Body& b) { return b.type == BodyType::Kinematic; }) ||
+      std::ranges::any_of(scene.forces,
+                          [](const ForceLaw& law) {
+                            return !std::holds_alternative<SpringForce>(law) &&
+                                   !std::holds_alternative<AttractionForce>(law);
+                          }) ||
+      std::ranges::any_of(scene.joints, [](const Joint& joint) { return stores_energy(joint); });
+  if (driven) GTEST_SKIP() << "something drives it";
+  Totals before = totals(scene, exact(0));
+  for (const double time : samples(0)) {
+    const Totals now = totals(scene, exact(time));
+    EXPECT_LE(now.energy.value, before.energy.value + 3 * kEpsilon * (now.energy.scale + before.energy.scale))
+        << time;
+    before = now;
+  }
 }
 
 /// The textbook loop, in double: forces where the step starts, then velocities and positions.

@@ -16,7 +16,17 @@ if(TARGET test_scenarios)
   string(SUBSTRING "${text}" 0 ${end} text)
   file(CONFIGURE OUTPUT ${example} CONTENT "${text}" @ONLY)
 
-  target_sources(test_scenarios PRIVATE ${example})
+  # The file that `plumb new scenario newly_written` writes.
+  set(template ${PROJECT_SOURCE_DIR}/app/new_scenario.cpp.in)
+  set(newly_written ${CMAKE_CURRENT_BINARY_DIR}/scenarios/newly_written.cpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${template})
+  file(READ ${template} text)
+  string(REPLACE new_scenario_name newly_written text "${text}")
+  file(CONFIGURE OUTPUT ${newly_written} CONTENT "${text}" @ONLY)
+
+  target_sources(test_scenarios PRIVATE ${example} ${newly_written})
   set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/doc_example_test.cpp APPEND PROPERTY
     COMPILE_DEFINITIONS PLUMB_DOC_EXAMPLE="${example}")
+  set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/registry_test.cpp APPEND PROPERTY
+    COMPILE_DEFINITIONS PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endif()

@@ -60,8 +60,8 @@ inline Rate acceleration(const Scene& scene, std::size_t body, std::span<const B
   const BodyState& state = states[body];
   const Body& of = scene.bodies[body];
   if (of.type != BodyType::Dynamic) return {};
-  Vec2d force = of.mass * scene.gravity;
-  double torque = 0;
+  Vec2d force = of.mass * of.gravity_scale * scene.gravity - of.mass * of.linear_damping * state.velocity;
+  double torque = -inertia_of(of) * of.angular_damping * state.angular_velocity;
   for (const ForceLaw& law : scene.forces) {
     if (const auto* drag = std::get_if<LinearDrag>(&law); drag && drag->body == of.name)
       force -= drag->coefficient * state.velocity;
@@ -131,15 +131,24 @@ inline Totals totals(const Scene& scene, std::span<const BodyState> states) {
     const double spin = inertia_of(body) * s.angular_velocity;
     sum.energy.add(dot(momentum, s.velocity) / 2);
     sum.energy.add(spin * s.angular_velocity / 2);
-    sum.energy.add(-body.mass * scene.gravity.x * s.position.x);
-    sum.energy.add(-body.mass * scene.gravity.y * s.position.y);
+    sum.energy.add(-body.mass * body.gravity_scale * scene.gravity.x * s.position.x);
+    sum.energy.add(-body.mass * body.gravity_scale * scene.gravity.y * s.position.y);
     sum.momentum_x.add(momentum.x);
     sum.momentum_y.add(momentum.y);
     sum.angular_momentum.add(s.position.x * momentum.y);
     sum.angular_momentum.add(-s.position.y * momentum.x);
     sum.angular_momentum.add(spin);
   }
-  for (const ForceLaw& law : scene.forces) sum.energy.add(potential(scene, states, law));
+  for (const ForceLaw& law : scene.forces) {
+    sum.energy.add(potential(scene, states, law));
+    // A spring's length is a difference of places, which are rounded.
+    if (const auto* spring = std::get_if<SpringForce>(&law)) {
+      const Vec2d a = end(scene, states, spring->body_a, spring->anchor_a).place;
+      const Vec2d b = end(scene, states, spring->body_b, spring->anchor_b).place;
+      const double tension = spring->stiffness * std::fabs(norm(b - a) - spring->rest_length);
+      sum.energy.scale += tension * (norm(a) + norm(b));
+    }
+  }
   return sum;
 }
 

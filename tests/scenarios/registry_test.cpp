@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "engine/scene/error.h"
 #include "scenarios/scenario.h"
@@ -80,6 +83,19 @@ TEST(Registry, RefusesSizesThatMakeNoSense) {
   }
   EXPECT_THAT(error_of("free_fall", 3).what(), HasSubstr("does not scale"));
   EXPECT_THAT(error_of("pendulum_chain[5]", 20).what(), HasSubstr("contradicts the size 20"));
+}
+
+TEST(Scenarios, AreFilesOfAtMostFortyLines) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PLUMB_SOURCE_DIR "/scenarios")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
+    EXPECT_LE(lines, 40) << entry.path();
+    EXPECT_GT(lines, 10) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 60);
 }
 
 }  // namespace
