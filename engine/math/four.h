@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "engine/math/lane_rows.h"
 #include "engine/math/lanes.h"
 
 namespace plumb {
@@ -9,33 +10,6 @@ namespace plumb {
 /// Four numbers, in registers of 16 bytes that all processors have.
 template <class Real>
 using Four = Lanes<Real, 4>;
-
-/// Transposes: lane i of out k is lane k of row i.
-template <class Real>
-[[gnu::always_inline]] inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
-#ifdef PLUMB_VECTORS
-  using Part = typename Four<Real>::Part;
-  if constexpr (sizeof(Real) == 4) {
-    const Part low01 = __builtin_shufflevector(row[0].part[0], row[1].part[0], 0, 4, 1, 5);
-    const Part low23 = __builtin_shufflevector(row[2].part[0], row[3].part[0], 0, 4, 1, 5);
-    const Part high01 = __builtin_shufflevector(row[0].part[0], row[1].part[0], 2, 6, 3, 7);
-    const Part high23 = __builtin_shufflevector(row[2].part[0], row[3].part[0], 2, 6, 3, 7);
-    out[0].part[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
-    out[1].part[0] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-    out[2].part[0] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
-    out[3].part[0] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
-  } else {
-    for (int k = 0; k < 2; ++k)  // columns 2 k and 2 k + 1
-      for (int i = 0; i < 2; ++i) {
-        out[2 * k].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 0, 2);
-        out[2 * k + 1].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 1, 3);
-      }
-  }
-#else
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 4; ++i) out[k].part[i] = row[i].part[k];
-#endif
-}
 
 /// Returns true if a > b in all four lanes.
 template <class Real>
@@ -60,9 +34,7 @@ template <class Real>
 /// the four seconds and so on.
 template <class Real>
 [[gnu::always_inline]] inline void load_rows(const Real* const (&from)[4], Four<Real> (&out)[4]) {
-  Four<Real> rows[4];
-  for (int i = 0; i < 4; ++i) rows[i] = Four<Real>::load_aligned(from[i]);
-  transpose(rows, out);
+  load_records<true>([&](int i) __attribute__((always_inline)) { return from[i]; }, out);
 }
 
 /// Loads two numbers from each of four addresses: the four firsts and the four seconds.

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "engine/math/lane_rows.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -23,80 +22,21 @@ struct ContactBlock {
   /// Of the bodies, in units of 8 bytes from the first BodyMotion on: an address's largest scale.
   std::uint32_t place_a[kLanes], place_b[kLanes];
   Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
+
+  // In the order of ContactConstraint, up to its flags.
   Vec2<Number> normal;
   Number arm_a[2], arm_tangent_a, arm_b[2], arm_tangent_b;
   Number separation[2], now[2], normal_impulse[2], expected_impulse[2], tangent_impulse;
   Number mass[2], inverse_pp, inverse_pq, inverse_qq, between, tangent_mass;
-  Number friction, push_speed, surface_speed;
+  Number friction, push_speed, surface_speed, flags;
+
   ContactHardness hardness;
   std::uint8_t count;             ///< points
-  std::uint8_t used;              ///< lanes
   bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
   bool watched;                   ///< at least one is
   bool rolls;                     ///< all have rolling resistance
   Number rolling_arm, rolling_impulse, peak_impulse[2];
   Constraint* contact[kLanes];
-
-  /// Calls `visit(row, number)` for what lanes and constraints have in common.
-  template <class Visit>
-  void for_each_row(const Constraint& c, const Visit& visit) {
-    visit(normal.x, c.normal.x), visit(normal.y, c.normal.y);
-    visit(arm_tangent_a, c.arm_tangent_a), visit(arm_tangent_b, c.arm_tangent_b);
-    for (int i = 0; i < 2; ++i) {
-      visit(arm_a[i], c.arm_a[i]), visit(arm_b[i], c.arm_b[i]), visit(mass[i], c.mass[i]);
-      visit(separation[i], c.separation[i]), visit(now[i], c.now[i]);
-      visit(normal_impulse[i], c.normal_impulse[i]), visit(expected_impulse[i], c.expected_impulse[i]);
-    }
-    visit(tangent_impulse, c.tangent_impulse), visit(tangent_mass, c.tangent_mass);
-    visit(inverse_pp, c.inverse_pp), visit(inverse_pq, c.inverse_pq), visit(inverse_qq, c.inverse_qq);
-    visit(between, c.between), visit(friction, c.friction);
-    visit(push_speed, c.push_speed), visit(surface_speed, c.surface_speed);
-  }
-
-  /// Gathers `count` contacts.
-  void gather(Constraint* const* contacts, int lanes, const BodyMotion<Real>* motion) {
-    const Constraint& first = *contacts[0];
-    hardness = first.hardness, count = first.count, rolls = first.rolling_arm > 0, watched = false;
-    gives_way_a = gives_way(motion[first.body_a]), gives_way_b = gives_way(motion[first.body_b]);
-    used = static_cast<std::uint8_t>(lanes);
-    for (int lane = 0; lane < kLanes; ++lane) put(lane, *contacts[lane < lanes ? lane : lanes - 1], motion);
-  }
-  void put(int lane, Constraint& c, const BodyMotion<Real>* motion) {
-    const auto set = [lane](Number& row, Real value) {
-      std::memcpy(reinterpret_cast<char*>(&row) + lane * sizeof(Real), &value, sizeof(Real));
-    };
-    constexpr std::uint32_t kUnits = sizeof(BodyMotion<Real>) / 8;
-    const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
-    place_a[lane] = kUnits * static_cast<std::uint32_t>(c.body_a);
-    place_b[lane] = kUnits * static_cast<std::uint32_t>(c.body_b);
-    set(inverse_mass_a, a.inverse_mass), set(inverse_inertia_a, a.inverse_inertia);
-    set(inverse_mass_b, b.inverse_mass), set(inverse_inertia_b, b.inverse_inertia);
-    for_each_row(c, set);
-    contact[lane] = &c;
-    if (c.watched) {
-      if (!watched) peak_impulse[0] = peak_impulse[1] = 0;
-      watched = true;
-      set(peak_impulse[0], c.peak_impulse[0]), set(peak_impulse[1], c.peak_impulse[1]);
-    }
-    if (rolls) set(rolling_arm, c.rolling_arm), set(rolling_impulse, c.rolling_impulse);
-  }
-
-  /// Writes the results back to the contacts.
-  void scatter() const {
-    for (int lane = 0; lane < used; ++lane) {
-      const auto get = [lane](Real& value, const Number& row) {
-        std::memcpy(&value, reinterpret_cast<const char*>(&row) + lane * sizeof(Real), sizeof(Real));
-      };
-      Constraint& c = *contact[lane];
-      for (int i = 0; i < 2; ++i) {
-        get(c.now[i], now[i]), get(c.normal_impulse[i], normal_impulse[i]);
-        get(c.expected_impulse[i], expected_impulse[i]);
-        if (c.watched) get(c.peak_impulse[i], peak_impulse[i]);
-      }
-      get(c.tangent_impulse, tangent_impulse);
-      if (rolls) get(c.rolling_impulse, rolling_impulse);
-    }
-  }
 };
 
 template <class Real>
@@ -106,6 +46,86 @@ bool rolls(const ContactConstraint<Real>& c) {
 template <class Number>
 [[gnu::always_inline]] inline bool rolls(const ContactBlock<Number>& block) {
   return block.rolls;
+}
+
+/// Moves records between a member of each contact of a block and its rows, from this member on.
+template <class Number>
+struct ContactRows {
+  using Real = typename Number::Number;
+  ContactBlock<Number>& block;
+
+  [[gnu::always_inline]] void load(std::size_t constraint_offset, std::size_t block_offset) const {
+    Number rows[4];
+    load_records<false>([&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); }, rows);
+    for (int k = 0; k < 4; ++k) row(block_offset)[k] = rows[k];
+  }
+  [[gnu::always_inline]] void store(std::size_t constraint_offset, std::size_t block_offset) const {
+    const Number* from = row(block_offset);
+    store_records<false>([&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); },
+                  {from[0], from[1], from[2], from[3]});
+  }
+
+ private:
+  [[gnu::always_inline]] Real* number(int lane, std::size_t offset) const {
+    return reinterpret_cast<Real*>(reinterpret_cast<char*>(block.contact[lane]) + offset);
+  }
+  [[gnu::always_inline]] Number* row(std::size_t offset) const {
+    return reinterpret_cast<Number*>(reinterpret_cast<char*>(&block) + offset);
+  }
+};
+
+/// Fills a block with the contacts that it points to, which are of one kind.
+template <class Number, class Real>
+[[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
+  using Block = ContactBlock<Number>;
+  using Constraint = ContactConstraint<Real>;
+  constexpr std::size_t kFirst = offsetof(Constraint, normal), kFirstRow = offsetof(Block, normal);
+  constexpr int kRows = 28;
+  static_assert(offsetof(Constraint, hardness) == kFirst + (kRows - 1) * sizeof(Real) &&
+                offsetof(Block, flags) == kFirstRow + (kRows - 1) * sizeof(Number));
+  static_assert(offsetof(Constraint, now) - kFirst == 10 * sizeof(Real) &&
+                offsetof(Block, now) - kFirstRow == 10 * sizeof(Number));
+  static_assert(offsetof(Constraint, mass) - kFirst == 17 * sizeof(Real) &&
+                offsetof(Block, mass) - kFirstRow == 17 * sizeof(Number));
+  const ContactRows<Number> rows{block};
+  for (int k = 0; k < kRows; k += 4) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
+
+  constexpr std::uint32_t kUnits = sizeof(BodyMotion<Real>) / 8;
+  block.watched = false;
+  for (int i = 0; i < Block::kLanes; ++i) {
+    const Constraint& c = *block.contact[i];
+    block.place_a[i] = kUnits * static_cast<std::uint32_t>(c.body_a);
+    block.place_b[i] = kUnits * static_cast<std::uint32_t>(c.body_b);
+    block.watched |= c.watched;
+  }
+  // The second half of a BodyMotion ends with its masses.
+  const auto load_masses = [&](const std::uint32_t(&place)[Block::kLanes], Number& mass, Number& inertia)
+                               __attribute__((always_inline)) {
+    Number half[4];
+    load_records<true>(
+        [&](int i) __attribute__((always_inline)) { return &motion[place[i] / kUnits].moved.y; }, half);
+    mass = half[2], inertia = half[3];
+  };
+  load_masses(block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
+  load_masses(block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+
+  const Constraint& first = *block.contact[0];
+  block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);
+  block.gives_way_a = gives_way(motion[first.body_a]), block.gives_way_b = gives_way(motion[first.body_b]);
+  static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
+                offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
+  if (block.watched || block.rolls) rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+}
+
+/// Writes the results of a block back to its contacts.
+template <class Number>
+[[gnu::always_inline]] inline void scatter(ContactBlock<Number>& block) {
+  using Block = ContactBlock<Number>;
+  using Constraint = ContactConstraint<typename Number::Number>;
+  const ContactRows<Number> rows{block};
+  rows.store(offsetof(Constraint, now), offsetof(Block, now));
+  rows.store(offsetof(Constraint, expected_impulse), offsetof(Block, expected_impulse));
+  if (block.watched || block.rolls) rows.store(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
 }
 
 }  // namespace plumb

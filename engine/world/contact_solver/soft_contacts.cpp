@@ -53,8 +53,6 @@ template <class Pass, class Real>
   if (both || gives_way(pair.b)) pair.b.velocity = pair.vb, pair.b.angular_velocity = pair.wb;
 }
 
-#ifdef PLUMB_VECTORS
-
 /// The bodies a, or the bodies b, of a block.
 template <class Number>
 struct LaneBodies {
@@ -72,15 +70,15 @@ struct LaneBodies {
     static_assert(sizeof(BodyMotion<Real>) == 8 * sizeof(Real) && offsetof(BodyMotion<Real>, velocity) == 0 &&
                   offsetof(BodyMotion<Real>, turned) == 5 * sizeof(Real));
     Number first[4], last[4];
-    load_records([&](int i) __attribute__((always_inline)) { return row(i, 0); }, first);
+    load_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); }, first);
     velocity = {first[0], first[1]}, angular_velocity = first[2], moved.x = first[3];
     if (!moves) return;
-    load_records([&](int i) __attribute__((always_inline)) { return row(i, 4); }, last);
+    load_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 4); }, last);
     moved.y = last[0], turned = last[1];
   }
 
   [[gnu::always_inline]] void store(const Vec2<Number>& v, const Number& w) const {
-    store_records([&](int i) __attribute__((always_inline)) { return row(i, 0); }, {v.x, v.y, w, moved.x});
+    store_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); }, {v.x, v.y, w, moved.x});
   }
 
  private:
@@ -106,18 +104,34 @@ template <class Pass, class Number, class Real>
   }
 }
 
-template <class Pass, class Number, class Real>
-void run(BodyMotion<Real>* motion, ContactBlock<Number>* block, const ContactBlock<Number>* end,
-         const ContactStep<Real>& step) {
-  run_blocks<Pass>(motion, block, end, step);
-}
-template <class Pass, class Number, class Real>
-PLUMB_AVX2 void run_avx2(BodyMotion<Real>* motion, ContactBlock<Number>* block,
-                         const ContactBlock<Number>* end, const ContactStep<Real>& step) {
-  run_blocks<Pass>(motion, block, end, step);
-}
-
-#endif
+// The loops over blocks, for registers that all processors have, and for those of AVX2.
+template <class Number, class Real>
+struct Loops {
+  using Block = ContactBlock<Number>;
+  static void gather(Block& block, const BodyMotion<Real>* motion) { plumb::gather(block, motion); }
+  static void scatter(Block* block, const Block* end) {
+    for (; block != end; ++block) plumb::scatter(*block);
+  }
+  template <class Pass>
+  static void run(BodyMotion<Real>* motion, Block* block, const Block* end, const ContactStep<Real>& step) {
+    run_blocks<Pass>(motion, block, end, step);
+  }
+};
+template <class Real, int kLanes>
+struct Loops<Lanes<Real, kLanes, 32>, Real> {
+  using Block = ContactBlock<Lanes<Real, kLanes, 32>>;
+  PLUMB_AVX2 static void gather(Block& block, const BodyMotion<Real>* motion) {
+    plumb::gather(block, motion);
+  }
+  PLUMB_AVX2 static void scatter(Block* block, const Block* end) {
+    for (; block != end; ++block) plumb::scatter(*block);
+  }
+  template <class Pass>
+  PLUMB_AVX2 static void run(BodyMotion<Real>* motion, Block* block, const Block* end,
+                             const ContactStep<Real>& step) {
+    run_blocks<Pass>(motion, block, end, step);
+  }
+};
 
 }  // namespace
 
@@ -127,7 +141,8 @@ void SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
                                 const std::vector<char>& apart) {
   using Constraint = ContactConstraint<Real>;
   constexpr int kLanes = Block<kBytes>::kLanes, kKinds = 16, kLeast = kLanes / 2;
-  blocks.count = 0;
+  blocks.count = 0, alone_.clear(), runs_.clear();
+  runs_.reserve(ContactGraph<Real>::kColours + 1);
   ensure_room(alone_, graph_->size());
   // Contacts of one kind: they may share a block.
   Constraint* waiting[kKinds][kLanes];
@@ -137,7 +152,9 @@ void SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
       ensure_room(blocks.list, blocks.list.size() + 1);
       blocks.list.emplace_back();
     }
-    blocks.list[blocks.count++].gather(waiting[kind], counts[kind], motion);
+    Block<kBytes>& block = blocks.list[blocks.count++];
+    for (int i = 0; i < kLanes; ++i) block.contact[i] = waiting[kind][std::min(i, counts[kind] - 1)];
+    Loops<Number<kBytes>, Real>::gather(block, motion);
     counts[kind] = 0;
   };
   const auto stays_alone = [&](const Constraint& c) {
@@ -170,13 +187,22 @@ template <class Real>
 void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion,
                                const std::vector<char>& apart) {
   graph_ = &graph;
-  runs_.clear(), alone_.clear();
-  runs_.reserve(ContactGraph<Real>::kColours + 1);
-  width_ = graph.size() < kLeastContacts ? VectorWidth::None : vector_width();
+  width_ = graph.empty() ? VectorWidth::None : vector_width();
   // A narrow register holds two doubles, and moving them there costs more than it saves.
   if (sizeof(Real) == 8 && width_ == VectorWidth::Bytes16) width_ = VectorWidth::None;
+  if (width_ != VectorWidth::None && graph.size() < kLeastContacts) width_ = VectorWidth::None;
   if (width_ == VectorWidth::Bytes16) gather(blocks16_, motion, apart);
   if (width_ == VectorWidth::Bytes32) gather(blocks32_, motion, apart);
+}
+
+template <class Real>
+template <class Pass, int kBytes>
+void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
+                                    const ContactStep<Real>& step) {
+  Block<kBytes>* const list = blocks.list.data();
+  if (from.blocks < to.blocks)
+    Loops<Number<kBytes>, Real>::template run<Pass>(motion, list + from.blocks, list + to.blocks, step);
+  for (int i = from.alone; i < to.alone; ++i) run_alone<Pass>(motion, *alone_[i], step);
 }
 
 template <class Real>
@@ -188,17 +214,11 @@ void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>
   }
   Run done;
   for (const Run& to : runs_) {
-#ifdef PLUMB_VECTORS
-    if (done.blocks == to.blocks) {
-    } else if (width_ == VectorWidth::Bytes32) {
-      Block<32>* const first = blocks32_.list.data();
-      run_avx2<Pass>(motion, first + done.blocks, first + to.blocks, step);
-    } else if constexpr (sizeof(Real) == 4) {
-      Block<16>* const first = blocks16_.list.data();
-      run<Pass>(motion, first + done.blocks, first + to.blocks, step);
+    if (width_ == VectorWidth::Bytes32) {
+      run_colour<Pass>(blocks32_, done, to, motion, step);
+    } else {
+      run_colour<Pass>(blocks16_, done, to, motion, step);
     }
-#endif
-    for (int i = done.alone; i < to.alone; ++i) run_alone<Pass>(motion, *alone_[i], step);
     done = to;
   }
 }
@@ -220,10 +240,11 @@ void SoftContacts<Real>::relax(BodyMotion<Real>* motion, const ContactStep<Real>
 
 template <class Real>
 void SoftContacts<Real>::finish() {
-  if (width_ == VectorWidth::Bytes16)
-    for (int i = 0; i < blocks16_.count; ++i) blocks16_.list[i].scatter();
-  if (width_ == VectorWidth::Bytes32)
-    for (int i = 0; i < blocks32_.count; ++i) blocks32_.list[i].scatter();
+  const auto scatter = [](auto& blocks, auto loops) {
+    loops.scatter(blocks.list.data(), blocks.list.data() + blocks.count);
+  };
+  if (width_ == VectorWidth::Bytes16) scatter(blocks16_, Loops<Number<16>, Real>());
+  if (width_ == VectorWidth::Bytes32) scatter(blocks32_, Loops<Number<32>, Real>());
 }
 
 template class SoftContacts<float>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/math/vector_width.h"
@@ -31,8 +32,12 @@ class SoftContacts {
   void finish();
 
  private:
+  /// Numbers in a register: at least four, as the records have that are moved there. In double a narrow one
+  /// has two, and moving them there would cost more than it saves: it is not used.
   template <int kBytes>
-  using Block = ContactBlock<Lanes<Real, static_cast<int>(kBytes / sizeof(Real)), kBytes>>;
+  using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
+  template <int kBytes>
+  using Block = ContactBlock<Number<kBytes>>;
 
   /// Blocks in reused memory.
   template <int kBytes>
@@ -49,6 +54,9 @@ class SoftContacts {
 
   template <int kBytes>
   void gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  template <class Pass, int kBytes>
+  void run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
+                  const ContactStep<Real>& step);
   template <class Pass>
   void sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 

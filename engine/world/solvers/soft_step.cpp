@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/core/room.h"
 #include "engine/world/contact_solver/bounce_crowds.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
@@ -48,7 +49,8 @@ const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   std::vector<char>& apart = w.scratch.apart;
   apart.clear();
   const auto mark = [&](const ContactConstraint<Real>& c) {
-    if (apart.empty()) apart.resize(w.contacts.size());
+    if (c.restitution > 0) return;  // they are apart anyway
+    if (apart.empty()) make_room(apart, w.contacts.size());
     apart[c.contact] = 1;
   };
   for (const Bounce<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
