@@ -34,7 +34,8 @@ template <class Real>
 /// the four seconds and so on.
 template <class Real>
 [[gnu::always_inline]] inline void load_rows(const Real* const (&from)[4], Four<Real> (&out)[4]) {
-  load_records<true>([&](int i) __attribute__((always_inline)) { return from[i]; }, out);
+  load_records<true>(
+      [&](int i) __attribute__((always_inline)) { return from[i]; }, out);
 }
 
 /// Loads two numbers from each of four addresses: the four firsts and the four seconds.

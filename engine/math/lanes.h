@@ -29,8 +29,8 @@ struct Register {
 /// `kCount` truth values, one for each lane.
 template <class Real, int kCount, int kBytes>
 struct LaneMask {
-  static constexpr int kParts = static_cast<int>(kCount * sizeof(Real) /
-                                                 sizeof(typename Register<Real, kBytes>::Part));
+  static constexpr int kParts =
+      static_cast<int>(kCount * sizeof(Real) / sizeof(typename Register<Real, kBytes>::Part));
   typename Register<Real, kBytes>::Mask part[kParts];
 };
 
@@ -138,10 +138,8 @@ template <class Real, int kCount, int kBytes>
 // The same for single numbers, so that one algorithm serves both.
 [[gnu::always_inline]] constexpr bool any(bool mask) { return mask; }
 template <class Real>
-  requires std::is_floating_point_v<Real>
-[[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) {
-  return mask ? yes : no;
-}
+requires std::is_floating_point_v<Real>
+[[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
 /// Returns `yes()` where the mask is set, `no()` elsewhere. Of single numbers only one of them is called.
 template <class Yes, class No>
 [[gnu::always_inline]] inline auto choose(bool mask, const Yes& yes, const No& no) {

@@ -56,13 +56,14 @@ struct ContactRows {
 
   [[gnu::always_inline]] void load(std::size_t constraint_offset, std::size_t block_offset) const {
     Number rows[4];
-    load_records<false>([&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); }, rows);
+    load_records<false>(
+        [&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); }, rows);
     for (int k = 0; k < 4; ++k) row(block_offset)[k] = rows[k];
   }
   [[gnu::always_inline]] void store(std::size_t constraint_offset, std::size_t block_offset) const {
     const Number* from = row(block_offset);
     store_records<false>([&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); },
-                  {from[0], from[1], from[2], from[3]});
+                         {from[0], from[1], from[2], from[3]});
   }
 
  private:
@@ -100,7 +101,7 @@ template <class Number, class Real>
   }
   // The second half of a BodyMotion ends with its masses.
   const auto load_masses = [&](const std::uint32_t(&place)[Block::kLanes], Number& mass, Number& inertia)
-                               __attribute__((always_inline)) {
+      __attribute__((always_inline)) {
     Number half[4];
     load_records<true>(
         [&](int i) __attribute__((always_inline)) { return &motion[place[i] / kUnits].moved.y; }, half);
@@ -114,7 +115,8 @@ template <class Number, class Real>
   block.gives_way_a = gives_way(motion[first.body_a]), block.gives_way_b = gives_way(motion[first.body_b]);
   static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
-  if (block.watched || block.rolls) rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  if (block.watched || block.rolls)
+    rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
 }
 
 /// Writes the results of a block back to its contacts.
@@ -125,7 +127,15 @@ template <class Number>
   const ContactRows<Number> rows{block};
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
   rows.store(offsetof(Constraint, expected_impulse), offsetof(Block, expected_impulse));
-  if (block.watched || block.rolls) rows.store(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  if (!block.watched && !block.rolls) return;
+  typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
+  block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
+      block.peak_impulse[1].store(peaks[1]);
+  for (int i = 0; i < Block::kLanes; ++i) {
+    Constraint& c = *block.contact[i];
+    if (block.rolls) c.rolling_impulse = rolling[i];
+    if (c.watched) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
+  }
 }
 
 }  // namespace plumb

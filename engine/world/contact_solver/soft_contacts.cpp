@@ -70,15 +70,18 @@ struct LaneBodies {
     static_assert(sizeof(BodyMotion<Real>) == 8 * sizeof(Real) && offsetof(BodyMotion<Real>, velocity) == 0 &&
                   offsetof(BodyMotion<Real>, turned) == 5 * sizeof(Real));
     Number first[4], last[4];
-    load_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); }, first);
+    load_records<true>(
+        [&](int i) __attribute__((always_inline)) { return row(i, 0); }, first);
     velocity = {first[0], first[1]}, angular_velocity = first[2], moved.x = first[3];
     if (!moves) return;
-    load_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 4); }, last);
+    load_records<true>(
+        [&](int i) __attribute__((always_inline)) { return row(i, 4); }, last);
     moved.y = last[0], turned = last[1];
   }
 
   [[gnu::always_inline]] void store(const Vec2<Number>& v, const Number& w) const {
-    store_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); }, {v.x, v.y, w, moved.x});
+    store_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); },
+                        {v.x, v.y, w, moved.x});
   }
 
  private:
