@@ -13,8 +13,9 @@ template <class Real, int kCount, int kBytes>
 [[gnu::always_inline]] inline void transpose(const Lanes<Real, kCount, kBytes> (&row)[4],
                                              Lanes<Real, kCount, kBytes> (&out)[4]) {
   static_assert(kCount == 4 || (kCount == 8 && kBytes == 32));
-  if constexpr (row[0].kParts == 2) {  // pairs of numbers
-    for (int k = 0; k < 2; ++k)        // columns 2 k and 2 k + 1
+  constexpr int kParts = Lanes<Real, kCount, kBytes>::kParts;
+  if constexpr (kParts == 2) {   // pairs of numbers
+    for (int k = 0; k < 2; ++k)  // columns 2 k and 2 k + 1
       for (int i = 0; i < 2; ++i) {
         out[2 * k].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 0, 2);
         out[2 * k + 1].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 1, 3);
@@ -22,7 +23,7 @@ template <class Real, int kCount, int kBytes>
     return;
   }
   const auto &a = row[0].part[0], &b = row[1].part[0], &c = row[2].part[0], &d = row[3].part[0];
-  if constexpr (row[0].kParts == 1 && kCount == 8) {
+  if constexpr (kParts == 1 && kCount == 8) {
     const auto low_ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
     const auto low_cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
     const auto high_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
@@ -31,7 +32,7 @@ template <class Real, int kCount, int kBytes>
     out[1].part[0] = __builtin_shufflevector(low_ab, low_cd, 2, 3, 10, 11, 6, 7, 14, 15);
     out[2].part[0] = __builtin_shufflevector(high_ab, high_cd, 0, 1, 8, 9, 4, 5, 12, 13);
     out[3].part[0] = __builtin_shufflevector(high_ab, high_cd, 2, 3, 10, 11, 6, 7, 14, 15);
-  } else if constexpr (row[0].kParts == 1 && kBytes == 32) {  // registers of two halves: cross them last
+  } else if constexpr (kParts == 1 && kBytes == 32) {  // registers of two halves: cross them last
     const auto even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
     const auto even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
     const auto odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
@@ -40,7 +41,7 @@ template <class Real, int kCount, int kBytes>
     out[1].part[0] = __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5);
     out[2].part[0] = __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7);
     out[3].part[0] = __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7);
-  } else if constexpr (row[0].kParts == 1) {
+  } else if constexpr (kParts == 1) {
     const auto low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const auto low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
     const auto high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);

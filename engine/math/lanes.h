@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <type_traits>
 
@@ -15,7 +14,10 @@ namespace plumb {
 template <class Real, int kBytes>
 struct Register {
   typedef Real Part __attribute__((vector_size(kBytes)));
-  using Mask = decltype(Part{} < Part{});  // lanes of ones or zeros
+  using Mask = decltype(Part{} < Part{});         // lanes of ones or zeros
+  struct [[gnu::packed, gnu::may_alias]] Loose {  // in memory, among other numbers
+    Part part;
+  };
   typedef long long Words __attribute__((vector_size(kBytes)));
 };
 #else
@@ -23,6 +25,9 @@ template <class Real, int kBytes>
 struct Register {
   using Part = Real;
   using Mask = bool;
+  struct Loose {
+    Part part;
+  };
 };
 #endif
 
@@ -40,7 +45,8 @@ struct LaneMask {
 template <class Real, int kCount, int kBytes = 16>
 struct Lanes {
   using Number = Real;
-  using Part = typename Register<Real, kBytes>::Part;
+  using Registers = Register<Real, kBytes>;
+  using Part = typename Registers::Part;
   using Mask = LaneMask<Real, kCount, kBytes>;
   static constexpr int kLanes = kCount;
   static constexpr int kParts = Mask::kParts;
@@ -54,10 +60,14 @@ struct Lanes {
   }
   [[gnu::always_inline]] static Lanes load(const Real* from) {
     Lanes out;
-    std::memcpy(out.part, from, kCount * sizeof(Real));
+    const auto* parts = reinterpret_cast<const typename Registers::Loose*>(from);
+    for (int k = 0; k < kParts; ++k) out.part[k] = parts[k].part;
     return out;
   }
-  [[gnu::always_inline]] void store(Real* to) const { std::memcpy(to, part, kCount * sizeof(Real)); }
+  [[gnu::always_inline]] void store(Real* to) const {
+    auto* parts = reinterpret_cast<typename Registers::Loose*>(to);
+    for (int k = 0; k < kParts; ++k) parts[k].part = part[k];
+  }
   /// Address must be a multiple of 16 bytes.
   [[gnu::always_inline]] static Lanes load_aligned(const Real* from) {
     return load(std::assume_aligned<16>(from));

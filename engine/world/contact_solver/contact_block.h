@@ -112,7 +112,9 @@ template <class Number, class Real>
 
   const Constraint& first = *block.contact[0];
   block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);
-  block.gives_way_a = gives_way(motion[first.body_a]), block.gives_way_b = gives_way(motion[first.body_b]);
+  const bool both = first.hardness == ContactHardness::Soft;
+  block.gives_way_a = both || gives_way(motion[first.body_a]);
+  block.gives_way_b = both || gives_way(motion[first.body_b]);
   static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
   if (block.watched || block.rolls)

@@ -15,9 +15,15 @@
 namespace plumb {
 namespace {
 
-// Fewest contacts of a world for which blocks are built, and fewest of a block: below that, gathering costs
-// more than it saves.
-constexpr std::size_t kLeastContacts = 32;
+// Fewest contacts of a world for which blocks are built: gathering fewer costs more than it saves. A narrow
+// register has two doubles, and saves little.
+template <class Real>
+constexpr std::size_t least_contacts(VectorWidth width) {
+  return sizeof(Real) == 8 && width == VectorWidth::Bytes16 ? 64 : 16;
+}
+
+// Fewest contacts in a block: one alone costs less.
+constexpr int kLeastLanes = 2;
 
 struct WarmStart {
   static constexpr bool kMoves = false;
@@ -140,10 +146,10 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
 
 template <class Real>
 template <int kBytes>
-void SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
+bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
                                 const std::vector<char>& apart) {
   using Constraint = ContactConstraint<Real>;
-  constexpr int kLanes = Block<kBytes>::kLanes, kKinds = 16, kLeast = kLanes / 2;
+  constexpr int kLanes = Block<kBytes>::kLanes, kKinds = 16;
   blocks.count = 0, alone_.clear(), runs_.clear();
   runs_.reserve(ContactGraph<Real>::kColours + 1);
   ensure_room(alone_, graph_->size());
@@ -178,12 +184,13 @@ void SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
       if (counts[kind] == kLanes) flush(kind);
     }
     for (int kind = 0; kind < kKinds; ++kind) {
-      if (counts[kind] >= kLeast) flush(kind);
+      if (counts[kind] >= kLeastLanes) flush(kind);
       for (int i = 0; i < counts[kind]; ++i) alone_.push_back(waiting[kind][i]);
       counts[kind] = 0;
     }
     runs_.push_back({blocks.count, static_cast<int>(alone_.size())});
   });
+  return blocks.count > 0;
 }
 
 template <class Real>
@@ -191,11 +198,9 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
                                const std::vector<char>& apart) {
   graph_ = &graph;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
-  // A narrow register holds two doubles, and moving them there costs more than it saves.
-  if (sizeof(Real) == 8 && width_ == VectorWidth::Bytes16) width_ = VectorWidth::None;
-  if (width_ != VectorWidth::None && graph.size() < kLeastContacts) width_ = VectorWidth::None;
-  if (width_ == VectorWidth::Bytes16) gather(blocks16_, motion, apart);
-  if (width_ == VectorWidth::Bytes32) gather(blocks32_, motion, apart);
+  if (graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
+  if (width_ == VectorWidth::Bytes16 && !gather(blocks16_, motion, apart)) width_ = VectorWidth::None;
+  if (width_ == VectorWidth::Bytes32 && !gather(blocks32_, motion, apart)) width_ = VectorWidth::None;
 }
 
 template <class Real>

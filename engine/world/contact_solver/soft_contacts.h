@@ -32,8 +32,7 @@ class SoftContacts {
   void finish();
 
  private:
-  /// Numbers in a register: at least four, as the records have that are moved there. In double a narrow one
-  /// has two, and moving them there would cost more than it saves: it is not used.
+  /// Numbers in a register, or in two: at least four, as the records have that are moved there.
   template <int kBytes>
   using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
   template <int kBytes>
@@ -52,8 +51,9 @@ class SoftContacts {
     int blocks = 0, alone = 0;
   };
 
+  /// Fills the blocks. Returns false if all contacts are alone.
   template <int kBytes>
-  void gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  bool gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart);
   template <class Pass, int kBytes>
   void run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
                   const ContactStep<Real>& step);
