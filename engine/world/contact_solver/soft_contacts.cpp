@@ -198,7 +198,7 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
                                const std::vector<char>& apart) {
   graph_ = &graph;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
-  if (graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
+  if (width_ != VectorWidth::None && graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
   if (width_ == VectorWidth::Bytes16 && !gather(blocks16_, motion, apart)) width_ = VectorWidth::None;
   if (width_ == VectorWidth::Bytes32 && !gather(blocks32_, motion, apart)) width_ = VectorWidth::None;
 }
@@ -215,7 +215,7 @@ void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, Bo
 
 template <class Real>
 template <class Pass>
-void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
+[[gnu::noinline]] void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
   if (width_ == VectorWidth::None) {
     graph_->for_each([&](ContactConstraint<Real>& c) { run_alone<Pass>(motion, c, step); });
     return;
@@ -233,17 +233,17 @@ void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>
 
 template <class Real>
 void SoftContacts<Real>::warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
-  sweep<WarmStart>(motion, step);
+  if (!graph_->empty()) sweep<WarmStart>(motion, step);
 }
 
 template <class Real>
 void SoftContacts<Real>::solve(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
-  sweep<Solve>(motion, step);
+  if (!graph_->empty()) sweep<Solve>(motion, step);
 }
 
 template <class Real>
 void SoftContacts<Real>::relax(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
-  sweep<Relax>(motion, step);
+  if (!graph_->empty()) sweep<Relax>(motion, step);
 }
 
 template <class Real>
