@@ -1,103 +1,20 @@
 #pragma once
 
 #include <cstring>
-#include <memory>
+
+#include "engine/math/lane_rows.h"
+#include "engine/math/lanes.h"
 
 namespace plumb {
 
-/// Four numbers processed lane by lane: each lane gives the same bits as scalar code. With PLUMB_SCALAR, or a
-/// compiler without vectors, it is an array.
+/// Four numbers, in registers of 16 bytes that all processors have.
 template <class Real>
-struct Four {
-#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
-  typedef Real Part __attribute__((vector_size(16)));
-#else
-  using Part = Real;
-#endif
-  static constexpr int kParts = static_cast<int>(4 * sizeof(Real) / sizeof(Part));
-  Part part[kParts];
-
-  Four() = default;
-  /// The same number in all lanes.
-  Four(Real value) {
-    for (int k = 0; k < kParts; ++k) part[k] = value - Part{};
-  }
-  static Four load(const Real* from) {
-    Four out;
-    std::memcpy(out.part, from, 4 * sizeof(Real));
-    return out;
-  }
-  void store(Real* to) const { std::memcpy(to, part, 4 * sizeof(Real)); }
-  /// Address must be a multiple of 16 bytes.
-  static Four load_aligned(const Real* from) { return load(std::assume_aligned<16>(from)); }
-  void store_aligned(Real* to) const { store(std::assume_aligned<16>(to)); }
-
-  friend Four operator+(const Four& a, const Four& b) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] + b.part[k];
-    return out;
-  }
-  friend Four operator-(const Four& a, const Four& b) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] - b.part[k];
-    return out;
-  }
-  friend Four operator*(const Four& a, const Four& b) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] * b.part[k];
-    return out;
-  }
-  friend Four operator/(const Four& a, const Four& b) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] / b.part[k];
-    return out;
-  }
-  friend Four operator-(const Four& a) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = -a.part[k];
-    return out;
-  }
-  Four& operator+=(const Four& b) { return *this = *this + b; }
-  Four& operator-=(const Four& b) { return *this = *this - b; }
-  Four& operator*=(const Four& b) { return *this = *this * b; }
-  friend Four least(const Four& a, const Four& b) {
-    Four out;
-    for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] < b.part[k] ? a.part[k] : b.part[k];
-    return out;
-  }
-};
-
-/// Transposes: lane i of out k is lane k of row i.
-template <class Real>
-[[gnu::always_inline]] inline void transpose(const Four<Real> (&row)[4], Four<Real> (&out)[4]) {
-#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
-  using Part = typename Four<Real>::Part;
-  if constexpr (sizeof(Real) == 4) {
-    const Part low01 = __builtin_shufflevector(row[0].part[0], row[1].part[0], 0, 4, 1, 5);
-    const Part low23 = __builtin_shufflevector(row[2].part[0], row[3].part[0], 0, 4, 1, 5);
-    const Part high01 = __builtin_shufflevector(row[0].part[0], row[1].part[0], 2, 6, 3, 7);
-    const Part high23 = __builtin_shufflevector(row[2].part[0], row[3].part[0], 2, 6, 3, 7);
-    out[0].part[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
-    out[1].part[0] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-    out[2].part[0] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
-    out[3].part[0] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
-  } else {
-    for (int k = 0; k < 2; ++k)  // columns 2 k and 2 k + 1
-      for (int i = 0; i < 2; ++i) {
-        out[2 * k].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 0, 2);
-        out[2 * k + 1].part[i] = __builtin_shufflevector(row[2 * i].part[k], row[2 * i + 1].part[k], 1, 3);
-      }
-  }
-#else
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 4; ++i) out[k].part[i] = row[i].part[k];
-#endif
-}
+using Four = Lanes<Real, 4>;
 
 /// Returns true if a > b in all four lanes.
 template <class Real>
 [[gnu::always_inline]] inline bool all_greater(const Four<Real>& a, const Four<Real>& b) {
-#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
+#ifdef PLUMB_VECTORS
   bool all = true;
   for (int k = 0; k < Four<Real>::kParts; ++k) {
     const auto greater = a.part[k] > b.part[k];  // lanes of ones or zeros
@@ -117,15 +34,14 @@ template <class Real>
 /// the four seconds and so on.
 template <class Real>
 [[gnu::always_inline]] inline void load_rows(const Real* const (&from)[4], Four<Real> (&out)[4]) {
-  Four<Real> rows[4];
-  for (int i = 0; i < 4; ++i) rows[i] = Four<Real>::load_aligned(from[i]);
-  transpose(rows, out);
+  load_records<true>(
+      [&](int i) __attribute__((always_inline)) { return from[i]; }, out);
 }
 
 /// Loads two numbers from each of four addresses: the four firsts and the four seconds.
 template <class Real>
 [[gnu::always_inline]] inline void load_pairs(const Real* const (&from)[4], Four<Real> (&out)[2]) {
-#if defined(__GNUC__) && !defined(PLUMB_SCALAR)
+#ifdef PLUMB_VECTORS
   using Part = typename Four<Real>::Part;
   if constexpr (sizeof(Real) == 4) {
     typedef double Pairs __attribute__((vector_size(16)));  // pairs of floats, not numbers

@@ -2,22 +2,23 @@
 
 namespace plumb {
 
-/// A vector in the plane. Units are those of the quantity it holds.
+/// A vector in the plane. Units are those of the quantity it holds. Always inlined: of vectors of Lanes, a
+/// function compiled for wider registers passes them in another way than one that is not.
 template <class Real>
 struct Vec2 {
   Real x = 0, y = 0;
 
   friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
 
-  constexpr Vec2& operator+=(Vec2 b) { return x += b.x, y += b.y, *this; }
-  constexpr Vec2& operator-=(Vec2 b) { return x -= b.x, y -= b.y, *this; }
-  constexpr Vec2& operator*=(Real s) { return x *= s, y *= s, *this; }
+  [[gnu::always_inline]] constexpr Vec2& operator+=(Vec2 b) { return x += b.x, y += b.y, *this; }
+  [[gnu::always_inline]] constexpr Vec2& operator-=(Vec2 b) { return x -= b.x, y -= b.y, *this; }
+  [[gnu::always_inline]] constexpr Vec2& operator*=(Real s) { return x *= s, y *= s, *this; }
 
-  friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
-  friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-  friend constexpr Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
-  friend constexpr Vec2 operator*(Real s, Vec2 a) { return {s * a.x, s * a.y}; }
-  friend constexpr Vec2 operator*(Vec2 a, Real s) { return s * a; }
+  [[gnu::always_inline]] friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  [[gnu::always_inline]] friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  [[gnu::always_inline]] friend constexpr Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
+  [[gnu::always_inline]] friend constexpr Vec2 operator*(Real s, Vec2 a) { return {s * a.x, s * a.y}; }
+  [[gnu::always_inline]] friend constexpr Vec2 operator*(Vec2 a, Real s) { return s * a; }
 
   template <class To>
   constexpr Vec2<To> as() const {
@@ -28,30 +29,30 @@ struct Vec2 {
 using Vec2d = Vec2<double>;
 
 template <class Real>
-constexpr Real dot(Vec2<Real> a, Vec2<Real> b) {
+[[gnu::always_inline]] constexpr Real dot(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.x + a.y * b.y;
 }
 
 /// z component of a x b.
 template <class Real>
-constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
+[[gnu::always_inline]] constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.y - a.y * b.x;
 }
 
 /// w z-hat x r: the velocity at r of a body with angular velocity w.
 template <class Real>
-constexpr Vec2<Real> cross(Real w, Vec2<Real> r) {
+[[gnu::always_inline]] constexpr Vec2<Real> cross(Real w, Vec2<Real> r) {
   return {-w * r.y, w * r.x};
 }
 
 template <class Real>
-constexpr Real length_squared(Vec2<Real> a) {
+[[gnu::always_inline]] constexpr Real length_squared(Vec2<Real> a) {
   return dot(a, a);
 }
 
 /// Rotates a by a quarter turn counter-clockwise.
 template <class Real>
-constexpr Vec2<Real> perpendicular(Vec2<Real> a) {
+[[gnu::always_inline]] constexpr Vec2<Real> perpendicular(Vec2<Real> a) {
   return {-a.y, a.x};
 }
 

@@ -16,6 +16,7 @@
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/bounce_crowds.h"
 #include "engine/world/contact_solver/contact_graph.h"
+#include "engine/world/contact_solver/soft_contacts.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/joint_solver/direct_rows.h"
@@ -271,6 +272,8 @@ struct Scratch {
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
   std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<Bounce<Real>> bounces;
+  std::vector<char> apart;  ///< by contact: it is not solved side by side with others
+  SoftContacts<Real> passes;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step
   std::vector<int> expecting_bodies;

@@ -47,7 +47,7 @@ FEATURES = [
             "1 / (1 + time * double(own.linear_damping))", "world/motion"),
 
     # Materials.
-    feature("Friction", WORLD + "contact_solver/soft_contacts.cpp", "most = c.friction * pressure;", "most = pressure / 2;",
+    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * pressure;", "most = pressure / 2;",
             "world/contacts"),
     feature("Restitution", WORLD + "contact_solver/bounces.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
             "world/restitution"),
@@ -165,7 +165,7 @@ FEATURES = [
             "DrawRole::JointLine);", "", "world/debug_draw"),
 
     # Solvers.
-    feature("Soft steps", WORLD + "solvers/soft_step.cpp", "relax_contacts(bodies.motion, w.graph, contacts);", "",
+    feature("Soft steps", WORLD + "solvers/soft_step.cpp", "passes.relax(bodies.motion, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "solvers/soft_step.cpp",
             "prepare_direct_islands(w);", "", "world/resting", "world/world"),

@@ -8,6 +8,7 @@
 
 #include "tests/world/golden.h"
 #include "tests/world/support.h"
+#include "tests/world/vector_widths.h"
 
 // Impacts of discs: oblique ones, and those that are handed on. Truth is the closed form of two bodies
 // (Newton's law along the line of centres), and that energy and momentum are kept or lost, never gained.
@@ -237,12 +238,14 @@ TEST(Impacts, AnEvenBreakIsEven) {
 }
 
 TEST(Impacts, HaveOneHashEverywhere) {
-  std::mt19937 from(4);
-  World world({.gravity = {0, -1}, .sleeping = false});
-  add_body(world, {0, -3}, {.geometry = Box{6, 0.5}, .density = 5, .material = {0.4, 0.7}});
-  for (int i = 0; i < 4; ++i) build_rack(world, from, 15, 1e-5 * i, {0.3, 0.9});
-  run(world, 300);
-  test::expect_golden("racks_and_a_board", world.hash());
+  test::at_each_vector_width([](VectorWidth) {
+    std::mt19937 from(4);
+    World world({.gravity = {0, -1}, .sleeping = false});
+    add_body(world, {0, -3}, {.geometry = Box{6, 0.5}, .density = 5, .material = {0.4, 0.7}});
+    for (int i = 0; i < 4; ++i) build_rack(world, from, 15, 1e-5 * i, {0.3, 0.9});
+    run(world, 300);
+    test::expect_golden("racks_and_a_board", world.hash());
+  });
 }
 
 // Rods that turn like gears, within reach of each other and never touching: 1.7e4 radians a step, of which a

@@ -10,6 +10,7 @@
 #include "tests/world/golden.h"
 #include "tests/world/ragdoll.h"
 #include "tests/world/support.h"
+#include "tests/world/vector_widths.h"
 
 namespace plumb {
 namespace {
@@ -45,11 +46,13 @@ void add_pile(World& world, int count) {
 }
 
 TEST(World, AFallingPileHasOneHashEverywhere) {
-  World world(without_sleep());
-  add_pile(world, 60);
-  add_ragdoll(world, {.at = {0, 14}});
-  run(world, 1000);
-  test::expect_golden("falling_pile", world.hash());
+  test::at_each_vector_width([](VectorWidth) {
+    World world(without_sleep());
+    add_pile(world, 60);
+    add_ragdoll(world, {.at = {0, 14}});
+    run(world, 1000);
+    test::expect_golden("falling_pile", world.hash());
+  });
 }
 
 TEST(World, StepsDoNotAllocateOnceWarm) {

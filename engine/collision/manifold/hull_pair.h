@@ -34,7 +34,7 @@ inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull
   using Lanes = Four<Real>;
   const Lanes nx = Lanes::load(hull.nx + first), ny = Lanes::load(hull.ny + first);
   Lanes out = nx * Lanes(other.x[0]) + ny * Lanes(other.y[0]);
-  for (int j = 1; j < count; ++j) out = least(nx * Lanes(other.x[j]) + ny * Lanes(other.y[j]), out);
+  for (int j = 1; j < count; ++j) out = min(out, nx * Lanes(other.x[j]) + ny * Lanes(other.y[j]));
   out = out - (nx * Lanes::load(hull.x + first) + ny * Lanes::load(hull.y + first));
   Real s[4];
   out.store(s);

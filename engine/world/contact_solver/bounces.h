@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/world/contact_solver/soft_contacts.h"
+#include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/contact_step.h"
 
 namespace plumb {
 

@@ -40,6 +40,13 @@ class ContactGraph {
     }
   }
 
+  /// Calls `visit(constraints, has_colour)` for each colour that is not empty, and for the overflow, in the
+  /// same order.
+  template <class Visit>
+  void for_each_colour(Visit&& visit) {
+    for (int i = 0; i < used_count_; ++i) visit(colours_[used_[i]], used_[i] != kOverflow);
+  }
+
   std::vector<ContactConstraint<Real>>& colour(int c) { return colours_[c]; }
   const std::vector<ContactConstraint<Real>>& colour(int c) const { return colours_[c]; }
   static constexpr int order(int nth) {

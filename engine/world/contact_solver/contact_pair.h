@@ -2,111 +2,112 @@
 
 #include <algorithm>
 
+#include "engine/math/lanes.h"
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
 
-/// Building blocks of the passes over contacts. They are inlined into each pass, which costs little more than
-/// the latency of its few operations.
+/// Building blocks of the passes over contacts: of one contact, or of several side by side, where `Number`
+/// has a lane for each. They are inlined into each pass, which costs little more than the latency of its few
+/// operations.
 namespace plumb {
 
 /// The two bodies of a constraint, held in registers through a pass. Their velocities are written back once.
-template <class Real>
+template <class Number, class Body>
 struct Pair {
-  Pair(BodyMotion<Real>* motion, const ContactConstraint<Real>& c)
-      : a(motion[c.body_a]),
-        b(motion[c.body_b]),
-        n(c.normal),
-        va(a.velocity),
-        vb(b.velocity),
-        wa(a.angular_velocity),
-        wb(b.angular_velocity) {}
+  Body a, b;
+  Vec2<Number> n;
+  Vec2<Number> va = a.velocity, vb = b.velocity;
+  Number wa = a.angular_velocity, wb = b.angular_velocity;
 
-  Real along_normal() const { return dot(n, vb - va); }
-  Real along_tangent(const ContactConstraint<Real>& c) const {
-    return dot(Vec2<Real>{n.y, -n.x}, vb - va) + (c.arm_tangent_b * wb - c.arm_tangent_a * wa);
+  [[gnu::always_inline]] Number along_normal() const { return dot(n, vb - va); }
+  template <class Contact>
+  [[gnu::always_inline]] Number along_tangent(const Contact& c) const {
+    return dot(Vec2<Number>{n.y, -n.x}, vb - va) + (c.arm_tangent_b * wb - c.arm_tangent_a * wa);
   }
-  void push(Real impulse, Real angular_a, Real angular_b) {
+  [[gnu::always_inline]] void push(const Number& impulse, const Number& angular_a, const Number& angular_b) {
     va -= (a.inverse_mass * impulse) * n;
     vb += (b.inverse_mass * impulse) * n;
     wa -= a.inverse_inertia * angular_a;
     wb += b.inverse_inertia * angular_b;
   }
-  void rub(const ContactConstraint<Real>& c, Real impulse) {
-    const Vec2<Real> t{n.y, -n.x};
+  template <class Contact>
+  [[gnu::always_inline]] void rub(const Contact& c, const Number& impulse) {
+    const Vec2<Number> t{n.y, -n.x};
     va -= (a.inverse_mass * impulse) * t;
     vb += (b.inverse_mass * impulse) * t;
     wa -= a.inverse_inertia * (impulse * c.arm_tangent_a);
     wb += b.inverse_inertia * (impulse * c.arm_tangent_b);
   }
-  void roll(Real impulse) {
+  [[gnu::always_inline]] void roll(const Number& impulse) {
     wa -= a.inverse_inertia * impulse;
     wb += b.inverse_inertia * impulse;
   }
-  void store() {
-    a.velocity = va, a.angular_velocity = wa;
-    b.velocity = vb, b.angular_velocity = wb;
-  }
-
-  BodyMotion<Real>&a, &b;
-  Vec2<Real> n, va, vb;
-  Real wa, wb;
 };
 
 /// Bias and softness of a point: v_n + bias = 0, softened.
-template <class Real>
+template <class Number>
 struct Demand {
-  Real bias = 0, mass_scale = 1, impulse_scale = 0;
+  Number bias = 0, mass_scale = 1, impulse_scale = 0;
 };
+
+/// Solves lambda >= 0 with v_n + bias = 0 at a point alone: `rate` is v_n + bias.
+template <class Number>
+[[gnu::always_inline]] inline Number press_alone(const Demand<Number>& at, const Number& mass,
+                                                 const Number& expected, const Number& rate,
+                                                 const Number& impulse) {
+  using std::max;
+  const Number yield = at.impulse_scale * (impulse - expected);
+  return max((impulse - yield) - at.mass_scale * mass * rate, Number(0));
+}
 
 /// Solves lambda >= 0 with v_n + bias = 0 at both points together, softened around the expected impulse
 /// lambda_0: d = -mass_scale K^-1 (v + bias) - impulse_scale (lambda - lambda_0). The points are coupled by
 /// the bodies' rotation; solved one after the other they would need several iterations. A point that would
 /// have to pull gets no impulse, and the other one is solved alone.
-template <class Real>
-[[gnu::always_inline]] inline void press(Pair<Real>& pair, ContactConstraint<Real>& c,
-                                         const Demand<Real>& at_p, const Demand<Real>& at_q) {
-  const Real v = pair.along_normal();
-  const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
-  const Real rate_p = v + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at_p.bias);
-  const Real rate_q = v + (c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + at_q.bias);
-  Real new_p = (p - at_p.impulse_scale * (p - c.expected_impulse[0])) -
-               at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
-  Real new_q = (q - at_q.impulse_scale * (q - c.expected_impulse[1])) -
-               at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
-  if (std::min(new_p, new_q) < 0) {
-    const auto alone = [&](const Demand<Real>& at, int i, Real rate, Real impulse) {
-      const Real yield = at.impulse_scale * (impulse - c.expected_impulse[i]);
-      return std::max((impulse - yield) - at.mass_scale * c.mass[i] * rate, Real(0));
+template <class Pair, class Contact, class Number>
+[[gnu::always_inline]] inline void press(Pair& pair, Contact& c, const Demand<Number>& at_p,
+                                         const Demand<Number>& at_q) {
+  using std::min;
+  const Number v = pair.along_normal();
+  const Number p = c.normal_impulse[0], q = c.normal_impulse[1];
+  const Number rate_p = v + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at_p.bias);
+  const Number rate_q = v + (c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + at_q.bias);
+  Number new_p = (p - at_p.impulse_scale * (p - c.expected_impulse[0])) -
+                 at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
+  Number new_q = (q - at_q.impulse_scale * (q - c.expected_impulse[1])) -
+                 at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
+  if (const auto pulls = min(new_p, new_q) < Number(0); any(pulls)) {
+    const auto p_pulls = new_p < new_q;
+    const auto zero = []() __attribute__((always_inline)) { return Number(0); };
+    const auto p_alone = [&]() __attribute__((always_inline)) {
+      return press_alone(at_p, c.mass[0], c.expected_impulse[0], rate_p - c.between * q, p);
     };
-    if (new_p < new_q) {
-      new_p = 0;
-      new_q = alone(at_q, 1, rate_q - c.between * p, q);
-    } else {
-      new_q = 0;
-      new_p = alone(at_p, 0, rate_p - c.between * q, p);
-    }
+    const auto q_alone = [&]() __attribute__((always_inline)) {
+      return press_alone(at_q, c.mass[1], c.expected_impulse[1], rate_q - c.between * p, q);
+    };
+    const Number only_p = choose(p_pulls, zero, p_alone), only_q = choose(p_pulls, q_alone, zero);
+    new_p = select(pulls, only_p, new_p), new_q = select(pulls, only_q, new_q);
   }
   c.normal_impulse[0] = new_p, c.normal_impulse[1] = new_q;
-  const Real dp = new_p - p, dq = new_q - q;
+  const Number dp = new_p - p, dq = new_q - q;
   pair.push(dp + dq, c.arm_a[0] * dp + c.arm_a[1] * dq, c.arm_b[0] * dp + c.arm_b[1] * dq);
 }
 
-template <class Real>
-[[gnu::always_inline]] inline void press_one(Pair<Real>& pair, ContactConstraint<Real>& c,
-                                             const Demand<Real>& at) {
-  const Real p = c.normal_impulse[0];
-  const Real rate = pair.along_normal() + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at.bias);
-  const Real yield = at.impulse_scale * (p - c.expected_impulse[0]);
-  const Real new_p = std::max((p - yield) - at.mass_scale * c.mass[0] * rate, Real(0));
+template <class Pair, class Contact, class Number>
+[[gnu::always_inline]] inline void press_one(Pair& pair, Contact& c, const Demand<Number>& at) {
+  const Number p = c.normal_impulse[0];
+  const Number rate = pair.along_normal() + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at.bias);
+  const Number new_p = press_alone(at, c.mass[0], c.expected_impulse[0], rate, p);
   c.normal_impulse[0] = new_p;
-  const Real d = new_p - p;
+  const Number d = new_p - p;
   pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);
 }
 
 /// Records the largest impulses of a step.
-template <class Real>
-void note_peaks(ContactConstraint<Real>& c) {
-  for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
+template <class Contact>
+[[gnu::always_inline]] inline void note_peaks(Contact& c) {
+  using std::max;
+  for (int i = 0; i < 2; ++i) c.peak_impulse[i] = max(c.peak_impulse[i], c.normal_impulse[i]);
 }
 
 }  // namespace plumb

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/world/contact_solver/soft_contacts.h"
+#include "engine/world/contact_solver/contact_step.h"
 #include "engine/world/world_data.h"
 
 /// Direct solve of small islands of contacts, in addition to the iterations. Towers and heavy loads on light

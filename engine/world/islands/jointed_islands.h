@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/world/contact_solver/soft_contacts.h"
+#include "engine/world/contact_solver/contact_step.h"
 #include "engine/world/world_data.h"
 
 /// Islands with joints, solved as one. The rows of all their joints (points, welds, limits, motors, springs)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/core/room.h"
 #include "engine/world/contact_solver/bounce_crowds.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
@@ -41,6 +42,23 @@ bool nothing_left(const WorldData<Real>& w) {
   return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
 }
 
+// Returns marks, by record, of the contacts with an impact time of their own or a second solver, which read
+// and change them between the passes; no marks if there are none.
+template <class Real>
+const std::vector<char>& contacts_apart(WorldData<Real>& w) {
+  std::vector<char>& apart = w.scratch.apart;
+  apart.clear();
+  const auto mark = [&](const ContactConstraint<Real>& c) {
+    if (c.restitution > 0) return;  // they are apart anyway
+    if (apart.empty()) make_room(apart, w.contacts.size());
+    apart[c.contact] = 1;
+  };
+  for (const Bounce<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
+  for (int i = 0; i < w.scratch.jointed_count; ++i)
+    for (const ContactConstraint<Real>* c : w.scratch.jointed[i].contacts) mark(*c);
+  return apart;
+}
+
 }  // namespace
 
 template <class Real>
@@ -73,6 +91,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w);
   find_bounces(w);
+  SoftContacts<Real>& passes = w.scratch.passes;
+  passes.begin(w.graph, bodies.motion, contacts_apart(w));
   bool strikes = false;
   const auto place = [&] {
     strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
@@ -92,22 +112,23 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) place();
     if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
-    if (!repeat) warm_start_contacts(bodies.motion, w.graph, contacts);
+    if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (!jointed) place();
     let_pass(w.scratch.bounces);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, true);
-    solve_contacts(bodies.motion, w.graph, contacts);
+    passes.solve(bodies.motion, contacts);
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) turn_back(w);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, false);
-    relax_contacts(bodies.motion, w.graph, contacts);
+    passes.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
     hold_again(w.scratch.bounces);
     contacts.warm_start = joints.warm_start = 1;
   }
+  passes.finish();
   finish_direct_islands(w);
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
 namespace plumb {
 namespace {
 
@@ -9,6 +13,11 @@ template <class Real>
 class FourLanes : public testing::Test {};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(FourLanes, Reals);
+
+template <class Real>
+bool same(Real a, Real b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 template <class Real>
 void expect_lanes(const Four<Real>& found, const Real (&expected)[4]) {
@@ -33,8 +42,33 @@ TYPED_TEST(FourLanes, EachLaneIsTheSumOfSingleNumbers) {
     less[lane] = x[lane];
     EXPECT_FALSE(all_greater(a, Four<Real>::load(less))) << lane;
   }
-  expect_lanes(least(a, b), {x[0], x[1], y[2], x[3]});
   expect_lanes(Four<Real>(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
+}
+
+// The order of operands matters for zeros of both signs and for what is not a number.
+TYPED_TEST(FourLanes, MinimaAndMaximaAreThoseOfTheStandardLibrary) {
+  using Real = TypeParam;
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  const Real all[] = {Real(0), -Real(0), 1, -1, nan, std::numeric_limits<Real>::infinity()};
+  for (const Real x : all) {
+    for (const Real y : all) {
+      const Four<Real> a(x), b(y);
+      Real least[4], greatest[4], chosen[4];
+      min(a, b).store(least), max(a, b).store(greatest), select(a < b, a, b).store(chosen);
+      for (int i = 0; i < 4; ++i) {
+        EXPECT_TRUE(same(least[i], std::min(x, y))) << x << " " << y;
+        EXPECT_TRUE(same(greatest[i], std::max(x, y))) << x << " " << y;
+        EXPECT_TRUE(same(chosen[i], x < y ? x : y)) << x << " " << y;
+      }
+      EXPECT_EQ(any(a < b), x < y);
+      EXPECT_EQ(any(a > b), x > y);
+    }
+  }
+  for (int lane = 0; lane < 4; ++lane) {
+    Real numbers[4] = {1, 1, 1, 1};
+    numbers[lane] = -1;
+    EXPECT_TRUE(any(Four<Real>::load(numbers) < Four<Real>(0))) << lane;
+  }
 }
 
 TYPED_TEST(FourLanes, RowsBecomeColumns) {

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/math/lane_rows.h"
+#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/contact_constraint.h"
+
+namespace plumb {
+
+/// Contacts of one colour side by side, a lane each, for the time of a step: what the passes need of a
+/// ContactConstraint, in rows of one number of each, and the inverse masses of their bodies. All have the
+/// same number of points and hardness, all or none have rolling resistance, and the same sides give way.
+/// Lanes that are left over repeat the last contact: they come to the same results, which are stored twice.
+template <class Number>
+struct ContactBlock {
+  using Real = typename Number::Number;
+  using Constraint = ContactConstraint<Real>;
+  static constexpr int kLanes = Number::kLanes;
+
+  /// Of the bodies, in units of 8 bytes from the first BodyMotion on: an address's largest scale.
+  std::uint32_t place_a[kLanes], place_b[kLanes];
+  Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
+
+  // In the order of ContactConstraint, up to its flags.
+  Vec2<Number> normal;
+  Number arm_a[2], arm_tangent_a, arm_b[2], arm_tangent_b;
+  Number separation[2], now[2], normal_impulse[2], expected_impulse[2], tangent_impulse;
+  Number mass[2], inverse_pp, inverse_pq, inverse_qq, between, tangent_mass;
+  Number friction, push_speed, surface_speed, flags;
+
+  ContactHardness hardness;
+  std::uint8_t count;             ///< points
+  bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
+  bool watched;                   ///< at least one is
+  bool rolls;                     ///< all have rolling resistance
+  Number rolling_arm, rolling_impulse, peak_impulse[2];
+  Constraint* contact[kLanes];
+};
+
+template <class Real>
+bool rolls(const ContactConstraint<Real>& c) {
+  return c.rolling_arm > 0;
+}
+template <class Number>
+[[gnu::always_inline]] inline bool rolls(const ContactBlock<Number>& block) {
+  return block.rolls;
+}
+
+/// Moves records between a member of each contact of a block and its rows, from this member on.
+template <class Number>
+struct ContactRows {
+  using Real = typename Number::Number;
+  ContactBlock<Number>& block;
+
+  [[gnu::always_inline]] void load(std::size_t constraint_offset, std::size_t block_offset) const {
+    Number rows[4];
+    load_records<false>(
+        [&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); }, rows);
+    for (int k = 0; k < 4; ++k) row(block_offset)[k] = rows[k];
+  }
+  [[gnu::always_inline]] void store(std::size_t constraint_offset, std::size_t block_offset) const {
+    const Number* from = row(block_offset);
+    store_records<false>([&](int i) __attribute__((always_inline)) { return number(i, constraint_offset); },
+                         {from[0], from[1], from[2], from[3]});
+  }
+
+ private:
+  [[gnu::always_inline]] Real* number(int lane, std::size_t offset) const {
+    return reinterpret_cast<Real*>(reinterpret_cast<char*>(block.contact[lane]) + offset);
+  }
+  [[gnu::always_inline]] Number* row(std::size_t offset) const {
+    return reinterpret_cast<Number*>(reinterpret_cast<char*>(&block) + offset);
+  }
+};
+
+/// Fills a block with the contacts that it points to, which are of one kind.
+template <class Number, class Real>
+[[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
+  using Block = ContactBlock<Number>;
+  using Constraint = ContactConstraint<Real>;
+  constexpr std::size_t kFirst = offsetof(Constraint, normal), kFirstRow = offsetof(Block, normal);
+  constexpr int kRows = 28;
+  static_assert(offsetof(Constraint, hardness) == kFirst + (kRows - 1) * sizeof(Real) &&
+                offsetof(Block, flags) == kFirstRow + (kRows - 1) * sizeof(Number));
+  static_assert(offsetof(Constraint, now) - kFirst == 10 * sizeof(Real) &&
+                offsetof(Block, now) - kFirstRow == 10 * sizeof(Number));
+  static_assert(offsetof(Constraint, mass) - kFirst == 17 * sizeof(Real) &&
+                offsetof(Block, mass) - kFirstRow == 17 * sizeof(Number));
+  const ContactRows<Number> rows{block};
+  for (int k = 0; k < kRows; k += 4) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
+
+  constexpr std::uint32_t kUnits = sizeof(BodyMotion<Real>) / 8;
+  block.watched = false;
+  for (int i = 0; i < Block::kLanes; ++i) {
+    const Constraint& c = *block.contact[i];
+    block.place_a[i] = kUnits * static_cast<std::uint32_t>(c.body_a);
+    block.place_b[i] = kUnits * static_cast<std::uint32_t>(c.body_b);
+    block.watched |= c.watched;
+  }
+  // The second half of a BodyMotion ends with its masses.
+  const auto load_masses = [&](const std::uint32_t(&place)[Block::kLanes], Number& mass, Number& inertia)
+      __attribute__((always_inline)) {
+    Number half[4];
+    load_records<true>(
+        [&](int i) __attribute__((always_inline)) { return &motion[place[i] / kUnits].moved.y; }, half);
+    mass = half[2], inertia = half[3];
+  };
+  load_masses(block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
+  load_masses(block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+
+  const Constraint& first = *block.contact[0];
+  block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);
+  const bool both = first.hardness == ContactHardness::Soft;
+  block.gives_way_a = both || gives_way(motion[first.body_a]);
+  block.gives_way_b = both || gives_way(motion[first.body_b]);
+  static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
+                offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
+  if (block.watched || block.rolls)
+    rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+}
+
+/// Writes the results of a block back to its contacts.
+template <class Number>
+[[gnu::always_inline]] inline void scatter(ContactBlock<Number>& block) {
+  using Block = ContactBlock<Number>;
+  using Constraint = ContactConstraint<typename Number::Number>;
+  const ContactRows<Number> rows{block};
+  rows.store(offsetof(Constraint, now), offsetof(Block, now));
+  rows.store(offsetof(Constraint, expected_impulse), offsetof(Block, expected_impulse));
+  if (!block.watched && !block.rolls) return;
+  typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
+  block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
+      block.peak_impulse[1].store(peaks[1]);
+  for (int i = 0; i < Block::kLanes; ++i) {
+    Constraint& c = *block.contact[i];
+    if (block.rolls) c.rolling_impulse = rolling[i];
+    if (c.watched) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
+  }
+}
+
+}  // namespace plumb

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+
+#include "engine/world/contact_solver/contact_pair.h"
+#include "engine/world/contact_solver/contact_step.h"
+
+/// The three passes over a contact, or over several side by side (ContactBlock).
+namespace plumb {
+
+// s: gap up to which a contact counts as closed, as a time at the depenetration speed. Gaps closed to 0 are 0
+// only to rounding, and both signs must be treated alike.
+inline constexpr double kClosed = 1e-8;
+// Upper limit of the depenetration speed added by loads, in depenetration speeds: bodies that cannot move are
+// not squeezed ever harder.
+inline constexpr double kLoadedPush = 3;
+
+/// Returns the depenetration speed that a load adds, m/s: a fraction of the velocity change by the last
+/// substep's impulse.
+template <class Number, class Contact, class Real>
+[[gnu::always_inline]] inline Number push_with_load(const Contact& c, const Number& inverse_mass,
+                                                    const ContactStep<Real>& step) {
+  using std::min;
+  if (c.hardness != ContactHardness::Soft) return Number(0);
+  const Number loaded = (c.normal_impulse[0] + c.normal_impulse[1]) * inverse_mass;
+  return min(Number(step.push_with_load * loaded), Number(Real(kLoadedPush) * c.push_speed));
+}
+
+/// Returns the demand of a point at the separation s. The bias is the maximum of three: gaps may close,
+/// overlaps are pushed out, and at most at the speed `-fastest`.
+template <class Number, class Real>
+[[gnu::always_inline]] inline Demand<Number> demand_at(const Number& s, const Number& closed,
+                                                       const Number& fastest, const Softness<Real> (&soft)[2],
+                                                       Real inverse_h) {
+  using std::max;
+  const auto is_gap = s > closed;
+  return {max(Number(s * inverse_h), max(Number(s * soft[0].bias_rate), fastest)),
+          select(is_gap, Number(soft[1].mass_scale), Number(soft[0].mass_scale)),
+          select(is_gap, Number(soft[1].impulse_scale), Number(soft[0].impulse_scale))};
+}
+
+template <class Number, class Pair, class Contact, class Real>
+[[gnu::always_inline]] inline void solve_contact(Pair& pair, Contact& c, const ContactStep<Real>& step) {
+  using std::min;
+  const Softness<Real>(&soft)[2] = step.softness[static_cast<int>(c.hardness)];
+  const Number closed = Real(kClosed) * c.push_speed;
+  Number fastest = -c.push_speed;
+  if (const auto deep = min(c.now[0], c.now[1]) * soft[0].bias_rate < fastest; any(deep)) [[unlikely]] {
+    const Number inverse_mass = pair.a.inverse_mass + pair.b.inverse_mass;
+    fastest = select(deep, Number(fastest - push_with_load<Number>(c, inverse_mass, step)), fastest);
+  }
+  if (c.count == 2) {
+    press(pair, c, demand_at<Number>(c.now[0], closed, fastest, soft, step.inverse_h),
+          demand_at<Number>(c.now[1], closed, fastest, soft, step.inverse_h));
+  } else {
+    press_one(pair, c, demand_at<Number>(c.now[0], closed, fastest, soft, step.inverse_h));
+  }
+  if (c.watched) note_peaks(c);
+}
+
+/// Returns the demand of point i without bias, at its present separation: updated from the start of the step
+/// to first order.
+template <class Number, class Pair, class Contact, class Real>
+[[gnu::always_inline]] inline Demand<Number> demand_now(const Pair& pair, Contact& c, int i,
+                                                        const Number& closed, Real inverse_h) {
+  using std::max;
+  const Number s = c.separation[i] + (closed + (c.arm_b[i] * pair.b.turned - c.arm_a[i] * pair.a.turned));
+  c.now[i] = s;
+  return {max(s, Number(0)) * inverse_h, 1, 0};
+}
+
+template <class Number, class Pair, class Contact, class Real>
+[[gnu::always_inline]] inline void relax_contact(Pair& pair, Contact& c, const ContactStep<Real>& step) {
+  using std::max, std::min;
+  const Number closed = dot(pair.n, pair.b.moved - pair.a.moved);
+  if (c.count == 2) {
+    const Demand<Number> at_p = demand_now<Number>(pair, c, 0, closed, step.inverse_h);
+    const Demand<Number> at_q = demand_now<Number>(pair, c, 1, closed, step.inverse_h);
+    press(pair, c, at_p, at_q);
+  } else {
+    press_one(pair, c, demand_now<Number>(pair, c, 0, closed, step.inverse_h));
+  }
+  if (c.watched) note_peaks(c);
+  // Coulomb: |lambda_t| <= mu lambda_n.
+  const Number pressure = c.normal_impulse[0] + c.normal_impulse[1];
+  const Number before = c.tangent_impulse, most = c.friction * pressure;
+  const Number wanted = before - c.tangent_mass * (pair.along_tangent(c) - c.surface_speed);
+  c.tangent_impulse = max(Number(-most), min(wanted, most));
+  pair.rub(c, c.tangent_impulse - before);
+  if (rolls(c)) {
+    const Number inverse_spin_mass = pair.a.inverse_inertia + pair.b.inverse_inertia;
+    const Number spin_mass = select(inverse_spin_mass > Number(0), Number(1 / inverse_spin_mass), Number(0));
+    const Number rolled = c.rolling_impulse, most_torque = c.rolling_arm * pressure;
+    const Number held = rolled - spin_mass * (pair.wb - pair.wa);
+    c.rolling_impulse = max(min(held, most_torque), Number(-most_torque));
+    pair.roll(c.rolling_impulse - rolled);
+  }
+}
+
+/// Applies the impulses of the last substep.
+template <class Number, class Pair, class Contact>
+[[gnu::always_inline]] inline void warm_start_contact(Pair& pair, const Contact& c) {
+  const Number p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;
+  const Vec2<Number> n = pair.n;
+  const Vec2<Number> impulse{(p + q) * n.x + f * n.y, (p + q) * n.y - f * n.x};
+  pair.va -= pair.a.inverse_mass * impulse;
+  pair.vb += pair.b.inverse_mass * impulse;
+  pair.wa -= pair.a.inverse_inertia * (c.arm_a[0] * p + c.arm_a[1] * q + c.arm_tangent_a * f);
+  pair.wb += pair.b.inverse_inertia * (c.arm_b[0] * p + c.arm_b[1] * q + c.arm_tangent_b * f);
+  if (rolls(c)) pair.roll(c.rolling_impulse);
+}
+
+/// Scales the impulses of the last substep to another length of substeps.
+template <class Contact, class Real>
+[[gnu::always_inline]] inline void scale_impulses(Contact& c, Real ratio) {
+  c.normal_impulse[0] *= ratio, c.normal_impulse[1] *= ratio;
+  c.expected_impulse[0] *= ratio, c.expected_impulse[1] *= ratio;
+  c.tangent_impulse *= ratio, c.rolling_impulse *= ratio;
+}
+
+}  // namespace plumb
