@@ -24,7 +24,7 @@ FEATURES = [
     feature("Segment", WORLD + "state/shapes.cpp", "capsule_corners(segment.start, segment.end), 0",
             "capsule_corners(segment.start, segment.start), 0", "world/shapes"),
     feature("Chain with smooth seams", WORLD + "state/seams.h",
-            "collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach)",
+            "collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach, pivot)",
             "collide_convex(shape_a, shape_b, b_in_a, reach)", "world/shapes"),
     feature("Compound", WORLD + "state/mass.cpp", "inertia += part.inertia + part.mass *", "inertia += part.inertia + 0 *",
             "world/shapes"),
