@@ -25,7 +25,7 @@ FEATURES = [
             "capsule_corners(segment.start, segment.start), 0", "world/shapes"),
     feature("Chain with smooth seams", WORLD + "state/seams.h",
             "collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, reach, pivot)",
-            "collide_convex(shape_a, shape_b, b_in_a, reach)", "world/shapes"),
+            "collide_convex(shape_a, shape_b, b_in_a, reach, pivot)", "world/shapes"),
     feature("Compound", WORLD + "state/mass.cpp", "inertia += part.inertia + part.mass *", "inertia += part.inertia + 0 *",
             "world/shapes"),
     feature("Density, or mass, centre and inertia", WORLD + "state/mass.cpp",
