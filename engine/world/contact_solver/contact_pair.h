@@ -73,6 +73,14 @@ template <class Real>
                at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
   Real new_q = (q - at_q.impulse_scale * (q - c.expected_impulse[1])) -
                at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
+  // A gap is not softened. Next to a point that is, its impulse follows from the other's: so it closes.
+  if (at_p.impulse_scale != at_q.impulse_scale) [[unlikely]] {
+    if (at_q.impulse_scale == 0) {
+      new_q = q - c.mass[1] * (rate_q + c.between * (new_p - p));
+    } else {
+      new_p = p - c.mass[0] * (rate_p + c.between * (new_q - q));
+    }
+  }
   if (std::min(new_p, new_q) < 0) {
     const auto alone = [&](const Demand<Real>& at, int i, Real rate, Real impulse) {
       const Real yield = at.impulse_scale * (impulse - c.expected_impulse[i]);
