@@ -44,9 +44,6 @@ int examine(const Options& options, const reference::Backend& engine) {
   if (settings.dt > kLargestStep)
     throw UsageError(
         fmt::format("--dt is '{}': the checks are made for steps of 1/30 s at most", options.dt));
-  // Checks judge the engine's motion, so violations that it finds itself must not end the run.
-  for (const reference::Option& option : engine.options())
-    if (option.name == "on_doubt") settings.options[option.name] = "report";
   engine.method(settings);  // throws for settings that the engine rejects
 
   const std::vector<course::Chapter> chapters = chosen_chapters(options.chapter);

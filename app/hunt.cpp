@@ -78,7 +78,7 @@ int replay(const Options& options) {
   const bool is_finding = nlohmann::json::parse(text, nullptr, false).contains("case");
   const hunting::Case one =
       is_finding ? hunting::finding_from_json(text).smallest : hunting::case_from_json(text);
-  std::vector<std::string> usual{"plumb-world", "plumb-world-double"};
+  std::vector<std::string> usual{"plumb-float", "plumb"};
   if (is_finding) usual = {hunting::finding_from_json(text).engine};
   std::vector<std::unique_ptr<reference::Backend>> programs;
   bool objected = false;
@@ -121,7 +121,7 @@ int start(const Options& options) {
     return kOk;
   }
   std::vector<std::unique_ptr<reference::Backend>> programs;
-  what.engines = engines_of(options, {"plumb-world", "plumb-world-double"}, programs);
+  what.engines = engines_of(options, {"plumb-float", "plumb"}, programs);
   what.jobs =
       options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   what.seconds = !options.minutes.empty() ? 60 * parse_positive("--minutes", options.minutes)
@@ -191,7 +191,7 @@ void add_hunt(CLI::App& app, Action& chosen) {
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->footer(
-      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-world,box2d --seed 7\n"
+      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7\n"
       "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"
       "  plumb hunt --replay hunt/findings/001-energy.json\n"
       "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the "

@@ -146,7 +146,7 @@ void add_stress(CLI::App& app, Action& chosen) {
   command->add_flag("--list", options->list, "the families, with their axes and bounds");
   command->footer(
       "Examples:\n  plumb stress --quick\n  plumb stress mass_ratio_stack stack_height --engine "
-      "plumb-world,box2d\n"
+      "plumb-float,box2d\n"
       "  plumb stress --list\n  plumb stress bullet_circle --engine-command \"mine=python3 my_engine.py\"\n"
       "Each cell runs in a process of its own. Stopping at any instant loses at most the cells under way;\n"
       "the same command goes on. See docs/stress.md. Exit codes: 0 done, whatever broke; 2 usage; 130\n"

@@ -120,7 +120,7 @@ void add_thresholds(CLI::App& app, Action& chosen) {
                     "also with the engines' settings for extremes, docs/stress.md");
   command->add_flag("--list", options->list, "say which there are");
   command->footer(
-      "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-world,box2d\n"
+      "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-float,box2d\n"
       "  plumb thresholds stopped_bullet --format json --out bullets\n"
       "  plumb thresholds --engine plumb-precise --engine-command mine='python3 my_engine.py'\n"
       "Stopping it at any instant loses at most the searches under way; the same command goes on.\n"

@@ -93,7 +93,7 @@ void add_tune(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"console", "json"}));
   command->footer(
       "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
-      "  plumb tune my_scene.json --budget-us 200 --engine plumb,plumb-world,box2d\n"
+      "  plumb tune my_scene.json --budget-us 200 --engine plumb,plumb-float,box2d\n"
       "Exit codes: 0 an engine can, 1 none can, 2 usage, 130 interrupted. See docs/trade.md.");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }

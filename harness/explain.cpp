@@ -37,7 +37,7 @@ double share_of(const Stage& stage, double total) { return total > 0 ? stage.nan
 }  // namespace
 
 Accuracy accuracy_of(const reference::Backend& backend, const reference::StepSettings& settings) {
-  if (!backend.name().starts_with("plumb") || backend.name().starts_with("plumb-world")) {
+  if (!backend.name().starts_with("plumb")) {
     throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", backend.name()), "", "",
                 "has no plan to explain: only 'plumb', 'plumb-float' and 'plumb-precise' have one");
   }
@@ -56,9 +56,12 @@ Accuracy accuracy_of(const reference::Backend& backend, const reference::StepSet
     if (chosen != settings.options.end() && chosen->second == name_of(integrator))
       realtime.integrator = integrator;
   }
-  if (const auto solver = settings.options.find("joint_solver");
-      solver != settings.options.end() && solver->second == name_of(JointSolver::Iterative))
-    realtime.joint_solver = JointSolver::Iterative;
+  if (const auto solver = settings.options.find("solver"); solver != settings.options.end())
+    realtime.solver = solver_of(solver->second).value_or(realtime.solver);
+  if (const auto chosen = settings.options.find("continuous"); chosen != settings.options.end())
+    realtime.continuous = chosen->second == "on";
+  if (const auto chosen = settings.options.find("sleep"); chosen != settings.options.end())
+    realtime.sleeping = chosen->second == "on";
   if (const auto iterations = settings.options.find("iterations"); iterations != settings.options.end())
     realtime.iterations = std::atoi(iterations->second.c_str());
   return realtime;

@@ -1,4 +1,4 @@
-// plumb's own engine, as three backends: its fixed-step driver in both precisions, and its adaptive one.
+// plumb's own engine, as three backends: the world in both precisions, and the adaptive integration.
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "engine/core/text.h"
-#include "engine/realtime/stages.h"
 #include "engine/simulation/simulation.h"
 #include "reference/backend.h"
+#include "reference/support/range.h"
 #include "reference/support/settings.h"
 
 namespace plumb::reference {
@@ -51,7 +51,7 @@ class PlumbSimulator final : public Simulator {
         {ContactEvent::SlipEnd, "slips_end"},      {ContactEvent::Change, "changes_of_feature"},
         {ContactEvent::Paradox, "paradoxes"}};
     for (const auto& [event, name] : kEvents) count(name, did.of(event).count);
-    if (const Error* doubt = world_.doubt()) out.emplace_back("doubt", doubt->what());
+    if (const Error* found = world_.violation()) out.emplace_back("violation", found->what());
     if (did.error.known) {
       out.emplace_back("estimated_error", fmt::format("{:.1e} m, {:.1e} rad, {:.1e} m/s", did.error.position,
                                                       did.error.angle, did.error.velocity));
@@ -98,63 +98,56 @@ class PlumbBackend : public Backend {
   Precision precision_;
 };
 
-class RealtimeBackend final : public PlumbBackend {
+/// The world. Sleeping and the monitor are off by default: every body takes part, and misses are results.
+class WorldBackend final : public PlumbBackend {
  public:
   using PlumbBackend::PlumbBackend;
 
   std::vector<Option> options() const override {
-    return {{"integrator", std::string(name_of(kRealtime.integrator)),
-             "velocity_verlet, semi_implicit_euler or explicit_euler"},
-            {"joint_solver", std::string(name_of(kRealtime.joint_solver)), "direct or iterative"},
-            {"iterations", std::to_string(kRealtime.iterations),
-             "sweeps over contacts and iterative joints a substep"},
-            {"on_doubt", std::string(name_of(kRealtime.on_doubt)),
-             "stop or report: what becomes of a run that broke a promise"}};
+    return {
+        {"solver", name_of(kRealtime.solver),
+         "soft_steps, sequential_impulses, jakobsen, xpbd or direct (islands with joints as a whole)"},
+        {"integrator", std::string(name_of(kRealtime.integrator)),
+         "velocity_verlet, semi_implicit_euler or explicit_euler: of soft_steps and direct"},
+        {"iterations", std::to_string(kRealtime.iterations),
+         "a substep: of sequential_impulses and jakobsen"},
+        {"continuous", "on", "on or off: continuous collision"},
+        {"sleep", "off", "on or off: islands at rest stop being computed"},
+        {"on_violation", std::string(name_of(kRealtime.on_violation)),
+         "ignore, report or stop: what becomes of a run whose gaps, overlaps or energy miss their bound"}};
   }
 
   std::vector<Knob> knobs() const override {
-    return {{"substeps", {"1", "2", "4", "8", "16"}},
-            {"integrator",
-             {std::string(name_of(Integrator::VelocityVerlet)),
-              std::string(name_of(Integrator::SemiImplicitEuler))},
-             false},
-            {"joint_solver",
-             {std::string(name_of(JointSolver::Direct)), std::string(name_of(JointSolver::Iterative))},
-             false},
-            {"iterations", {"1", "2", "4", "8", "16"}}};
+    return {{"substeps", {"1", "2", "4", "8", "16", "32"}}, {"continuous", {"off", "on"}, false}};
   }
 
   Method method(const StepSettings& settings) const override {
     const Realtime chosen = realtime(settings);
-    Method out{.substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
-    switch (chosen.integrator) {
-      case Integrator::VelocityVerlet:
-        out.scheme = Scheme::VelocityVerlet;
-        out.order = 2;
-        out.follows_springs = true;
-        break;
-      case Integrator::SemiImplicitEuler:
-        out.scheme = Scheme::SemiImplicitEuler;
-        out.order = 1;
-        break;
-      case Integrator::ExplicitEuler:
-        out.scheme = Scheme::ExplicitEuler;
-        out.order = 1;
-        break;
-    }
+    Method out{
+        .scheme = Scheme::SoftStep, .order = 1, .substep = chosen.dt / chosen.substeps, .epsilon = epsilon()};
+    if (chosen.integrator == Integrator::SemiImplicitEuler) out.scheme = Scheme::SemiImplicitEuler;
+    if (chosen.integrator == Integrator::ExplicitEuler) out.scheme = Scheme::ExplicitEuler;
     return out;
+  }
+
+  std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
+    if (const std::string reason = PlumbBackend::unsupported(scene, settings); !reason.empty()) return reason;
+    return out_of_range(scene, kWorldRange);
   }
 
   Settings effective_settings(const Scene& scene, const StepSettings& settings) const override {
     const Realtime chosen = realtime(settings);
-    // The run may raise this for towers, which it detects later.
     Settings out{{"dt", shortest(chosen.dt)},
-                 {"substeps", std::to_string(plan_realtime(scene, chosen, false).substeps)},
+                 {"substeps", std::to_string(chosen.substeps)},
+                 {"solver", name_of(chosen.solver)},
                  {"integrator", std::string(name_of(chosen.integrator))},
-                 {"joint_solver", std::string(name_of(chosen.joint_solver))},
                  {"iterations", std::to_string(chosen.iterations)},
-                 {"on_doubt", std::string(name_of(chosen.on_doubt))},
-                 {"precision", std::string(name_of(chosen.precision))}};
+                 {"continuous", chosen.continuous ? "on" : "off"},
+                 {"sleep", chosen.sleeping ? "on" : "off"},
+                 {"on_violation", std::string(name_of(chosen.on_violation))},
+                 {"forces", chosen.integrator == Integrator::VelocityVerlet ? "at the middle of each substep"
+                                                                            : "at the start of each substep"},
+                 {"precision", std::string(name_of(chosen.precision)) + ", positions double"}};
     append_contact_rules(out, scene);
     return out;
   }
@@ -163,9 +156,15 @@ class RealtimeBackend final : public PlumbBackend {
   Accuracy accuracy(const StepSettings& settings) const override { return realtime(settings); }
 
  private:
+  // A world rejects numbers outside these limits.
+  static constexpr Range kWorldRange{
+      .smallest = 1e-12, .largest = 1e12, .smallest_inertia = 1e-30, .largest_inertia = 1e30};
+
   Realtime realtime(const StepSettings& settings) const {
     check_steps(name_, settings, Stepping::Fixed);
     const OptionReader given(name_, settings, options());
+    std::vector<std::pair<std::string, Solver>> solvers;
+    for (const char* name : kSolverNames) solvers.emplace_back(name, *solver_of(name));
     Realtime out;
     out.dt = settings.dt;
     out.substeps = settings.substeps.value_or(kRealtime.substeps);
@@ -174,9 +173,11 @@ class RealtimeBackend final : public PlumbBackend {
     out.integrator = given.choice<Integrator>(
         "integrator", {named(Integrator::VelocityVerlet), named(Integrator::SemiImplicitEuler),
                        named(Integrator::ExplicitEuler)});
-    out.joint_solver = given.choice<JointSolver>("joint_solver",
-                                                 {named(JointSolver::Direct), named(JointSolver::Iterative)});
-    out.on_doubt = given.choice<OnDoubt>("on_doubt", {named(OnDoubt::Stop), named(OnDoubt::Report)});
+    out.solver = given.choice<Solver>("solver", solvers);
+    out.continuous = given.toggle("continuous");
+    out.sleeping = given.toggle("sleep");
+    out.on_violation = given.choice<OnViolation>(
+        "on_violation", {named(OnViolation::Ignore), named(OnViolation::Report), named(OnViolation::Stop)});
     plumb::validate(Accuracy(out));
     return out;
   }
@@ -235,10 +236,10 @@ class PreciseBackend final : public PlumbBackend {
   }
 };
 
-const Registration realtime_double{
-    std::make_unique<RealtimeBackend>("plumb", "plumb with fixed steps in double", Precision::Double)};
-const Registration realtime_float{
-    std::make_unique<RealtimeBackend>("plumb-float", "plumb with fixed steps in float", Precision::Float)};
+const Registration world_double{
+    std::make_unique<WorldBackend>("plumb", "plumb's world in double: fixed steps", Precision::Double)};
+const Registration world_float{
+    std::make_unique<WorldBackend>("plumb-float", "plumb's world in float", Precision::Float)};
 const Registration precise_double{std::make_unique<PreciseBackend>(
     "plumb-precise", "plumb with adaptive steps that meet a tolerance", Precision::Double)};
 

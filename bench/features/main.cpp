@@ -25,8 +25,7 @@ namespace {
 constexpr int kWarm = 8;  // steps before counting: the first ones find pairs and allocate memory
 
 void list() {
-  for (const char* engine : {"plumb", "plumb-float", "plumb-world", "plumb-world-double"})
-    std::printf("engine %s\n", engine);
+  for (const char* engine : {"plumb", "plumb-float"}) std::printf("engine %s\n", engine);
   for (const Feature& feature : features())
     std::printf("feature %s %s %s\n", std::string(feature.name).c_str(),
                 feature.declare != nullptr ? "declared" : "-", std::string(feature.what).c_str());

@@ -19,13 +19,13 @@ void require_positive(double value, const char* driver, const char* field, const
 /// Steps err by a thousandth of the tolerance of Precise; below 1e-15 that is rounding.
 constexpr double kLeastTolerance = 1e-12;
 
-/// More would not end.
-constexpr int kMost = 1000000;
+/// A world's limit.
+constexpr int kMost = 1000;
 
 void require_at_least_one(int value, const char* field) {
   if (value >= 1 && value <= kMost) return;
   throw Error(Error::Kind::Value, "realtime", field, std::to_string(value),
-              "must be a number from 1 to 1000000");
+              "must be a number from 1 to 1000");
 }
 
 void require_known(int value, int last, const char* field, const char* driver = "realtime") {
@@ -49,11 +49,17 @@ std::string_view name_of(Integrator integrator) {
   return "unknown";
 }
 
-std::string_view name_of(JointSolver joint_solver) {
-  return joint_solver == JointSolver::Direct ? "direct" : "iterative";
+std::string_view name_of(OnViolation on_violation) {
+  switch (on_violation) {
+    case OnViolation::Ignore:
+      return "ignore";
+    case OnViolation::Report:
+      return "report";
+    case OnViolation::Stop:
+      return "stop";
+  }
+  return "unknown";
 }
-
-std::string_view name_of(OnDoubt on_doubt) { return on_doubt == OnDoubt::Stop ? "stop" : "report"; }
 
 std::string_view name_of(MotionMethod method) {
   switch (method) {
@@ -87,9 +93,8 @@ void validate(const Accuracy& accuracy) {
   require_known(static_cast<int>(realtime.precision), static_cast<int>(Precision::Double), "precision");
   require_known(static_cast<int>(realtime.integrator), static_cast<int>(Integrator::ExplicitEuler),
                 "integrator");
-  require_known(static_cast<int>(realtime.joint_solver), static_cast<int>(JointSolver::Iterative),
-                "joint_solver");
-  require_known(static_cast<int>(realtime.on_doubt), static_cast<int>(OnDoubt::Report), "on_doubt");
+  require_known(static_cast<int>(realtime.solver), static_cast<int>(Solver::Direct), "solver");
+  require_known(static_cast<int>(realtime.on_violation), static_cast<int>(OnViolation::Stop), "on_violation");
 }
 
 }  // namespace plumb

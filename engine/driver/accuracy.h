@@ -3,39 +3,32 @@
 #include <string_view>
 #include <variant>
 
+#include "engine/world/integrator.h"
+#include "engine/world/solver.h"
+
 /// The two honest ways to step: a fixed step that is cheap, or a tolerance that is met.
 namespace plumb {
 
 enum class Precision { Float, Double };
 
-/// How velocities and positions follow from forces. The two Euler schemes are those of the course.
-enum class Integrator {
-  VelocityVerlet,     ///< second order; free flight under constant force is exact
-  SemiImplicitEuler,  ///< first order: v += h a, then x += h v; falls g h t / 2 too far
-  ExplicitEuler,      ///< first order: x += h v, then v += h a; falls g h t / 2 too little; gains energy
-};
-
-/// How joints are held in Realtime.
-enum class JointSolver {
-  Direct,     ///< sparse factorisation of all joints at once: no stretch, linear in the length of a chain
-  Iterative,  ///< sequential impulses, one joint after another
-};
-
-/// Reaction of Realtime when its watch finds that a step violates a bound (docs/design.md).
-enum class OnDoubt {
+/// Reaction to a step that misses a bound of the invariant monitor (`MonitorBounds`).
+enum class OnViolation {
+  Ignore,  ///< no monitor
+  Report,  ///< goes on; `Simulation::violation` has the first
   Stop,    ///< takes the step back and throws `Error` (Run)
-  Report,  ///< goes on; `Simulation::doubt` has what was found first
 };
 
-/// Fixed steps.
+/// Fixed steps of a world (engine/world/world.h).
 struct Realtime {
   double dt = 1.0 / 60;  ///< s, > 0
-  int substeps = 4;      ///< >= 1
-  int iterations = 4;    ///< sweeps over contacts (and iterative joints) a substep, >= 1
+  int substeps = 4;      ///< 1..1000; force laws are evaluated in each
+  int iterations = 10;   ///< a substep, 1..1000: SequentialImpulses and Jakobsen
   Precision precision = Precision::Double;
   Integrator integrator = Integrator::VelocityVerlet;
-  JointSolver joint_solver = JointSolver::Direct;
-  OnDoubt on_doubt = OnDoubt::Stop;  ///< of velocity Verlet; the Euler schemes promise nothing
+  Solver solver = Solver::SoftSteps;
+  bool continuous = true;  ///< continuous collision
+  bool sleeping = false;   ///< islands at rest fall asleep
+  OnViolation on_violation = OnViolation::Ignore;
   friend bool operator==(const Realtime&, const Realtime&) = default;
 };
 
@@ -62,8 +55,7 @@ using Accuracy = std::variant<Realtime, Precise>;
 std::string_view name_of(Precision precision);  ///< "float", "double"
 std::string_view name_of(
     Integrator integrator);  ///< "velocity_verlet", "semi_implicit_euler", "explicit_euler"
-std::string_view name_of(JointSolver joint_solver);  ///< "direct", "iterative"
-std::string_view name_of(OnDoubt on_doubt);          ///< "stop", "report"
+std::string_view name_of(OnViolation on_violation);  ///< "ignore", "report", "stop"
 std::string_view name_of(MotionMethod method);       ///< "automatic", "explicit", "implicit", "symplectic"
 
 /// Throws `Error` (Value) that names the setting: dt <= 0, substeps < 1, a tolerance that is not positive.

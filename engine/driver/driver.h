@@ -116,8 +116,8 @@ class Driver {
   /// A step could not be finished for want of memory: what `read` gives is the state before it, where the
   /// driver keeps that. It is not asked for another.
   virtual void abandon_step() {}
-  /// The first promise that a step broke, of a run that goes on all the same; or null.
-  virtual const Error* doubt() const { return nullptr; }
+  /// The first violation of a monitored bound, of a run that goes on all the same; or null.
+  virtual const Error* violation() const { return nullptr; }
 };
 
 }  // namespace plumb

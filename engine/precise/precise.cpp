@@ -140,7 +140,7 @@ void PreciseDriver::refuse_open_joints() const {
               "it is open, too long or beyond its limit where the scene starts, by more than tolerance " +
                   shortest(overlap_) +
                   " allows, and no law says how it closes: place its bodies, anchors or lengths so that they "
-                  "fit; 'plumb-world' and Realtime close it");
+                  "fit; 'plumb' closes it");
 }
 
 std::size_t PreciseDriver::slot_of(std::size_t body) const {

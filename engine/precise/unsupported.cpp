@@ -30,7 +30,7 @@ std::string missing_in(const Joint& joint) {
 }  // namespace
 
 std::string precise_unsupported(const Scene& scene) {
-  constexpr const char* kElsewhere = ", which Precise does not have; 'plumb-world' runs it";
+  constexpr const char* kElsewhere = ", which Precise does not have; 'plumb' runs it";
   Scene bodies = scene;
   bodies.joints.clear();
   if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
@@ -51,7 +51,7 @@ std::string precise_unsupported(const Scene& scene) {
   if (count <= kMostBodies) return {};
   return std::to_string(count) + " dynamic bodies have shapes that may touch, and Precise is meant for " +
          std::to_string(kMostBodies) +
-         " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8, .iterations = 8}, or filter pairs out";
+         " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8}, or filter pairs out";
 }
 
 std::string symplectic_unsupported(const Scene& scene) {

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "engine/precise/precise.h"
-#include "engine/realtime/realtime.h"
 #include "engine/scene/error.h"
 #include "engine/scene/validate.h"
 #include "engine/simulation/simulation.h"
+#include "engine/simulation/world_driver.h"
 
 namespace plumb {
 namespace {
@@ -25,7 +25,8 @@ std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
   const Realtime& realtime = std::get<Realtime>(accuracy);
   out = mixed(out, std::bit_cast<std::uint64_t>(realtime.dt));
   for (const int number : {realtime.substeps, realtime.iterations, static_cast<int>(realtime.precision),
-                           static_cast<int>(realtime.integrator), static_cast<int>(realtime.joint_solver)})
+                           static_cast<int>(realtime.integrator), static_cast<int>(realtime.solver),
+                           static_cast<int>(realtime.continuous), static_cast<int>(realtime.sleeping)})
     out = mixed(out, static_cast<std::uint64_t>(number));
   return out;
 }
@@ -35,8 +36,8 @@ std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy
     return make_precise_driver(scene, *precise, options);
   const Realtime& realtime = std::get<Realtime>(accuracy);
   if (realtime.precision == Precision::Float)
-    return std::make_unique<RealtimeDriver<float>>(scene, realtime, options.every_stage);
-  return std::make_unique<RealtimeDriver<double>>(scene, realtime, options.every_stage);
+    return std::make_unique<WorldDriver<float>>(scene, realtime, options.every_stage);
+  return std::make_unique<WorldDriver<double>>(scene, realtime, options.every_stage);
 }
 
 }  // namespace

@@ -150,6 +150,6 @@ void Simulation::restore(std::span<const std::byte> snapshot) {
 const Plan& Simulation::plan() const { return driver_->plan(); }
 void Simulation::profile(bool on) { driver_->profile(on); }
 Statistics Simulation::statistics() const { return driver_->statistics(); }
-const Error* Simulation::doubt() const { return driver_->doubt(); }
+const Error* Simulation::violation() const { return driver_->violation(); }
 
 }  // namespace plumb

@@ -41,9 +41,9 @@ class Simulation {
   const Plan& plan() const;
   void profile(bool on);
   Statistics statistics() const;
-  /// With `OnDoubt::Report`: returns the first violation of a promise by a step, or null. Valid until the
+  /// With `OnViolation::Report`: returns the first violation of a monitored bound, or null. Valid until the
   /// next call of `step`, `set_state` or `restore`.
-  const Error* doubt() const;
+  const Error* violation() const;
 
  private:
   friend Simulation compile(const Scene&, const Accuracy&, CompileOptions);

@@ -22,6 +22,10 @@ WorldDefinition world_definition(const Scene& scene);
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene);
 
+/// Throws Error (Value) for numbers of a valid scene beyond the limits of a world in `Real`.
+template <class Real>
+void require_in_range(const Scene& scene);
+
 /// Returns the feature of a valid scene that no world supports, or an empty string.
 std::string world_unsupported(const Scene& scene);
 

@@ -8,6 +8,7 @@
 
 #include "engine/joints/definitions.h"
 #include "engine/scene/scene.h"
+#include "engine/world/integrator.h"
 #include "engine/world/solver.h"
 
 /// Definitions of a world's bodies, shapes and joints: plain data in SI units, y up, double precision.
@@ -100,6 +101,7 @@ struct WorldDefinition {
   bool sleeping = true;    ///< islands at rest fall asleep until something touches them
   bool continuous = true;  ///< continuous collision: fast bodies do not tunnel
   Solver solver = Solver::SoftSteps;
+  Integrator integrator = Integrator::VelocityVerlet;  ///< of SoftSteps and Direct
   int iterations = 10;         ///< iterations a substep, 1..1000: SequentialImpulses and Jakobsen
   bool direct_islands = true;  ///< SoftSteps solves small islands directly that iterations would not hold
   bool quarantine = true;      ///< takes non-finite bodies out of the simulation; false: Error ends the step

@@ -150,6 +150,16 @@ void BasicWorld<Real>::set_direct_islands(bool on) {
 }
 
 template <class Real>
+void BasicWorld<Real>::set_profiling(bool on) {
+  unlocked(*this).profiled = on;
+  if (on) data_->profile = {};
+}
+template <class Real>
+const WorldProfile& BasicWorld<Real>::profile() const {
+  return data().profile;
+}
+
+template <class Real>
 void BasicWorld<Real>::set_quarantine(bool on) {
   unlocked(*this);
   data_->settings.quarantine = on;

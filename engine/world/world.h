@@ -11,6 +11,7 @@
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/handles.h"
+#include "engine/world/profile.h"
 
 namespace plumb {
 
@@ -85,6 +86,9 @@ class BasicWorld {
   /// ends the call; the step is then incomplete.
   void set_quarantine(bool on);
   WorldCounts counts() const;
+  /// Switches the stages' clocks on or off; on starts from zero. Not part of snapshots.
+  void set_profiling(bool on);
+  const WorldProfile& profile() const;  ///< all 0 until profiling is switched on
 
   /// Returns the quarantined bodies and their faults, oldest first. They stay at their previous pose, without
   /// contacts and active joints, and queries skip them. They can be changed like any other body.

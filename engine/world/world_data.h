@@ -21,6 +21,7 @@
 #include "engine/world/joint_solver/direct_rows.h"
 #include "engine/world/joint_solver/hinge_tree.h"
 #include "engine/world/joint_solver/joint_set.h"
+#include "engine/world/profile.h"
 #include "engine/world/state/corner_pool.h"
 #include "engine/world/state/flight.h"
 
@@ -91,7 +92,7 @@ struct ShapeRecord {
   bool moved = false;  ///< in the move buffer
   bool hit_events = false, pre_solve = false;
   Filter filter{};
-  float friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
+  Real friction = 0, restitution = 0, rolling_resistance = 0, surface_speed = 0;
   Real density = 0;  ///< kg/m^2
 };
 
@@ -331,6 +332,8 @@ struct WorldData {
   Events events;   ///< of the last step
   Events pending;  ///< since then; reported with the next step
   bool stepping = false;
+  bool profiled = false;  ///< stages are timed
+  WorldProfile profile{};
   mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
   bool abandoned = false;               ///< its owner is gone; the last of these deletes it
   bool reports_hits = false;            ///< a shape has hit events

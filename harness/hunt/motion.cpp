@@ -102,8 +102,8 @@ Motion run_guarded(const Engine& engine, const Case& one, const RunOptions& opti
 }
 
 Engine::Kind kind_of(const std::string_view name) {
-  if (name == "plumb-world") return Engine::Kind::World;
-  if (name == "plumb-world-double") return Engine::Kind::DoubleWorld;
+  if (name == "plumb-float") return Engine::Kind::World;
+  if (name == "plumb") return Engine::Kind::DoubleWorld;
   if (name == "plumb-precise") return Engine::Kind::Precise;
   return Engine::Kind::Other;
 }

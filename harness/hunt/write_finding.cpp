@@ -12,7 +12,7 @@ namespace {
 
 // Returns an engine to compare with: Precise if it supports the scene, else Box2D or another precision.
 std::string second_engine(const Finding& finding) {
-  for (const char* name : {"plumb-precise", "box2d", "plumb-world-double", "plumb-world"}) {
+  for (const char* name : {"plumb-precise", "box2d", "plumb", "plumb-float"}) {
     if (name == finding.engine) continue;
     const reference::Backend& backend = reference::find_backend(name);
     if (backend.identity().available && unsupported(Engine(backend), finding.smallest).empty()) return name;

@@ -52,7 +52,7 @@ class BulletBackend final : public Backend {
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
     if (const std::string feature = unusual_feature(scene); !feature.empty())
-      return feature + ", which this adapter does not translate; 'plumb-world' runs it";
+      return feature + ", which this adapter does not translate; 'plumb' runs it";
     for (const Joint& joint : scene.joints) {
       const std::string reason = std::visit([&](const auto& j) { return ignored(scene, j); }, joint);
       if (!reason.empty()) return reason;

@@ -182,7 +182,7 @@ std::vector<Link> links_of(const Scene& scene) { return Walk(scene).links; }
 
 std::string not_a_mechanism(const Scene& scene) {
   if (const std::string field = unusual_field(scene); !field.empty())
-    return field + ", which this engine does not have; 'plumb-world' runs it";
+    return field + ", which this engine does not have; 'plumb' runs it";
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const auto* hinge = std::get_if<RevoluteJoint>(&scene.joints[j]);
     if (hinge == nullptr) return quoted_joint(scene, j) + ": only revolute joints become coordinates";

@@ -41,7 +41,7 @@ TEST(Engines, NamesEveryEngineAndWhyOneIsMissing) {
 
 TEST(Explain, ListsStagesWithReasonsAndShares) {
   const Json json = Json::parse(plumb({"explain", "pendulum_chain[5]", "--format", "json"}).out);
-  EXPECT_EQ(json["driver"], "realtime<double>");
+  EXPECT_EQ(json["driver"], "world<double>");
   double share = 0;
   for (const Json& stage : json["stages"]) {
     EXPECT_FALSE(stage["why"].get<std::string>().empty());
@@ -56,7 +56,7 @@ TEST(Explain, ListsStagesWithReasonsAndShares) {
       "precise");
   EXPECT_EQ(Json::parse(plumb({"explain", "free_fall/vacuum", "--engine", "plumb-float", "--format", "json"})
                             .out)["driver"],
-            "realtime<float>");
+            "world<float>");
   const Ran text = plumb({"explain", "pendulum_chain[5]"});
   for (const Json& stage : json["stages"])
     EXPECT_NE(text.out.find(stage["name"].get<std::string>()), std::string::npos);

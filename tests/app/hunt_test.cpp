@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 TEST(Hunt, FindsWritesAndReplays) {
   const Folder folder;
   const std::vector<std::string> command{"hunt",        "flight", "--scenes",       "5",        "--engine",
-                                         "plumb-world", "--out",  folder.path("h"), "--format", "json"};
+                                         "plumb-float", "--out",  folder.path("h"), "--format", "json"};
   const Ran ran = plumb(command);
   EXPECT_TRUE(ran.code == 0 || ran.code == 1) << ran.err;
   const Json kinds = Json::parse(ran.out);

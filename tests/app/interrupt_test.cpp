@@ -20,7 +20,7 @@ struct Long {
 TEST(Interrupt, EndsEveryLongCommandAtOnce) {
   const Long all[] = {{{"compare", "--engine", "plumb"}, "results.jsonl"},
                       {{"sweep", "--engine", "plumb"}, "sweep.jsonl"},
-                      {{"stress", "--engine", "plumb-world"}, "stress.jsonl"},
+                      {{"stress", "--engine", "plumb-float"}, "stress.jsonl"},
                       {{"thresholds", "--engine", "plumb-precise"}, "thresholds.jsonl"},
                       {{"tune", "pendulum_chain", "--tolerance", "1e-9"}, ""}};
   for (const Long& each : all) {

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 const std::vector<std::string> kSmall{"stress",  "dt_fall",  "mass_ratio_stack",
-                                      "--quick", "--engine", "plumb-world"};
+                                      "--quick", "--engine", "plumb-float"};
 
 std::vector<std::string> with(std::vector<std::string> command, const std::vector<std::string>& more) {
   command.insert(command.end(), more.begin(), more.end());
@@ -26,8 +26,8 @@ TEST(Stress, PrintsMapsAndCounts) {
   const Folder folder;
   const Ran ran = plumb(with(kSmall, {"--out", folder.path("s")}));
   EXPECT_EQ(ran.code, 0) << ran.err;
-  for (const char* part : {"dt_fall", "mass_ratio_stack", "mass ratio", "right is:", "plumb-world careful",
-                           "cells survived", "plumb-world in any setting", "stress.jsonl"})
+  for (const char* part : {"dt_fall", "mass_ratio_stack", "mass ratio", "right is:", "plumb-float careful",
+                           "cells survived", "plumb-float in any setting", "stress.jsonl"})
     EXPECT_NE(ran.out.find(part), std::string::npos) << part << "\n" << ran.out;
   EXPECT_EQ(ran.out.find('\x1b'), std::string::npos) << "no colour where it is not a terminal";
   // Again: nothing is run, the same is printed.

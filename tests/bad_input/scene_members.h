@@ -40,7 +40,8 @@ PLUMB_MEMBERS(FrictionJoint, name, body_a, body_b, anchor_a, anchor_b, collide, 
               max_force, max_torque)
 PLUMB_MEMBERS(ContactRules, friction, restitution, restitution_threshold, simultaneous)
 PLUMB_MEMBERS(Scene, name, gravity, contact_rules, bodies, joints, forces)
-PLUMB_MEMBERS(Realtime, dt, substeps, iterations, precision, integrator, joint_solver, on_doubt)
+PLUMB_MEMBERS(Realtime, dt, substeps, iterations, precision, integrator, solver, continuous, sleeping,
+              on_violation)
 PLUMB_MEMBERS(Precise, tolerance, max_dt, method, estimate_error)
 
 }  // namespace plumb

@@ -24,12 +24,12 @@ Scene two_balls() {
 
 TEST(SimulationSettings, BadOnesAreRefused) {
   Rules rules({{"Realtime.dt", {1e-100, 1e100}},
-               {"Realtime.substeps", {1, 1e6}},
-               {"Realtime.iterations", {1, 1e6}},
+               {"Realtime.substeps", {1, 1000}},
+               {"Realtime.iterations", {1, 1000}},
                {"Realtime.precision", {0, 1}},
                {"Realtime.integrator", {0, 2}},
-               {"Realtime.joint_solver", {0, 1}},
-               {"Realtime.on_doubt", {0, 1}},
+               {"Realtime.solver", {0, 4}},
+               {"Realtime.on_violation", {0, 2}},
                {"Precise.tolerance", {1e-12, 1e100}},
                {"Precise.max_dt", {1e-100, 1e100}},
                {"Precise.method", {0, 3}}});
@@ -77,7 +77,8 @@ TEST(SimulationSteps, ExtremesOfSettingsEndOrAreRefused) {
         simulation.step(2);
         for (std::size_t body : {0, 1}) EXPECT_TRUE(std::isfinite(simulation.state(body).position.y));
       } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), Error::Kind::Run) << error.what();
+        // A world refuses positions beyond its range at once, and stops at a motion that leaves it.
+        EXPECT_TRUE(error.kind() == Error::Kind::Run || error.kind() == Error::Kind::Value) << error.what();
       }
     }
   }
@@ -139,7 +140,8 @@ TEST_P(SimulationCalls, BadStatesAreRefused) {
                                     end.velocity.y + end.angular_velocity));
         }
       } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), Error::Kind::Run) << error.what();
+        // A world refuses positions beyond its range at once, and stops at a motion that leaves it.
+        EXPECT_TRUE(error.kind() == Error::Kind::Run || error.kind() == Error::Kind::Value) << error.what();
       }
       simulation_ = compile(two_balls(), GetParam());
     }

@@ -22,6 +22,7 @@ std::map<std::string, Rule> world_rules() {
           {"WorldDefinition.combine_friction", {0, 4}},
           {"WorldDefinition.combine_restitution", {0, 4}},
           {"WorldDefinition.solver", {0, 4}},
+          {"WorldDefinition.integrator", {0, 2}},
           {"WorldDefinition.iterations", {1, 1000}}};
 }
 

@@ -71,7 +71,9 @@ def wrong_includes(root):
 
 # Public headers of the world stand on top of its folder; each belongs to the part that implements it.
 PARTS = {
-    "engine/world/state": ["definitions.h", "events.h", "handles.h", "solver.h", "world.h", "world_data.h"],
+    "engine/world/state": ["definitions.h", "events.h", "handles.h", "integrator.h", "profile.h", "solver.h", "world.h",
+                           "world_data.h"],
+    "engine/world/monitor": ["invariant_monitor.h"],
     "engine/world/snapshot": ["rollback.h", "snapshot.h", "snapshot_check.h", "state_hash.h"],
     "engine/world/recording": ["recorder.h", "replay.h"],
     "engine/world/drawing": ["debug_draw.h", "past_poses.h", "svg_draw.h"],

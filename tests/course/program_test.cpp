@@ -58,7 +58,7 @@ TEST(Check, MistakesAreRecognisedOverTheProtocol) {
 }
 
 TEST(Check, EnginesThatAreBuiltInPass) {
-  for (const char* engine : {"plumb", "plumb-float", "plumb-precise", "plumb-world"}) {
+  for (const char* engine : {"plumb", "plumb-float", "plumb-precise"}) {
     const Ran ran = plumb({"check", "--engine", engine});
     EXPECT_EQ(ran.code, 0) << engine << "\n" << ran.out << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("38 of 38 checks pass"));

@@ -57,14 +57,11 @@ class SimulationRunner final : public Runner {
   Simulation simulation_;
 };
 
-/// World in float and double, Simulation in Realtime and Precise.
-enum class Engine { World, DoubleWorld, Realtime, Precise };
+/// World in float and double, and Precise.
+enum class Engine { World, DoubleWorld, Precise };
 
 inline std::string name_of(Engine engine) {
-  return engine == Engine::World         ? "world"
-         : engine == Engine::DoubleWorld ? "double_world"
-         : engine == Engine::Realtime    ? "realtime"
-                                         : "precise";
+  return engine == Engine::World ? "world" : engine == Engine::DoubleWorld ? "double_world" : "precise";
 }
 
 /// With defaults, in steps of `dt`. Bodies do not sleep: what creeps is to be seen.
@@ -76,8 +73,6 @@ inline std::unique_ptr<Runner> make_runner(Engine engine, const Scene& scene, do
       return std::make_unique<WorldRunner<float>>(scene, dt, 4, awake);
     case Engine::DoubleWorld:
       return std::make_unique<WorldRunner<double>>(scene, dt, 4, awake);
-    case Engine::Realtime:
-      return std::make_unique<SimulationRunner>(scene, Realtime{.dt = dt});
     case Engine::Precise:
       break;
   }

@@ -56,7 +56,7 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
 // independently.
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
-      world(reference::find_backend("plumb-world"));
+      world(reference::find_backend("plumb-float"));
   for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse"}) {
     int judged = 0;
     for (std::uint64_t index = 0; index < 60; ++index) {

@@ -23,7 +23,7 @@ struct Folder {
 };
 
 HuntOptions few(const std::string& folder, std::uint64_t scenes) {
-  return {.engines = {Engine(reference::find_backend("plumb-world"))},
+  return {.engines = {Engine(reference::find_backend("plumb-float"))},
           .seconds = 0,
           .scenes = scenes,
           .jobs = 2,

@@ -11,7 +11,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 const Engine& world() {
-  static const Engine engine(reference::find_backend("plumb-world"));
+  static const Engine engine(reference::find_backend("plumb-float"));
   return engine;
 }
 
@@ -228,7 +228,7 @@ TEST(Examine, ABallThatIsAtRestOnTheGroundIsRightInEveryEngine) {
                               .type = BodyType::Static,
                               .position = {0, -0.5},
                               .shapes = {{.geometry = Box{10, 1}}}});
-  for (const char* name : {"plumb-world", "plumb-world-double", "plumb-precise"}) {
+  for (const char* name : {"plumb-float", "plumb", "plumb-precise"}) {
     const Engine engine(reference::find_backend(name));
     for (const std::string& judge : judge_names()) {
       const Examined seen = examine(engine, one, judge);

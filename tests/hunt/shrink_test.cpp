@@ -70,7 +70,7 @@ TEST(Shrink, WhatAnExpectationNeedsGoesWithIt) {
 
 TEST(Finding, ReadsBack) {
   Finding finding{
-      .engine = "plumb-world",
+      .engine = "plumb-float",
       .objection = {.law = "energy", .judge = "energy", .what = "it grew", .right = "it does not"},
       .smallest = compose(1, 4)};
   finding.objection.figure = INFINITY;

@@ -144,7 +144,7 @@ FEATURES = [
     feature("Filters of queries", WORLD + "queries/queries.cpp", "if (w.forms[shape].sensor && !filter.sensors) return false;",
             "", "world/queries", "world/queries_use"),
     feature("Continuous collision", WORLD + "step/step.cpp",
-            "stop_at_impacts(w, static_cast<Real>(dt));", "", "world/resting"),
+            "stop_at_impacts(w, static_cast<Real>(dt)), clock", "clock", "world/resting"),
     feature("Islands, sleeping, waking", WORLD + "state/islands.cpp",
             "for_each_tie(w, body, [&](int other) { wake_body(w, other); });", "", "world/resting"),
     feature("Character mover", WORLD + "character/mover.cpp", "if (step_up(speed)) return true;", "", "world/mover"),

@@ -32,9 +32,9 @@ from bugs import MUTATIONS  # noqa: E402
 
 # By the suite of a bug: the engines that are hunted, and how many scenes they judge in a second.
 ENGINES = {
-    "world": ("plumb-world", 12),
-    "realtime": ("plumb,plumb-float", 100),
-    "agreement": ("plumb-world,plumb", 11),
+    "world": ("plumb-float", 12),
+    "simulation": ("plumb", 12),
+    "agreement": ("plumb-float,plumb", 11),
     "precise": ("plumb-precise", 4),
 }
 

@@ -71,7 +71,7 @@ def mismatches(root, mutations):
 SUITES = {
     "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
     "precise": (["test_precise"], ["-L", "unit", "-R", "^precise/"]),
-    "realtime": (["test_realtime", "test_simulation"], ["-L", "unit", "-R", "^(realtime/|simulation/(Watch|Substeps|Contacts|Impacts))"]),
+    "simulation": (["test_simulation"], ["-L", "unit", "-R", "^simulation/"]),
     "world": (["test_collision", "test_joints", "test_linear_algebra", "test_world", "test_world_solver"],
               ["-L", "unit", "-R", "^(collision|joints|linear_algebra|world)/"]),
     "harness": (["test_harness", "test_sweep"], ["-L", "unit", "-R", "^(harness|sweep)/"]),

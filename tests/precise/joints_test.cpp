@@ -259,10 +259,10 @@ TEST(PreciseJoints, WhatIsLackingIsSaid) {
   hinge.break_force = 10;
   scene.joints = {hinge};
   EXPECT_EQ(precise_unsupported(scene),
-            "joint 'hip' has break_force, which Precise does not have; 'plumb-world' runs it");
+            "joint 'hip' has break_force, which Precise does not have; 'plumb' runs it");
   scene.joints = {RatchetJoint{.name = "click", .body_a = kFrame, .body_b = "arm"}};
   EXPECT_EQ(precise_unsupported(scene),
-            "joint 'click' is a ratchet joint, which Precise does not have; 'plumb-world' runs it");
+            "joint 'click' is a ratchet joint, which Precise does not have; 'plumb' runs it");
 }
 
 }  // namespace

@@ -54,8 +54,6 @@ SinusoidalForce shaking(const Body& body, double by, double dt, const Some& some
 
 std::string name_of(Engine engine) {
   switch (engine) {
-    case Engine::Realtime:
-      return "Realtime";
     case Engine::Precise:
       return "Precise";
     case Engine::World:
@@ -68,9 +66,6 @@ std::string name_of(Engine engine) {
 
 States run(Engine engine, const Scene& scene, const Steps& steps) {
   switch (engine) {
-    case Engine::Realtime:
-      // What sweeps leave unsolved depends on the order of points and bodies: these leave nothing.
-      return run_simulation(scene, Realtime{.dt = steps.dt, .iterations = 500}, steps.count);
     case Engine::Precise:
       return run_simulation(scene, Precise{.tolerance = 1e-10, .max_dt = steps.dt}, steps.count);
     case Engine::World:

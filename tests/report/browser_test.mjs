@@ -131,7 +131,7 @@ async function mapsTell(page) {
   const said = await page.ask(`[...${map("mass_ratio_stack")}.querySelectorAll("tbody tr")].map((row) => [row.cells[0].textContent,
     ...[...row.cells].slice(1).map((cell) => cell.textContent)])`);
   assert.deepEqual(said.find(([name]) => name === "box2d default"), ["box2d default", "ok", "sinks", "explodes", "NaN"]);
-  assert.deepEqual(said[0], ["plumb-world default", "ok", "ok", "sinks", "sinks"], "plumb's worst comes first");
+  assert.deepEqual(said[0], ["plumb-float default", "ok", "ok", "sinks", "sinks"], "plumb's worst comes first");
   assert.deepEqual(await page.ask(`[...${map("mass_ratio_stack")}.querySelectorAll("thead th")].slice(1).map((cell) => cell.textContent)`),
     ["1", "1000", "10\u2076", "10\u2079"]);
   // No two kinds of outcome look alike, and none as the page behind them.
@@ -145,14 +145,14 @@ async function mapsTell(page) {
   await page.mouse("move", at);
   await page.until(`!${tip}.hidden`);
   const text = await page.ask(`${tip}.textContent`);
-  for (const part of ["plumb-world, default: omega dt 10000", "refused: the spring turns faster", "600 steps, 120 ms, 12.3 MB", "substeps 4"])
+  for (const part of ["plumb-float, default: omega dt 10000", "refused: the spring turns faster", "600 steps, 120 ms, 12.3 MB", "substeps 4"])
     assert.ok(text.includes(part), text);
   await page.mouse("move", {x: 2, y: 2});
   await page.until(`${tip}.hidden`);
   await page.ask(`(${map("bullet")}.querySelector('td[tabindex="0"]').focus(), 0)`);
   await page.key("ArrowRight");
   await page.key("ArrowDown");
-  assert.match(await page.ask(`${tip}.textContent`), /^plumb-world, careful: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
+  assert.match(await page.ask(`${tip}.textContent`), /^plumb-float, careful: speed 10000 m\/s\nok\npasses the wall by 2.0\u00b710\u207b\u2075 m, bound 0.001 m/);
   // A cell that has to scroll into view is told there.
   await page.ask(`(scrollTo(0, 0), ${map("bullet")}.querySelector('tbody tr:last-child td:last-child').focus(), 0)`);
   await page.frames(5);
@@ -168,9 +168,9 @@ async function mapsTell(page) {
 
 async function thresholdsSort(page) {
   const rows = () => page.ask(`[...document.querySelectorAll("#thresholds tbody tr")].map((row) => [...row.cells].slice(0, 5).map((cell) => cell.textContent))`);
-  assert.deepEqual((await rows())[0], ["friction on a ramp", "plumb-world", "0.364", "0.364", "+0.0027 %"]);
+  assert.deepEqual((await rows())[0], ["friction on a ramp", "plumb-float", "0.364", "0.364", "+0.0027 %"]);
   assert.deepEqual((await rows())[1].slice(2), ["0.3711", "0.364", "+2 %"]);
-  assert.equal((await rows()).find(([name, engine]) => name.startsWith("fastest") && engine === "plumb-world")[2], "none of 1 \u2026 10\u2078");
+  assert.equal((await rows()).find(([name, engine]) => name.startsWith("fastest") && engine === "plumb-float")[2], "none of 1 \u2026 10\u2078");
   await page.ask(`([...document.querySelectorAll("#thresholds th button")].find((button) => button.textContent === "off by").click(), 0)`);
   assert.equal((await rows())[0][1], "box2d");
 }

@@ -37,8 +37,8 @@ TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
   // of 12.
   std::vector<std::string> names;
   for (const Endurance& row : rows) names.push_back(row.engine + " " + row.setting);
-  EXPECT_THAT(names, ElementsAre("any of plumb's any setting", "plumb-world default", "plumb-world careful",
-                                 "plumb-world any setting", "plumb-precise default", "bullet-double default",
+  EXPECT_THAT(names, ElementsAre("any of plumb's any setting", "plumb-float default", "plumb-float careful",
+                                 "plumb-float any setting", "plumb-precise default", "bullet-double default",
                                  "box2d default"));
   EXPECT_EQ(rows[1].all.survived, 8);
   EXPECT_EQ(rows[1].all.total, 12);
@@ -55,17 +55,17 @@ TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
 TEST(Extremes, ACellSurvivesWhereAnySettingDoes) {
   // 1: the first alone; 2: the second alone; 3: none; 4: only another engine of plumb; 5: only a rival.
   const std::vector<Cell> cells{
-      cell_of(1, "plumb-world", "a", Verdict::Ok),        cell_of(2, "plumb-world", "a", Verdict::Sinks),
-      cell_of(3, "plumb-world", "a", Verdict::NotFinite), cell_of(4, "plumb-world", "a", Verdict::Skipped),
-      cell_of(5, "plumb-world", "a", Verdict::Skipped),   cell_of(1, "plumb-world", "b", Verdict::Sinks),
-      cell_of(2, "plumb-world", "b", Verdict::Ok),        cell_of(3, "plumb-world", "b", Verdict::Refused),
-      cell_of(4, "plumb-world", "b", Verdict::Skipped),   cell_of(5, "plumb-world", "b", Verdict::Skipped),
+      cell_of(1, "plumb-float", "a", Verdict::Ok),        cell_of(2, "plumb-float", "a", Verdict::Sinks),
+      cell_of(3, "plumb-float", "a", Verdict::NotFinite), cell_of(4, "plumb-float", "a", Verdict::Skipped),
+      cell_of(5, "plumb-float", "a", Verdict::Skipped),   cell_of(1, "plumb-float", "b", Verdict::Sinks),
+      cell_of(2, "plumb-float", "b", Verdict::Ok),        cell_of(3, "plumb-float", "b", Verdict::Refused),
+      cell_of(4, "plumb-float", "b", Verdict::Skipped),   cell_of(5, "plumb-float", "b", Verdict::Skipped),
       cell_of(4, "plumb-precise", "a", Verdict::Ok),      cell_of(5, "box2d", "a", Verdict::Ok)};
   std::map<std::string, std::string> counts;
   for (const Endurance& row : endurances(cells))
     if (row.setting == "any setting")
       counts[row.engine] = std::to_string(row.all.survived) + " of " + std::to_string(row.all.total);
-  EXPECT_THAT(counts, ElementsAre(Pair("any of plumb's", "3 of 4"), Pair("plumb-world", "2 of 3")));
+  EXPECT_THAT(counts, ElementsAre(Pair("any of plumb's", "3 of 4"), Pair("plumb-float", "2 of 3")));
 }
 
 TEST(Extremes, ALaterLineReplacesAnEarlierOneAndACutLineIsPassedOver) {
@@ -133,7 +133,7 @@ TEST(Extremes, ThePictureHasANumberInEveryCell) {
   // Seven rows of three families and the sum of these.
   EXPECT_EQ(count("text-anchor=\"middle\""), 28);
   EXPECT_EQ(count(">8/12<"), 1);
-  EXPECT_EQ(count(">2/4<"), 3) << "plumb-world's stacks and springs, box2d's bullets";
+  EXPECT_EQ(count(">2/4<"), 3) << "plumb-float's stacks and springs, box2d's bullets";
   EXPECT_EQ(count(">\u2013<"), 1);
 }
 

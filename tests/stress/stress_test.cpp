@@ -126,7 +126,7 @@ TEST(Stress, SurvivesBeingKilled) {
 TEST(Stress, TheSameForSomeFamiliesOfPlumb) {
   const Folder folder;
   const Stressed done = stress({.families = {&find_family("dt_fall"), &find_family("mass_ratio_stack")},
-                                .engines = {&reference::find_backend("plumb-world")},
+                                .engines = {&reference::find_backend("plumb-float")},
                                 .folder = folder.path(),
                                 .jobs = 2,
                                 .quick = true});

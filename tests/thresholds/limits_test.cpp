@@ -42,10 +42,10 @@ TEST(Limits, TellWhereWhatSurvivesEnds) {
   const app::Folder folder;
   folder.write("stress.jsonl", R"({"kind":"environment","plumb_version":"1","commit":"abc","cpu":"a CPU"})"
                                "\n" +
-                                   cell("plumb-world", 1, stress::Verdict::Ok) +
-                                   cell("plumb-world", 1000, stress::Verdict::Sinks, "by 3 mm") +
-                                   cell("plumb-world", 10, stress::Verdict::Ok) +
-                                   cell("plumb-world", 1e6, stress::Verdict::Explodes, "far away") +
+                                   cell("plumb-float", 1, stress::Verdict::Ok) +
+                                   cell("plumb-float", 1000, stress::Verdict::Sinks, "by 3 mm") +
+                                   cell("plumb-float", 10, stress::Verdict::Ok) +
+                                   cell("plumb-float", 1e6, stress::Verdict::Explodes, "far away") +
                                    cell("plumb-precise", 1, stress::Verdict::Ok) +
                                    cell("plumb-precise", 10, stress::Verdict::Ok) +
                                    cell("plumb-precise", 1000, stress::Verdict::Ok) +
@@ -53,13 +53,13 @@ TEST(Limits, TellWhereWhatSurvivesEnds) {
                                    cell("box2d", 1, stress::Verdict::NotFinite, "at 2 s") +
                                    cell("mujoco", 1, stress::Verdict::Skipped, "no contacts"));
   folder.write("thresholds.jsonl",
-               threshold("plumb-world", R"("found":0.45,"low":0.449,"high":0.451,"outcome":"found")") +
+               threshold("plumb-float", R"("found":0.45,"low":0.449,"high":0.451,"outcome":"found")") +
                    threshold("mujoco", R"("found":null,"low":0,"high":1,"outcome":"refused")"));
   const LimitsData data = read_limits(folder.path());
   const std::string page = measured_part(data);
   for (const char* part :
-       {"commit abc, on a CPU", "| `plumb-world` | 2 | 4 | 50.0 % | 1 explodes, 1 sinks |",
-        "| `plumb-world` | 1 to 10 |  | sinks at 1000: by 3 mm |", "| `plumb-precise` | all |",
+       {"commit abc, on a CPU", "| `plumb-float` | 2 | 4 | 50.0 % | 1 explodes, 1 sinks |",
+        "| `plumb-float` | 1 to 10 |  | sinks at 1000: by 3 mm |", "| `plumb-precise` | all |",
         "| `box2d` | nowhere | NaN at 1: at 2 s |", "Not for `mujoco`.",
         "| a heavy box on a light one | mass ratio 1 to 1e+06 | `plumb-precise` |",
         "| overhang | 0.5000 | 0.450 (-10 %) |"})

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 TEST(ThresholdsProgram, FindsThemAndKeepsThem) {
   const Folder folder;
   const std::vector<std::string> command{
-      "thresholds", "free_spin", "--engine", "plumb-world,mujoco,box2d", "--out", folder.path("extremes"),
+      "thresholds", "free_spin", "--engine", "plumb-float,mujoco,box2d", "--out", folder.path("extremes"),
       "--jobs",     "2"};
   const Ran ran = plumb(command);
   EXPECT_EQ(ran.code, 0) << ran.err;
@@ -36,7 +36,7 @@ TEST(ThresholdsProgram, KilledInTheMiddleTheSameCommandGoesOn) {
   const Folder folder;
   const std::vector<std::string> command{
       "thresholds", "free_spin",         "free_speed", "stopped_bullet",   "overhang",
-      "--engine",   "plumb-world,plumb", "--out",      folder.path("out"), "--jobs",
+      "--engine",   "plumb-float,plumb", "--out",      folder.path("out"), "--jobs",
       "1",          "--format",          "json"};
   const pid_t process = start_plumb(command);
   for (int i = 0; i < 3000 && lines_of(folder.read("out/thresholds.jsonl")).size() < 3; ++i) usleep(10'000);

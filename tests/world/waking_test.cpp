@@ -169,6 +169,7 @@ std::vector<Row<Real>> rows_of_world() {
       {"set_direct_islands", [](W& w, S&) { w.set_direct_islands(false); }, true},
       {"set_quarantine", [](W& w, S&) { w.set_quarantine(false); }},
       {"combine_with", [](W& w, S&) { w.combine_with(nullptr, nullptr); }},
+      {"set_profiling", [](W& w, S&) { w.set_profiling(false); }},
       {"on_pre_solve", [](W& w, S&) { w.on_pre_solve([](const ContactReading&) { return false; }); }},
       {"create_body",
        [=](W& w, S&) {

@@ -49,6 +49,11 @@ void apply(const Kick<Real>& kick, BodyMotion<Real>& motion) {
   if (kick.locked_y) motion.velocity.y = 0;
 }
 
+// Returns the share of the velocity before the kick in the velocity that moves a body.
+constexpr double share_before(Integrator integrator) {
+  return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
+}
+
 // Moves a body in free flight. Exact for constant acceleration: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2)
 // t.
 template <class Real>
@@ -87,7 +92,7 @@ void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
 }  // namespace
 
 template <class Real>
-void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight) {
+void prepare_kicks(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
   w.scratch.kicks.clear(), w.scratch.starts.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
@@ -98,7 +103,7 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight
     ahead.ask_for_motion(place);
     const int body = w.awake[place];
     const BodyRecord<Real>& record = w.bodies[body];
-    if (flight == FreeFlight::Exact && record.constraints == 0) {
+    if (integrator == Integrator::VelocityVerlet && record.constraints == 0) {
       if (!loaded && falls_only(record)) {
         fall(w, body, gain, static_cast<Real>(dt));
       } else {
@@ -138,8 +143,8 @@ void repeat_velocities(WorldData<Real>& w) {
 }
 
 template <class Real>
-void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight) {
-  const bool exact = flight == FreeFlight::Exact;
+void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
+  const Real share = Real(share_before(integrator));
   for (const Kick<Real>& kick : w.scratch.kicks) {
     if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
@@ -147,10 +152,11 @@ void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight) {
     if (kick.locked_y) motion.velocity.y = 0;
     motion.moved += h * motion.velocity;
     Real turn = h * motion.angular_velocity;
-    if (exact && motion.velocity == kick.velocity_before && motion.angular_velocity == kick.spin_before &&
-        kick.keep == 1 && kick.keep_spin == 1 && w.bodies[kick.body].first_joint == kNone) {
-      motion.moved -= (Real(0.5) * h) * kick.velocity;
-      turn -= (Real(0.5) * h) * kick.spin;
+    if (share != 0 && motion.velocity == kick.velocity_before &&
+        motion.angular_velocity == kick.spin_before && kick.keep == 1 && kick.keep_spin == 1 &&
+        w.bodies[kick.body].first_joint == kNone) {
+      motion.moved -= (share * h) * kick.velocity;
+      turn -= (share * h) * kick.spin;
       if (kick.locked_x) motion.moved.x = 0;
       if (kick.locked_y) motion.moved.y = 0;
     }
@@ -182,10 +188,10 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
 }
 
 #define PLUMB_FOR(Real)                                                   \
-  template void prepare_kicks(WorldData<Real>&, double, int, FreeFlight); \
+  template void prepare_kicks(WorldData<Real>&, double, int, Integrator); \
   template void integrate_velocities(WorldData<Real>&);                   \
   template void repeat_velocities(WorldData<Real>&);                      \
-  template void integrate_positions(WorldData<Real>&, Real, FreeFlight);  \
+  template void integrate_positions(WorldData<Real>&, Real, Integrator);  \
   template void hold_locks(WorldData<Real>&);                             \
   template Vec2d free_acceleration(const WorldData<Real>&, int);          \
   template Real bounce_threshold(const WorldData<Real>&, double);

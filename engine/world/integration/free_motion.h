@@ -6,16 +6,11 @@
 /// change the velocity (the kick), and the velocity moves the body.
 namespace plumb {
 
-/// Integration of bodies without contact points and joints.
-enum class FreeFlight {
-  Exact,     ///< a parabola through the whole step
-  Substeps,  ///< like all others: v += h a, x += h v
-};
-
-/// Computes the kicks for substeps of length `h`, and resets displacements, at the step's start. Bodies in
-/// exact flight are moved through the whole step.
+/// Computes the kicks for substeps of length `h`, and resets displacements, at the step's start. With
+/// velocity Verlet, bodies without contact points and joints are moved along a parabola through the whole
+/// step.
 template <class Real>
-void prepare_kicks(WorldData<Real>& w, double h, int substeps, FreeFlight flight);
+void prepare_kicks(WorldData<Real>& w, double h, int substeps, Integrator integrator);
 
 /// Integrates velocities: v += h a.
 template <class Real>
@@ -27,10 +22,11 @@ void integrate_velocities(WorldData<Real>& w);
 template <class Real>
 void repeat_velocities(WorldData<Real>& w);
 
-/// Integrates positions: x += h v. In exact flight, a body without joints that had no impulse in the substep
-/// moves on its parabola. So bodies with separated contacts fall like bodies without.
+/// Integrates positions: x += h v. A body without joints that had no impulse in the substep moves by the
+/// integrator's mean of the velocities before and after the kick. So bodies with separated contacts fall like
+/// bodies without.
 template <class Real>
-void integrate_positions(WorldData<Real>& w, Real h, FreeFlight flight);
+void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator);
 
 /// Resets displacement and velocity along locked axes, which projections may have changed.
 template <class Real>

@@ -14,7 +14,7 @@ namespace {
 
 template <class Real>
 bool may_hold(const WorldData<Real>& w) {
-  if (w.joint_set.active_count() == 0) return false;
+  if (w.joint_set.active_count() == 0 || w.settings.integrator != Integrator::VelocityVerlet) return false;
   return w.settings.solver == Solver::Direct ||
          (w.settings.solver == Solver::SoftSteps && w.settings.direct_islands);
 }

@@ -92,9 +92,25 @@ JointDefinition definition_of(const Joint& joint) {
       joint);
 }
 
-/// Throws Error for a part that the world would refuse, before any part is added.
+}  // namespace
+
+WorldDefinition world_definition(const Scene& scene) {
+  WorldDefinition definition;
+  definition.gravity = scene.gravity;
+  definition.combine_friction = scene.contact_rules.friction;
+  definition.combine_restitution = scene.contact_rules.restitution;
+  return definition;
+}
+
+std::string world_unsupported(const Scene& scene) {
+  if (scene.contact_rules.restitution_threshold > 0)
+    return "restitution_threshold is " + shortest(scene.contact_rules.restitution_threshold) +
+           ": a World's own follows from gravity and the step";
+  return "";
+}
+
 template <class Real>
-void check_parts(const Scene& scene) {
+void require_in_range(const Scene& scene) {
   validate(world_definition(scene));
   for (const Body& body : scene.bodies) {
     validate(definition_of(body));
@@ -116,29 +132,12 @@ void check_parts(const Scene& scene) {
   for (const Joint& joint : scene.joints) validate(definition_of(joint));
 }
 
-}  // namespace
-
-WorldDefinition world_definition(const Scene& scene) {
-  WorldDefinition definition;
-  definition.gravity = scene.gravity;
-  definition.combine_friction = scene.contact_rules.friction;
-  definition.combine_restitution = scene.contact_rules.restitution;
-  return definition;
-}
-
-std::string world_unsupported(const Scene& scene) {
-  if (scene.contact_rules.restitution_threshold > 0)
-    return "restitution_threshold is " + shortest(scene.contact_rules.restitution_threshold) +
-           ": a World's own follows from gravity and the step";
-  return "";
-}
-
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
   validate(scene);
   if (const std::string reason = world_unsupported(scene); !reason.empty())
     throw Error(Error::Kind::Unsupported, scene_subject(scene.name), "", "", reason);
-  check_parts<Real>(scene);
+  require_in_range<Real>(scene);
   SceneParts parts;
   std::map<std::string_view, BodyId> by_name;
   for (const Body& body : scene.bodies) {
@@ -165,6 +164,8 @@ SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
   return parts;
 }
 
+template void require_in_range<float>(const Scene&);
+template void require_in_range<double>(const Scene&);
 template SceneParts add_scene(BasicWorld<float>&, const Scene&);
 template SceneParts add_scene(BasicWorld<double>&, const Scene&);
 

@@ -150,6 +150,22 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   advance(world, dt);
   laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
   add_springs(true);
+  push(world);
+}
+
+template <class Real>
+void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
+  if (empty()) return;
+  place(world);
+  for (Spring& spring : springs_) spring.stiff = false;
+  laws_.add(world.time(), world.time() + dt, poses_.data(), twists_.data(), wrenches_.data());
+  add_springs(true);
+  push(world);
+}
+
+/// Hands the wrenches to the world; a force that is not finite quarantines its body.
+template <class Real>
+void SceneForces<Real>::push(BasicWorld<Real>& world) {
   for (const std::size_t body : acted_on_) {
     if (world.type(ids_[body]) != BodyType::Dynamic) continue;
     if (!is_sound(wrenches_[body])) {

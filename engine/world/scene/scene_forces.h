@@ -22,6 +22,9 @@ class SceneForces {
   /// method along their line: they oscillate too slowly, but conserve energy.
   void apply(BasicWorld<Real>& world, double dt);
 
+  /// Does the same with the forces at the start of the step, as the Euler schemes take them.
+  void apply_at_start(BasicWorld<Real>& world, double dt);
+
  private:
   void place(const BasicWorld<Real>& world);
   void advance(const BasicWorld<Real>& world, double dt);
@@ -30,6 +33,7 @@ class SceneForces {
     bool stiff = false;             ///< in the next step
     Wrench<double> on_a{}, on_b{};  ///< of a stiff spring
   };
+  void push(BasicWorld<Real>& world);
   void stiffen(const BasicWorld<Real>& world, double dt);
   void add_springs(bool stiff);  ///< true: all springs; false: only those that are not stiff
 

@@ -13,6 +13,8 @@ inline constexpr int kEnumerators<Combine> = 5;
 template <>
 inline constexpr int kEnumerators<Solver> = 5;
 template <>
+inline constexpr int kEnumerators<Integrator> = 3;
+template <>
 inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
@@ -22,7 +24,7 @@ inline constexpr int kEnumerators<BadField> = 4;
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 
 PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous, solver,
-              iterations, direct_islands, quarantine)
+              integrator, iterations, direct_islands, quarantine)
 PLUMB_MEMBERS(Filter, category, mask, group)
 
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
@@ -57,15 +59,15 @@ PLUMB_MEMBERS(QuarantinedBody, body, type, why)
 PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
 
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
-/// references. It excludes the pre-solve hook and the user's combine rules, which are code, and scratch data.
-/// A new member of WorldData must be named here, and returned unless it is one of those.
+/// references. It excludes the pre-solve hook and the user's combine rules, which are code, the profile, and
+/// scratch data. A new member of WorldData must be named here, and returned unless it is one of those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners, shape_data, chains,
          moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set,
-         sensors, breakable, quarantine, events, pending, stepping, callers, abandoned, reports_hits,
-         ties_changed, scratch, pre_solve, friction_rule, restitution_rule] = w;
+         sensors, breakable, quarantine, events, pending, stepping, profiled, profile, callers, abandoned,
+         reports_hits, ties_changed, scratch, pre_solve, friction_rule, restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
                   shape_data, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph,

@@ -24,7 +24,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h, substeps, FreeFlight::Substeps);
+  prepare_kicks(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     integrate_velocities(w);
@@ -34,7 +34,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
       if (jointed) w.joint_set.solve(bodies, joints);
       sweep_contacts(bodies.motion, w.graph, contacts);
     }
-    integrate_positions(w, static_cast<Real>(h), FreeFlight::Substeps);
+    integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
     stop_arrivals(bodies.motion, w.graph, contacts);
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
     contacts.warm_start = 1;

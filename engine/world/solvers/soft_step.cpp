@@ -45,7 +45,8 @@ bool nothing_left(const WorldData<Real>& w) {
 
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
-  prepare_kicks(w, h, substeps, FreeFlight::Exact);
+  const Integrator integrator = w.settings.integrator;
+  prepare_kicks(w, h, substeps, integrator);
   move_hinge_trees(w, h, substeps);
   const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
   if (!jointed && nothing_left(w)) return;
@@ -98,7 +99,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_direct_islands(w, contacts, true);
     solve_contacts(bodies.motion, w.graph, contacts);
     hold_jointed_islands(w, contacts);
-    integrate_positions(w, static_cast<Real>(h), FreeFlight::Exact);
+    integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) turn_back(w);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, false);

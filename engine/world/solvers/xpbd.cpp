@@ -16,13 +16,13 @@ void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
   Rotation<Real>* rotation = w.rotation.data();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h, substeps, FreeFlight::Substeps);
+  prepare_kicks(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     if (jointed) w.joint_set.begin_projection(bodies, joints);
     begin_position_contacts(bodies.motion, w.graph);
     integrate_velocities(w);
-    integrate_positions(w, step, FreeFlight::Substeps);
+    integrate_positions(w, step, Integrator::SemiImplicitEuler);
     if (jointed) w.joint_set.project(bodies, rotation, joints);
     project_contacts(bodies.motion, rotation, w.graph, contacts, PositionFriction::Static);
     hold_locks(w);

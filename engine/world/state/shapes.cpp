@@ -42,10 +42,10 @@ void tidy_moved_shapes(WorldData<Real>& w) {
 
 template <class Real>
 void put_material(ShapeRecord<Real>& record, const Material& material) {
-  record.friction = static_cast<float>(material.friction);
-  record.restitution = static_cast<float>(material.restitution);
-  record.rolling_resistance = static_cast<float>(material.rolling_resistance);
-  record.surface_speed = static_cast<float>(material.surface_speed);
+  record.friction = static_cast<Real>(material.friction);
+  record.restitution = static_cast<Real>(material.restitution);
+  record.rolling_resistance = static_cast<Real>(material.rolling_resistance);
+  record.surface_speed = static_cast<Real>(material.surface_speed);
 }
 
 template <class Real>

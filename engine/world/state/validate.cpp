@@ -113,6 +113,7 @@ void validate(const WorldDefinition& definition) {
   require_finite("world", "gravity", definition.gravity);
   require_one_of("world", "combine_friction", definition.combine_friction, kCombineRules);
   require_one_of("world", "combine_restitution", definition.combine_restitution, kCombineRules);
+  require_one_of("world", "integrator", definition.integrator, 3);
   require_one_of("world", "solver", definition.solver, static_cast<int>(std::size(kSolverNames)));
   if (definition.iterations < 1 || definition.iterations > 1000) {
     throw Error(Error::Kind::Value, "world", "iterations", std::to_string(definition.iterations),

@@ -65,8 +65,6 @@ void finish_motion(WorldData<Real>& w, Real dt) {
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const remainders = remainders_of(w);
   const bool sleeping = w.settings.sleeping, expects = !w.scratch.expecting_bodies.empty();
-  // Static AABBs have no margin, so other shapes must be enlarged one step ahead.
-  const bool grounds = w.still_tree.size() > 0;
   // Awake bodies are never static, so all their proxies are in the dynamic tree.
   LateEnlarging<Real> moving(w.moving_tree);
   const AwakeAhead<Real> ahead(w);
@@ -109,7 +107,8 @@ void finish_motion(WorldData<Real>& w, Real dt) {
         if (proxy == kNone) continue;
         const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
         w.boxes[shape] = box;
-        if (!w.moving_tree.box(proxy).contains(grounds ? stretched(box, dt * motion.velocity) : box))
+        // One step ahead, so that a pair is known in the step in which it meets.
+        if (!w.moving_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
           store_box(w, shape, dt, moving);
       }
     }

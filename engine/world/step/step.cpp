@@ -1,7 +1,7 @@
 #include "engine/world/step/step.h"
-#include "engine/world/state/shape_boxes.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <new>
 #include <utility>
@@ -11,6 +11,7 @@
 #include "engine/world/state/islands.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/shape_boxes.h"
 
 namespace plumb {
 namespace {
@@ -87,6 +88,29 @@ int substeps_of(const WorldData<Real>& w, double dt, int asked) {
   return static_cast<int>(std::min(wanted, most));
 }
 
+// Measures the wall time of each stage, if the world is profiled.
+template <class Real>
+class StageClock {
+ public:
+  explicit StageClock(WorldData<Real>& world) : w_(world), start_(now()) {}
+
+  // Adds the time since the last stage to this one.
+  void end(WorldStage stage) {
+    if (!w_.profiled) return;
+    const auto time = now();
+    w_.profile.nanoseconds[static_cast<std::size_t>(stage)] +=
+        std::chrono::duration<double, std::nano>(time - start_).count();
+    start_ = time;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point now() const { return w_.profiled ? Clock::now() : Clock::time_point{}; }
+
+  WorldData<Real>& w_;
+  Clock::time_point start_;
+};
+
 }  // namespace
 
 template <class Real>
@@ -94,26 +118,27 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   settle(w);
   // RAII guard: resets `stepping` even if a stage throws.
   const Stepping<Real> stepping(w);
+  StageClock<Real> clock(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
-  find_pairs(w);
+  find_pairs(w), clock.end(WorldStage::BroadPhase);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
-  update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h));
+  update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
   try {
-    solve_motion(w, h, substeps);
-    report_impacts(w);
-    finish_motion(w, static_cast<Real>(dt));
-    stop_at_impacts(w, static_cast<Real>(dt));
+    solve_motion(w, h, substeps), clock.end(WorldStage::Solver);
+    report_impacts(w), clock.end(WorldStage::Events);
+    finish_motion(w, static_cast<Real>(dt)), clock.end(WorldStage::Finalize);
+    stop_at_impacts(w, static_cast<Real>(dt)), clock.end(WorldStage::Continuous);
   } catch (...) {
     make_good(w);
     throw;
   }
   break_joints(w, h);
-  update_sensors(w);
-  sleep_islands(w);
+  update_sensors(w), clock.end(WorldStage::Events);
+  sleep_islands(w), clock.end(WorldStage::Sleep);
   w.time += dt;
   w.last_h = h;
-  ++w.steps;
+  ++w.steps, w.profile.steps += w.profiled ? 1 : 0;
 }
 
 template void step_world(WorldData<float>&, double, int);

@@ -101,7 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::run_simulation(scene, Realtime{});
   fuzz::run_simulation(scene, Realtime{.precision = Precision::Float,
                                        .integrator = Integrator::SemiImplicitEuler,
-                                       .joint_solver = JointSolver::Iterative});
+                                       .solver = Solver::SequentialImpulses});
   fuzz::run_world<float>(scene);
   fuzz::run_world<double>(scene);
   return 0;

@@ -114,7 +114,7 @@ struct Saved {
 
 void change_simulation(ByteSource& in) {
   static Saved all[] = {Saved(Realtime{}), Saved(Realtime{.precision = Precision::Float}),
-                        Saved(Realtime{.joint_solver = JointSolver::Iterative})};
+                        Saved(Realtime{.solver = Solver::SequentialImpulses})};
   Saved& saved = all[in.below(static_cast<int>(std::size(all)))];
   Bytes bytes = saved.bytes;
   in.set_extreme(true);

@@ -111,7 +111,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace plumb;
   const std::string text(reinterpret_cast<const char*>(data), size);
   const bool first = text.size() % 2 == 0;
-  const fuzz::Brief engine(reference::find_backend(first ? "plumb-world" : "plumb"));
+  const fuzz::Brief engine(reference::find_backend(first ? "plumb-float" : "plumb"));
   std::istringstream answers(fuzz::answers_to(engine, text));
   for (std::string line; std::getline(answers, line);) fuzz::check_answer(line);
   return 0;

@@ -1,0 +1,198 @@
+#include "engine/simulation/world_driver.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/driver/snapshot.h"
+#include "engine/scene/error.h"
+#include "engine/simulation/world_plan.h"
+#include "engine/world/snapshot.h"
+#include "engine/world/world_data.h"
+
+namespace plumb {
+namespace {
+
+WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
+  WorldDefinition definition = world_definition(scene);
+  definition.sleeping = accuracy.sleeping;
+  definition.continuous = accuracy.continuous;
+  definition.solver = accuracy.solver;
+  definition.integrator = accuracy.integrator;
+  definition.iterations = accuracy.iterations;
+  definition.quarantine = false;  // a run with a body missing is another scene's
+  return definition;
+}
+
+/// Leaves out the shapes of a scene in which none can touch: masses do not depend on them.
+Scene with_needed_parts(const Scene& scene, const Plan& plan) {
+  Scene out = scene;
+  if (needs_shapes(plan)) return out;
+  for (Body& body : out.bodies) {
+    if (const double inertia = inertia_of(body); inertia > 0) body.inertia = inertia;
+    body.shapes.clear();
+  }
+  return out;
+}
+
+}  // namespace
+
+template <class Real>
+WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, bool every_stage)
+    : accuracy_(accuracy),
+      plan_(plan_world(scene, accuracy, every_stage)),
+      world_(definition_of(scene, accuracy)),
+      parts_(add_scene(world_, with_needed_parts(scene, plan_))),
+      forces_(scene, parts_),
+      before_(scene.bodies.size()) {
+  if (accuracy_.on_violation != OnViolation::Ignore || every_stage) monitor_.emplace(world_);
+}
+
+template <class Real>
+void WorldDriver<Real>::step() {
+  read(before_);
+  if (accuracy_.on_violation == OnViolation::Stop) plumb::save(world_, undo_);
+  try {
+    advance();
+  } catch (const Error& error) {
+    put_back();
+    throw Error(Error::Kind::Run, error.subject(), error.field(), error.value(), error.problem());
+  }
+  ++steps_;
+  if (profiling_) update_profile();
+  if (found_) act_on_violation();
+}
+
+/// Force laws act at the middle of each substep, so with them the world takes the substeps one by one. The
+/// Euler schemes take forces at its start.
+template <class Real>
+void WorldDriver<Real>::advance() {
+  const bool one_by_one = !forces_.empty();
+  const int count = one_by_one ? accuracy_.substeps : 1;
+  const double dt = accuracy_.dt / count;
+  for (int i = 0; i < count; ++i) {
+    if (one_by_one) apply_forces(dt);
+    if (monitor_) monitor_->begin_step();
+    world_.step(dt, one_by_one ? 1 : accuracy_.substeps);
+    if (monitor_) check();
+  }
+}
+
+template <class Real>
+void WorldDriver<Real>::apply_forces(double dt) {
+  const auto start = std::chrono::steady_clock::now();
+  if (accuracy_.integrator == Integrator::VelocityVerlet) {
+    forces_.apply(world_, dt);
+  } else {
+    forces_.apply_at_start(world_, dt);
+  }
+  if (profiling_)
+    force_time_ += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <class Real>
+void WorldDriver<Real>::check() {
+  std::optional<Error> error = monitor_->end_step();
+  if (accuracy_.on_violation != OnViolation::Ignore && error && !found_) found_ = std::move(error);
+}
+
+template <class Real>
+void WorldDriver<Real>::act_on_violation() {
+  const Error found = *found_;
+  found_.reset();
+  if (accuracy_.on_violation == OnViolation::Report) {
+    if (!violation_) violation_ = found;
+    return;
+  }
+  plumb::restore(world_, undo_);
+  --steps_;
+  throw Error(found.kind(), found.subject(), found.field(), found.value(),
+              found.problem() + ", after step " + std::to_string(steps_ + 1));
+}
+
+template <class Real>
+void WorldDriver<Real>::read(std::span<BodyState> out) const {
+  if (abandoned_) {
+    std::ranges::copy(before_, out.begin());
+    return;
+  }
+  for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
+}
+
+template <class Real>
+void WorldDriver<Real>::write(std::size_t body, const BodyState& state) {
+  const BodyId id = parts_.bodies[body];
+  world_.set_position(id, state.position, state.angle);
+  if (world_.type(id) != BodyType::Static) {
+    world_.set_velocity(id, state.velocity);
+    world_.set_angular_velocity(id, state.angular_velocity);
+  }
+  violation_.reset();
+  if (monitor_) monitor_->reset();
+}
+
+/// Sets all bodies back to the start of a step that could not be finished, and drops its forces.
+template <class Real>
+void WorldDriver<Real>::put_back() {
+  WorldData<Real>& w = world_.data();
+  if (w.loads.used()) std::fill_n(w.loads.data(), w.bodies.size(), Load<Real>{});
+  for (std::size_t body = 0; body < before_.size(); ++body) write(body, before_[body]);
+}
+
+template <class Real>
+std::vector<std::byte> WorldDriver<Real>::save() const {
+  SnapshotWriter out;
+  out.put(steps_);
+  std::vector<std::byte> bytes = out.bytes();
+  const std::vector<std::byte> world = plumb::save(world_);
+  bytes.insert(bytes.end(), world.begin(), world.end());
+  return bytes;
+}
+
+template <class Real>
+void WorldDriver<Real>::restore(std::span<const std::byte> snapshot) {
+  SnapshotReader in(snapshot);
+  const auto steps = in.get<std::int64_t>();
+  plumb::restore(world_, snapshot.subspan(sizeof steps));
+  steps_ = steps;
+  violation_.reset();
+  if (monitor_) monitor_->reset();
+}
+
+template <class Real>
+void WorldDriver<Real>::profile(bool on) {
+  profiling_ = on;
+  force_time_ = 0;
+  world_.set_profiling(on);
+  for (Stage& stage : plan_.stages) stage.nanoseconds = 0;
+}
+
+template <class Real>
+void WorldDriver<Real>::update_profile() {
+  plan_.stages[kForcesStage].nanoseconds = force_time_;
+  for (std::size_t i = 0; i < kWorldStages; ++i) {
+    Stage& stage = plan_.stages[kFirstWorldStage + i];
+    if (stage.active) stage.nanoseconds = world_.profile().nanoseconds[i];
+  }
+}
+
+template <class Real>
+Statistics WorldDriver<Real>::statistics() const {
+  Statistics out;
+  out.steps = steps_ * accuracy_.substeps;
+  return out;
+}
+
+template class WorldDriver<float>;
+template class WorldDriver<double>;
+
+std::string realtime_unsupported(const Scene& scene, const Realtime& accuracy) {
+  if (const std::string reason = world_unsupported(scene); !reason.empty()) return reason;
+  try {
+    accuracy.precision == Precision::Float ? require_in_range<float>(scene) : require_in_range<double>(scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace plumb
