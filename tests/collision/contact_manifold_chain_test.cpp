@@ -24,7 +24,7 @@ struct Chain {
         capsule_corners(vertices[i + 1].template as<double>(), vertices[i + 2].template as<double>()),
         radius);
     return collide_chain_segment(segment.view(), vertices[i], vertices[i + 3], b.view(), pose,
-                                 static_cast<Real>(reach));
+                                 static_cast<Real>(reach), pose.position);
   }
 };
 

@@ -21,7 +21,7 @@ Pose<Real> at(double x, double y, double angle = 0) {
 template <class Real>
 ContactManifold<Real> collide(const Solid<Real>& a, const Solid<Real>& b, const Pose<Real>& pose,
                               double reach = 0.02) {
-  return collide_convex(a.view(), b.view(), pose, static_cast<Real>(reach));
+  return collide_convex(a.view(), b.view(), pose, static_cast<Real>(reach), pose.position);
 }
 
 template <class Real>
@@ -265,6 +265,44 @@ void expect_finite_everywhere() {
 TEST(Degenerate, AlwaysFinite) {
   expect_finite_everywhere<float>();
   expect_finite_everywhere<double>();
+}
+
+// Of an outline whose edges bend by less than a cosine in float shows, the points are those on either side of
+// the centre of mass; where that lies beyond the nearest edge, the far one is some edges away.
+template <class Real>
+void expect_points_about_the_pivot(double bend) {
+  std::vector<Vec2d> outline;
+  for (const double x : {-3.0, -2.0, -1.0, 1.0, 2.0, 3.0}) outline.push_back({x, bend * (x * x - 1)});
+  outline.push_back({0, 1});
+  const Solid<Real> slab(convex_hull(outline), 0), floor(box_corners(10, 1), 0);
+  for (const double tilt : {-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}) {
+    const Pose<Real> pose = at<Real>(0, 1 + 6 * bend, tilt * bend);
+    for (const double pivot : {-2.5, -1.5, 0.0, 1.5, 2.5}) {
+      for (const bool floor_first : {true, false}) {
+        const Rotation<Real> back = pose.rotation.inverse();
+        const Vec2<Real> at_pivot = Vec2d{pivot, 2}.as<Real>();
+        const auto manifold = floor_first
+                                  ? collide_convex(floor.view(), slab.view(), pose, Real(0.1), at_pivot)
+                                  : collide_convex(slab.view(), floor.view(), {-(back * pose.position), back},
+                                                   Real(0.1), back * (at_pivot - pose.position));
+        ASSERT_EQ(manifold.count, 2);
+        double x[2];
+        for (int i = 0; i < 2; ++i) {
+          const Vec2<Real> point = manifold.points[i].point;
+          x[i] = static_cast<double>(floor_first ? point.x : (pose.position + pose.rotation * point).x);
+        }
+        EXPECT_LT(std::min(x[0], x[1]), pivot) << bend << " " << tilt << " " << pivot << " " << floor_first;
+        EXPECT_GT(std::max(x[0], x[1]), pivot) << bend << " " << tilt << " " << pivot << " " << floor_first;
+      }
+    }
+  }
+}
+
+TEST(Slender, BothSidesOfTheCentreOfMassAreHeld) {
+  for (const double bend : {1e-4, 1e-3, 4e-3}) {
+    expect_points_about_the_pivot<float>(bend);
+    expect_points_about_the_pivot<double>(bend);
+  }
 }
 
 // The way out of two equal boxes in the same place is a box long.

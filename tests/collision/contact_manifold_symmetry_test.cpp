@@ -15,6 +15,7 @@ struct Pair {
   Corners a, b;
   double radius_a = 0, radius_b = 0;
   Pose<double> pose;
+  Vec2d pivot{};  // of the contact, in the frame of a
 };
 
 Pair random_pair(Dice& dice) {
@@ -25,6 +26,7 @@ Pair random_pair(Dice& dice) {
   out.radius_b = kind_b == Dice::Disc || dice.integer(0, 1) ? dice.number(0.01, 0.5) : 0;
   const double distance = dice.number(0, 2.2);
   out.pose = {distance * dice.direction(), rotation_of(dice.number(-4, 4))};
+  out.pivot = 0.5 * out.pose.position;
   return out;
 }
 
@@ -34,7 +36,7 @@ ContactManifold<Real> collide(const Pair& pair) {
   const Rotation<double> q = pair.pose.rotation;
   return collide_convex(a.view(), b.view(),
                         {pair.pose.position.as<Real>(), {static_cast<Real>(q.c), static_cast<Real>(q.s)}},
-                        Real(0.3));
+                        Real(0.3), pair.pivot.as<Real>());
 }
 
 /// Differences between two manifolds of the same pair, found in two ways; `image` takes a point of the first
@@ -83,7 +85,12 @@ TYPED_TEST(Symmetry, Swapping) {
   for (int i = 0; i < kPairs; ++i) {
     const Pair pair = random_pair(dice);
     const Rotation<double> back = pair.pose.rotation.inverse();
-    const Pair other{pair.b, pair.a, pair.radius_b, pair.radius_a, {-(back * pair.pose.position), back}};
+    const Pair other{pair.b,
+                     pair.a,
+                     pair.radius_b,
+                     pair.radius_a,
+                     {-(back * pair.pose.position), back},
+                     back * (pair.pivot - pair.pose.position)};
     comparison.add(
         collide<Real>(pair), collide<Real>(other), [&](Vec2d p) { return back * (p - pair.pose.position); },
         [&](Vec2d n) { return -(back * n); },
@@ -102,12 +109,12 @@ TYPED_TEST(Symmetry, MovingAndTurning) {
     const Pair pair = random_pair(dice);
     const Pose<double> move{dice.point(2), rotation_of(dice.number(-4, 4))};
     const Rotation<double> q = move.rotation, r = pair.pose.rotation;
-    const Pair other{
-        transformed(pair.a, move),
-        pair.b,
-        pair.radius_a,
-        pair.radius_b,
-        {move.position + q * pair.pose.position, {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s}}};
+    const Pair other{transformed(pair.a, move),
+                     pair.b,
+                     pair.radius_a,
+                     pair.radius_b,
+                     {move.position + q * pair.pose.position, {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s}},
+                     move.position + q * pair.pivot};
     comparison.add(
         collide<Real>(pair), collide<Real>(other), [&](Vec2d p) { return move.position + q * p; },
         [&](Vec2d n) { return q * n; }, kSameName);
@@ -137,7 +144,8 @@ TYPED_TEST(Symmetry, Mirroring) {
                      mirrored(pair.b),
                      pair.radius_a,
                      pair.radius_b,
-                     {flip(pair.pose.position), pair.pose.rotation.inverse()}};
+                     {flip(pair.pose.position), pair.pose.rotation.inverse()},
+                     flip(pair.pivot)};
     const int n = static_cast<int>(pair.a.size()), m = static_cast<int>(pair.b.size());
     comparison.add(collide<Real>(pair), collide<Real>(other), flip, flip, [&](std::uint16_t feature) {
       return static_cast<std::uint16_t>((n - (feature >> 6)) % n << 6 | (m - (feature & 63)) % m);
@@ -155,14 +163,15 @@ TYPED_TEST(Symmetry, ScalingToTheBit) {
     const Solid<Real> a(pair.a, pair.radius_a), b(pair.b, pair.radius_b);
     const Rotation<Real> q{static_cast<Real>(pair.pose.rotation.c), static_cast<Real>(pair.pose.rotation.s)};
     const Vec2<Real> p = pair.pose.position.template as<Real>();
-    const auto first = collide_convex(a.view(), b.view(), {p, q}, Real(0.3));
+    const auto first = collide_convex(a.view(), b.view(), {p, q}, Real(0.3), p);
     for (const Real scale : {Real(0x1p-10), Real(0x1p10)}) {
       Solid<Real> big_a = a, big_b = b;
       for (Solid<Real>* solid : {&big_a, &big_b}) {
         solid->radius *= scale;
         for (auto& corner : solid->corners) corner.point *= scale;
       }
-      const auto second = collide_convex(big_a.view(), big_b.view(), {scale * p, q}, scale * Real(0.3));
+      const auto second =
+          collide_convex(big_a.view(), big_b.view(), {scale * p, q}, scale * Real(0.3), scale * p);
       ASSERT_EQ(first.count, second.count);
       EXPECT_EQ(first.normal, second.normal);
       for (int k = 0; k < first.count; ++k) {

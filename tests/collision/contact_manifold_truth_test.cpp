@@ -71,7 +71,8 @@ void judge(const Pair<Real>& pair, const Errors& rounding, Tally& tally) {
   const auto points_a = truth::points_of(pair.a), points_b = truth::points_of(pair.b, pair.pose);
   const truth::Apart apart = truth::between(points_a, points_b);
   const Long separation = apart.distance - (Long{pair.a.radius} + pair.b.radius);
-  const auto manifold = collide_convex(pair.a.view(), pair.b.view(), pair.pose, static_cast<Real>(reach));
+  const auto manifold =
+      collide_convex(pair.a.view(), pair.b.view(), pair.pose, static_cast<Real>(reach), pair.pose.position);
 
   ASSERT_LE(manifold.count, 2);
   if (manifold.count == 0) {

@@ -266,5 +266,23 @@ TYPED_TEST(Quarantine, EndsWithTheBody) {
   run(world, 5);
 }
 
+// Its mass as a static body is not known.
+TYPED_TEST(Quarantine, ABodyMadeStaticAndDynamicAgainHasItsMass) {
+  typename TestFixture::World world(without_sleep());
+  const BodyId bad = add_box(world, {0, 0.5});
+  run(world, 5);
+  apply_bad_law(world, bad);
+  world.set_type(bad, BodyType::Static);
+  world.create_shape(bad, {.geometry = Box{1, 1}, .position = {1, 0}});
+  world.set_type(bad, BodyType::Dynamic);
+  EXPECT_NEAR(world.mass(bad), 2, 1e-6);
+  world.release(bad);
+  EXPECT_NEAR(world.mass(bad), 2, 1e-6);
+  save(world);
+  const double before = world.velocity(bad).y;
+  world.apply_impulse(bad, {0, 2});
+  EXPECT_NEAR(world.velocity(bad).y, before + 1, 1e-5);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -60,7 +60,7 @@ ContactManifold<Real> clip_axes(const Axis<Real>& reference, bool right, const A
   }
   edges.reference_radius = reference_radius, edges.incident_radius = other_radius;
   edges.reference_is_b = reference_is_b;
-  return clip(edges, reach, origin);
+  return points_of(clip(edges), edges, reach, origin);
 }
 
 }  // namespace

@@ -91,7 +91,8 @@ ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Rea
 
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
-                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach) {
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
+                                            Vec2<Real> pivot) {
   using namespace narrow;
   if (b.count == 1) {
     const Vec2<Real> center = b_in_a.position + b_in_a.rotation * b.corners[0].point;
@@ -114,12 +115,14 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
                              32 * std::numeric_limits<Real>::epsilon() *
                                  (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
   return collide_hulls<0, 0>(
-      hull_a, hull_b, [&] { return smaller_size(segment, b); }, reach, first, admit);
+      hull_a, hull_b, [&] { return smaller_size(segment, b); }, reach, first, pivot - first, admit);
 }
 
 template ContactManifold<float> collide_chain_segment(const Convex<float>&, Vec2<float>, Vec2<float>,
-                                                      const Convex<float>&, const Pose<float>&, float);
+                                                      const Convex<float>&, const Pose<float>&, float,
+                                                      Vec2<float>);
 template ContactManifold<double> collide_chain_segment(const Convex<double>&, Vec2<double>, Vec2<double>,
-                                                       const Convex<double>&, const Pose<double>&, double);
+                                                       const Convex<double>&, const Pose<double>&, double,
+                                                       Vec2<double>);
 
 }  // namespace plumb

@@ -6,8 +6,8 @@ namespace plumb {
 
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                     Real reach) {
-  if (a.count == 4 && b.count == 4) return narrow::collide_polygons(a, b, b_in_a, reach);
+                                     Real reach, Vec2<Real> pivot) {
+  if (a.count == 4 && b.count == 4) return narrow::collide_polygons(a, b, b_in_a, reach, pivot);
   if (b.count == 1) {
     if (a.count == 1) return narrow::collide_discs(a, b, b_in_a, reach);
     return narrow::collide_hull_disc(a, b, b_in_a, reach);
@@ -18,12 +18,12 @@ ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& 
     return narrow::swapped(narrow::collide_hull_disc(b, a, a_in_b, reach), b_in_a);
   }
   if (a.count == 2 && b.count == 2) return narrow::collide_capsules(a, b, b_in_a, reach);
-  return narrow::collide_polygons(a, b, b_in_a, reach);
+  return narrow::collide_polygons(a, b, b_in_a, reach, pivot);
 }
 
 template ContactManifold<float> collide_convex(const Convex<float>&, const Convex<float>&, const Pose<float>&,
-                                               float);
+                                               float, Vec2<float>);
 template ContactManifold<double> collide_convex(const Convex<double>&, const Convex<double>&,
-                                                const Pose<double>&, double);
+                                                const Pose<double>&, double, Vec2<double>);
 
 }  // namespace plumb

@@ -25,16 +25,19 @@ struct ContactManifold {
 
 /// Computes the manifold of two rounded convex shapes. The corners of `a` are in the frame of a's body, those
 /// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `reach` (m, >= 0)
-/// are left out.
+/// are left out. `pivot`, in a's frame, is the point about which a contact's impulses do not turn the bodies
+/// relative to each other: the mean of their centres of mass, weighted by inverse inertia. Of an outline of
+/// nearly parallel edges the two points are those on either side of it.
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                     Real reach);
+                                     Real reach, Vec2<Real> pivot);
 
 /// The same for one chain segment, which has a front only: the right side of the direction from its first
 /// corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame.
 /// Sliding along the chain has no internal edges: normals that belong to a neighbour are left to it.
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
-                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach);
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
+                                            Vec2<Real> pivot);
 
 }  // namespace plumb

@@ -142,11 +142,20 @@ ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real dist
   return out;
 }
 
-/// Clips the incident edge to the reference edge: its two ends, if near enough. `origin` is the origin of the
-/// edges' frame in a's frame.
+/// The part of two facing edges that lies over each other, between two places along the reference.
 template <class Real>
-inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
-  ContactManifold<Real> out;
+struct Span {
+  Real x[2];                            // m, along the reference from its first end
+  Real gap[2];                          // m, from reference to incident, radii not counted
+  Real base[2] = {};                    // m, height of the reference's outline over its edge
+  int reference_id[2], incident_id[2];  // corners that the edges there lead to, away from the span
+  bool overlaps = false;
+};
+
+/// Clips the incident edge to the reference edge.
+template <class Real>
+inline Span<Real> clip(const FacingEdges<Real>& edges) {
+  Span<Real> out;
   const Vec2<Real> tangent = perpendicular(edges.normal);
   const Real length = dot(tangent, edges.reference[1] - edges.reference[0]);
   const Vec2<Real> start = edges.incident[1] - edges.reference[0],
@@ -154,25 +163,39 @@ inline ContactManifold<Real> clip(const FacingEdges<Real>& edges, Real reach, Ve
   const Real start_x = dot(tangent, start), end_x = dot(tangent, end);
   const Real before = -edges.slack_before, after = length + edges.slack_after;
   if (end_x < before || start_x > after) return out;
+  out.overlaps = true;
   const Real start_y = dot(edges.normal, start), end_y = dot(edges.normal, end);
 
   const Real low = start_x < before ? before : start_x, high = end_x > after ? after : end_x;
   const Real width = end_x - start_x;
   // An upright incident edge has both ends over the same place: nothing to clip.
   const Real slope = width > Real(1e-6) * length ? (end_y - start_y) / width : 0;
-  const Real x[2] = {low, high};
-  const Real y[2] = {start_y + slope * (low - start_x), end_y - slope * (end_x - high)};
+  out.x[0] = low, out.x[1] = high;
+  out.gap[0] = start_y + slope * (low - start_x), out.gap[1] = end_y - slope * (end_x - high);
+  for (int i = 0; i < 2; ++i)
+    out.reference_id[i] = edges.reference_id[i], out.incident_id[i] = edges.incident_id[1 - i];
+  return out;
+}
 
+/// Returns the manifold at the ends of a span that are near enough. `origin` is the origin of the edges'
+/// frame in a's frame.
+template <class Real>
+inline ContactManifold<Real> points_of(const Span<Real>& span, const FacingEdges<Real>& edges, Real reach,
+                                       Vec2<Real> origin) {
+  ContactManifold<Real> out;
+  if (!span.overlaps) return out;
+  const Vec2<Real> tangent = perpendicular(edges.normal);
   const Real radii = edges.reference_radius + edges.incident_radius;
   const Real lift = edges.reference_radius - edges.incident_radius;
   const Vec2<Real> base = origin + edges.reference[0];
   const int reference_shift = edges.reference_is_b ? 0 : 6;  // as in corner_pair
   for (int i = 0; i < 2; ++i) {
-    const Real separation = y[i] - radii;
+    const Real separation = span.gap[i] - radii;
     if (separation > reach) continue;
-    const int r = edges.reference_id[i], c = edges.incident_id[1 - i];
-    out.points[out.count++] = {base + x[i] * tangent + Real(0.5) * (y[i] + lift) * edges.normal, separation,
-                               static_cast<std::uint16_t>(r << reference_shift | c << (6 - reference_shift))};
+    const Real height = span.base[i] + Real(0.5) * (span.gap[i] + lift);
+    out.points[out.count++] = {base + span.x[i] * tangent + height * edges.normal, separation,
+                               static_cast<std::uint16_t>(span.reference_id[i] << reference_shift |
+                                                          span.incident_id[i] << (6 - reference_shift))};
   }
   out.normal = edges.reference_is_b ? Real(-1) * edges.normal : edges.normal;
   return out;
@@ -209,6 +232,6 @@ ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>
 /// Any two hulls of which one has three corners or more.
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                       Real reach);
+                                       Real reach, Vec2<Real> pivot);
 
 }  // namespace plumb::narrow

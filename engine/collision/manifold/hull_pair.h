@@ -88,11 +88,14 @@ int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
   return dot(tangent, point - hull.point(hull.next(edge))) > 0 ? 1 : 0;
 }
 
-/// Returns the edge of `other` at `corner` that faces most directly against `normal`.
+/// Returns the edge of `other` at its corner nearest along `normal` that rises less. Compares sines: the
+/// cosines of small angles are all 1 to rounding. Both edges of a line rise alike; one faces `normal`.
 template <class Real>
 int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   const int before = other.previous(corner);
-  return dot(other.normal(before), normal) < dot(other.normal(corner), normal) ? before : corner;
+  const Vec2<Real> n_before = other.normal(before), n_after = other.normal(corner);
+  if (other.count == 2) return dot(n_before, normal) < dot(n_after, normal) ? before : corner;
+  return cross(normal, n_before) < cross(n_after, normal) ? before : corner;
 }
 
 /// `kOther` is the number of corners of `other`, or 0.
@@ -140,10 +143,74 @@ int nearest_end(const FacingEdges<Real>& edges, int deepest) {
   return start_x >= dot(tangent, edges.reference[1] - edges.reference[0]) ? edges.incident_id[1] : deepest;
 }
 
-/// The faces of both hulls of greatest separation.
+/// Moves an end of a span outwards along the outlines of both hulls, until the span holds the pivot or the
+/// outlines part by more than `limit`. Two points on one side of the pivot would turn the bodies past their
+/// nearly parallel next edges within a step. The other end stays, as it may be the deepest point, except
+/// where the outlines run parallel: then it follows, so that no corner between the two sinks.
+template <class Real>
+void extend(Span<Real>& span, const FacingEdges<Real>& edges, const Hull<Real>& reference,
+            const Hull<Real>& other, Real pivot, Real limit) {
+  const int far = pivot > span.x[1] ? 1 : 0, near = 1 - far;
+  const Real sign = far == 1 ? Real(1) : Real(-1);
+  const Vec2<Real> tangent = sign * perpendicular(edges.normal), origin = edges.reference[0];
+  // An outline's present edge: from a corner towards the pivot. Corners are numbered counter-clockwise, so
+  // one outline is walked forwards and the other one backwards.
+  struct Edge {
+    int start, end;
+    Real x, y, end_x, end_y;
+  };
+  const auto corner_x = [&](const Hull<Real>& hull, int i) { return dot(tangent, hull.point(i) - origin); };
+  const auto corner_y = [&](const Hull<Real>& hull, int i) {
+    return dot(edges.normal, hull.point(i) - origin);
+  };
+  const auto edge_of = [&](const Hull<Real>& hull, int start, int end) {
+    return Edge{
+        start, end, corner_x(hull, start), corner_y(hull, start), corner_x(hull, end), corner_y(hull, end)};
+  };
+  const auto height = [](const Edge& edge, Real x) {
+    return edge.y + (edge.end_y - edge.y) / (edge.end_x - edge.x) * (x - edge.x);
+  };
+  Edge on_reference = edge_of(reference, edges.reference_id[near], edges.reference_id[far]);
+  Edge on_other = edge_of(other, edges.incident_id[far], edges.incident_id[near]);
+  Real x = sign * span.x[far];
+  while (x < sign * pivot) {
+    const bool reference_ends = on_reference.end_x < on_other.end_x;
+    if (reference_ends && reference.edges < reference.count) return;  // its neighbour is another shape
+    const Hull<Real>& hull = reference_ends ? reference : other;
+    Edge& edge = reference_ends ? on_reference : on_other;
+    const bool forwards = reference_ends == (far == 1);
+    edge = edge_of(hull, edge.end, forwards ? hull.next(edge.end) : hull.previous(edge.end));
+    if (!(edge.end_x > edge.x && on_reference.end_x > on_reference.x && on_other.end_x > on_other.x)) return;
+    const Real next = smaller(on_reference.end_x, on_other.end_x);
+    const Real base = height(on_reference, next), gap = height(on_other, next) - base;
+    if (!(gap <= limit)) return;
+    if (span.gap[far] - span.gap[near] <= Real(kParallel) * (x - sign * span.x[near])) {
+      span.x[near] = span.x[far], span.gap[near] = span.gap[far], span.base[near] = span.base[far];
+      span.reference_id[near] = on_reference.start, span.incident_id[near] = on_other.start;
+    }
+    span.x[far] = sign * next, span.gap[far] = gap, span.base[far] = base;
+    span.reference_id[far] = on_reference.end, span.incident_id[far] = on_other.end;
+    x = next;
+  }
+}
+
+/// Returns the part of two facing edges over each other, extended towards the pivot.
+template <class Real>
+inline Span<Real> span_of(const FacingEdges<Real>& edges, const Hull<Real>& reference,
+                          const Hull<Real>& other, Vec2<Real> pivot, Real limit) {
+  Span<Real> span = clip(edges);
+  const Real x = dot(perpendicular(edges.normal), pivot - edges.reference[0]);
+  if (span.overlaps && !(x >= span.x[0] && x <= span.x[1])) [[unlikely]]
+    extend(span, edges, reference, other, x, limit);
+  return span;
+}
+
+/// The faces of both hulls of greatest separation, and the point about which a contact's impulses do not
+/// turn them relative to each other.
 template <class Real>
 struct Faces {
   Face<Real> a, b;
+  Vec2<Real> pivot{};
 };
 
 /// Manifold of two hulls that touch at the deepest corner of one alone, because their edges miss each other
@@ -168,7 +235,9 @@ template <bool kOpen, class Real>
 inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real>& b,
                                             const Faces<Real>& faces, const FacingEdges<Real>& edges,
                                             Real reach, Vec2<Real> origin) {
-  ContactManifold<Real> out = clip(edges, reach, origin);
+  const Hull<Real>&reference = edges.reference_is_b ? b : a, &other = edges.reference_is_b ? a : b;
+  const Span<Real> span = span_of(edges, reference, other, faces.pivot, reach + a.radius + b.radius);
+  ContactManifold<Real> out = points_of(span, edges, reach, origin);
   if (kOpen && out.count == 0)
     out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges, reach, origin);
   return out;
@@ -225,14 +294,16 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
-/// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame. `size`
-/// returns the size of the smaller one. `admit` selects the normals allowed; a snapped one becomes that of
-/// a's first edge. `kA` and `kB` are the numbers of corners, or 0.
+/// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame; `pivot` is in
+/// their frame. `size` returns the size of the smaller one. `admit` selects the normals allowed; a snapped
+/// one becomes that of a's first edge. `kA` and `kB` are the numbers of corners, or 0.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
-                                           Real reach, Vec2<Real> origin, const Admit& admit) {
+                                           Real reach, Vec2<Real> origin, Vec2<Real> pivot,
+                                           const Admit& admit) {
   const Real limit = reach + a.radius + b.radius;
   Faces<Real> faces;
+  faces.pivot = pivot;
   faces.a = farthest_face<kA, kB>(a, b, limit);
   if (faces.a.separation > limit) return {};
   faces.b = farthest_face<kB, kA>(b, a, limit);

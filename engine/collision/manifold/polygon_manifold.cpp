@@ -7,28 +7,28 @@ namespace {
 /// `kA` and `kB` are the numbers of corners if known at compile time, or 0.
 template <int kA, int kB, class Real>
 ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                      Real reach) {
+                                      Real reach, Vec2<Real> pivot) {
   const Vec2<Real> origin = a.corners[0].point;
   Hull<Real> hull_a, hull_b;
   place<kA>(hull_a, a, origin);
   place<kB>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
   return collide_hulls<kA, kB>(
-      hull_a, hull_b, [&] { return smaller_size(a, b); }, reach, origin, AdmitAll<Real>{});
+      hull_a, hull_b, [&] { return smaller_size(a, b); }, reach, origin, pivot - origin, AdmitAll<Real>{});
 }
 
 }  // namespace
 
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                       Real reach) {
+                                       Real reach, Vec2<Real> pivot) {
   // Boxes are the most common shapes.
-  if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach);
-  return collide_counted<0, 0>(a, b, b_in_a, reach);
+  if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach, pivot);
+  return collide_counted<0, 0>(a, b, b_in_a, reach, pivot);
 }
 
 template ContactManifold<float> collide_polygons(const Convex<float>&, const Convex<float>&,
-                                                 const Pose<float>&, float);
+                                                 const Pose<float>&, float, Vec2<float>);
 template ContactManifold<double> collide_polygons(const Convex<double>&, const Convex<double>&,
-                                                  const Pose<double>&, double);
+                                                  const Pose<double>&, double, Vec2<double>);
 
 }  // namespace plumb::narrow

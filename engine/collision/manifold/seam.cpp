@@ -172,7 +172,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
 
 template <class Real>
 ContactManifold<Real> collide_face(const Convex<Real>& a, int face, bool at_start, Real slack,
-                                   const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach) {
+                                   const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
+                                   Vec2<Real> pivot) {
   using namespace narrow;
   const Vec2<Real> origin = a.corners[face].point, normal = a.corners[face].normal;
   const Vec2<Real> end = a.corners[next_of(a, face)].point - origin;
@@ -186,10 +187,12 @@ ContactManifold<Real> collide_face(const Convex<Real>& a, int face, bool at_star
   }
   Hull<Real> hull_a, hull_b;
   place<0>(hull_a, a, origin);
+  hull_a.edges = 1;  // the given one
   place<0>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
   FacingEdges<Real> edges = facing_edges<0>(hull_a, face, hull_b, false);
   (at_start ? edges.slack_before : edges.slack_after) = slack;
-  return clip(edges, reach, origin);
+  const Span<Real> span = span_of(edges, hull_a, hull_b, pivot - origin, reach + a.radius + b.radius);
+  return points_of(span, edges, reach, origin);
 }
 
 template <class Real>
@@ -201,7 +204,7 @@ ContactManifold<Real> seen_from_other(const ContactManifold<Real>& found, const 
   template SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>&, const Convex<Real>&, int,      \
                                              const Pose<Real>&);                                         \
   template ContactManifold<Real> collide_face(const Convex<Real>&, int, bool, Real, const Convex<Real>&, \
-                                              const Pose<Real>&, Real);                                  \
+                                              const Pose<Real>&, Real, Vec2<Real>);                      \
   template ContactManifold<Real> seen_from_other(const ContactManifold<Real>&, const Pose<Real>&);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)

@@ -40,10 +40,12 @@ template <class Real>
 SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Convex<Real>& neighbour,
                                   int neighbour_edges, const Pose<Real>& pose);
 
-/// Computes the manifold of b with one face of a alone, extended by `slack` (m) at the given end.
+/// Computes the manifold of b with one face of a alone, extended by `slack` (m) at the given end; `pivot` as
+/// in collide_convex.
 template <class Real>
 ContactManifold<Real> collide_face(const Convex<Real>& a, int face, bool at_start, Real slack,
-                                   const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach);
+                                   const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
+                                   Vec2<Real> pivot);
 
 /// Converts a manifold found with the shapes swapped, in the frame of b, to that of a.
 template <class Real>

@@ -76,6 +76,12 @@ template <class Pair, class Contact, class Number>
                  at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
   Number new_q = (q - at_q.impulse_scale * (q - c.expected_impulse[1])) -
                  at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
+  // A gap is not softened. Next to a point that is, its impulse follows from the other's: so it closes.
+  const auto p_gap = at_p.impulse_scale < at_q.impulse_scale, q_gap = at_q.impulse_scale < at_p.impulse_scale;
+  if (any(p_gap) || any(q_gap)) [[unlikely]] {
+    new_q = select(q_gap, Number(q - c.mass[1] * (rate_q + c.between * (new_p - p))), new_q);
+    new_p = select(p_gap, Number(p - c.mass[0] * (rate_p + c.between * (new_q - q))), new_p);
+  }
   if (const auto pulls = min(new_p, new_q) < Number(0); any(pulls)) {
     const auto p_pulls = new_p < new_q;
     const auto zero = []() __attribute__((always_inline)) { return Number(0); };

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -198,6 +199,22 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
   });
 }
 
+// Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if it may not.
+template <class Real>
+bool lift(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
+  Flight& flight = w.scratch.flights[next.flight];
+  if (flight.impacts > 0 || (flight.changed && flight.lifts == 0)) return false;
+  const SweptPair<Real> pair{next.shape, next.other, constraint_between(w, next.shape, next.other)};
+  const Way way(flight, next.fraction, search);
+  const std::optional<Vec2d> by = lift_off(w, way, pair);
+  if (!by || *by == Vec2d{}) return false;
+  flight.go_on_lifted(next.fraction, *by);
+  show_way(w, flight);
+  look_ahead(w, next.flight, next.fraction, search);
+  look_back(w, next.flight, next.fraction, search);
+  return true;
+}
+
 // Processes the next impact. A stale one, of a body whose trajectory has changed since it was found, is
 // dropped or searched again.
 template <class Real>
@@ -229,6 +246,7 @@ void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
     push_along(w, next.flight, other_place, next.fraction, search);
     return;
   }
+  if (lift(w, next, search)) return;
   const int carrier = flight.carrier;
   if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
     // The pushed body pushes the other one along too.

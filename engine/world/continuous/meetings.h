@@ -98,6 +98,7 @@ template <class Real>
 void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
   const int body = way.flight.body;
   const bool as_solved = !way.flight.changed;
+  const bool in_contact = as_solved || (way.flight.lifts > 0 && way.flight.impacts == 0);
   const Aabb<Real> swept = way_of(w, way.flight);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
@@ -106,7 +107,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
       const int other_body = w.shapes[other].body;
       if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
-      note_meeting(w, way, {shape, other, as_solved ? constraint_between(w, shape, other) : nullptr}, first);
+      note_meeting(w, way, {shape, other, in_contact ? constraint_between(w, shape, other) : nullptr}, first);
       return true;
     };
     w.still_tree.query(swept, mask, visit);

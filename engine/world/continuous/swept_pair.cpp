@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "engine/collision/distance/hull_distance.h"
 #include "engine/collision/distance/time_of_impact.h"
@@ -226,7 +227,57 @@ bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& p
   return pair.contact != nullptr || bound.least() >= apart || !may_rebound(w, pair.shape, pair.other);
 }
 
+// Returns the least coordinate of a shape along a direction at a pose, m.
+template <class Real>
+double least_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d direction) {
+  const Vec2d local = pose.rotation.inverse() * direction;
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i < shape.count; ++i)
+    least = std::min(least, dot(local, shape.corners[i].point.template as<double>()));
+  return dot(direction, pose.position) + least - static_cast<double>(shape.radius);
+}
+
+// Largest lift, as a fraction of the smaller extent: more than the tip of a resting body moves in a step.
+constexpr double kLargestLift = 0.25;
+// Lifts of a body in a step after which it is stopped: each surface that it rests on may cause one.
+constexpr int kMostLifts = 8;
+// Lift that is rounding, as a fraction of the body's extent.
+constexpr double kNoLift = 1e-9;
+
+// Returns true if a body touches something that it may be lifted off.
+template <class Real>
+bool may_lift(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+  const int body = way.flight.body, other = w.shapes[pair.other].body;
+  if (pair.contact == nullptr || way.flight.lifts >= kMostLifts || way.flight.carrier != kNone) return false;
+  // The normal of a deep contact may be that of a wrong side.
+  const ContactConstraint<Real>& c = *pair.contact;
+  const Real touching = Real(tuning::kTouch / tuning::kPushSpeed) * c.push_speed;
+  if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
+  if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
+  return !w.gives_way(other) && w.motion[other].turned == 0;
+}
+
 }  // namespace
+
+template <class Real>
+std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+  if (!may_lift(w, way, pair)) return std::nullopt;
+  const int body = way.flight.body, other = w.shapes[pair.other].body;
+  const double side = pair.contact->body_b == body ? 1 : -1;
+  const Vec2d normal = side * pair.contact->normal.template as<double>();
+  const Motion of_other = motion_of(w, other, way.from, way.origin, way.search.dt);
+  const Convex<Real> shape = w.convex(pair.shape), obstacle = w.convex(pair.other);
+  const auto separation = [&](double fraction) {
+    return least_along(shape, pose_at(way.sweep, fraction), normal) +
+           least_along(obstacle, pose_at(of_other.sweep, fraction), -normal);
+  };
+  const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
+  const double lift = -core - separation(1);
+  const double least = way.flight.lifts > 0 ? kNoLift * static_cast<double>(w.extents[body]) : 0;
+  const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
+  if (lift > kLargestLift * smaller) return std::nullopt;
+  return lift > least ? lift * normal : Vec2d{};
+}
 
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
@@ -244,11 +295,16 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
   const Result first = at.meet(at.whole(), at.obstacle());
   // Shapes that touch at the start are held by their contact until the core comes too near.
-  return first.state == Result::State::Overlapped || first.exact_fraction == 0 ? at.fraction(through)
-                                                                               : at.fraction(first);
+  const bool touch = first.state == Result::State::Overlapped || first.exact_fraction == 0;
+  if (touch && lift_off(w, way, pair) == Vec2d{}) return 1;
+  return touch ? at.fraction(through) : at.fraction(first);
 }
 
-template double fraction_of_impact(const WorldData<float>&, const Way&, const SweptPair<float>&);
-template double fraction_of_impact(const WorldData<double>&, const Way&, const SweptPair<double>&);
+#define PLUMB_FOR(Real)                                                                               \
+  template std::optional<Vec2d> lift_off(const WorldData<Real>&, const Way&, const SweptPair<Real>&); \
+  template double fraction_of_impact(const WorldData<Real>&, const Way&, const SweptPair<Real>&);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
 
 }  // namespace plumb

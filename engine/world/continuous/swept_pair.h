@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/world/world_data.h"
 
 namespace plumb {
@@ -33,6 +35,13 @@ struct SweptPair {
   bool stands = false;  ///< the other one was stopped in front of it; it may penetrate that as far as
                         ///< either's core permits
 };
+
+/// Returns the displacement that keeps a moving body out of a surface that it touched at the start of the
+/// step, m; zero if its core ends outside. None if it must be stopped instead: it is deeper, or what it
+/// touches turns or gives way. Without this, a thin body that turns or slides on a surface would stop for
+/// good: its core lies less deep than contacts rest.
+template <class Real>
+std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);
 
 /// Returns the fraction of the step at which a moving body must be stopped, or bounces, in front of another
 /// shape; 1 if it passes nothing. The core (convex_core.h) decides, not the surface: while nothing reaches

@@ -13,8 +13,16 @@ namespace {
 // Smaller for large mass ratios, because there the smallest eigenvalues are a fraction 1 / ratio of the
 // largest.
 constexpr double kSharing = 1e-7;
-// Maximum number of times that rows are removed before giving up.
-constexpr int kTries = 4;
+// The same where kRigidTries have found no set of pressing rows. Redundant supports that are not level, such
+// as those of a brick on two others, would brace against each other by more than their loads.
+constexpr double kMoreSharing = 1e-4;
+constexpr int kRigidTries = 3;
+// Maximum number of times that rows are removed or come back before giving up.
+constexpr int kTries = 10;
+// Times that this may fail to make the wrong rows fewer before they are changed one by one.
+constexpr int kPatience = 3;
+// Velocity at which a removed row counts as entered, relative to the largest velocity asked for: rounding.
+constexpr double kEntered = 1e-5;
 // Maximum velocity that an impulse may cause along its own row, relative to the largest velocity asked for.
 // Contradicting rows (a body pushed out of two walls at once) respond with up to 1 / kSharing. A load on a
 // lighter body responds with the mass ratio, and has a higher limit.
@@ -110,7 +118,13 @@ void DirectRows<Real>::note_masses(const BodyMotion<Real>* motion) {
 template <class Real>
 void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
   note_masses(motion);
-  const double sharing = kSharing / apart_;
+  sharing_ = kSharing;
+  factorise_again(motion);
+}
+
+template <class Real>
+void DirectRows<Real>::factorise_again(const BodyMotion<Real>* motion) {
+  const double sharing = sharing_ / apart_;
   matrix_.reset(first_);
   for (int i = 0; i < matrix_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
@@ -130,43 +144,100 @@ void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
 template <class Real>
 bool DirectRows<Real>::find(BodyMotion<Real>* motion, double push_speed) {
   x_.resize(rows.size());
+  for (DirectRow<Real>& row : rows) row.taken = 0;
+  bool out = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return !row.active; });
   double asked = 0;
+  int fewest = std::numeric_limits<int>::max(), patience = kPatience;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     asked = 0;
     for (int i = 0; i < matrix_.size(); ++i) {
       const DirectRow<Real>& row = rows[sequence_[i]];
-      const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
-      x_[i] = row.active
-                  ? -double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
-                            dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias)
-                  : 0;
+      x_[i] = row.active ? -rate_of(motion, row) : 0;
       asked = std::max(asked, std::abs(x_[i]));
     }
     matrix_.solve(x_.data());
-    bool pulls = false;
+    // Block principal pivoting (Judice and Pires, 1994): rows that would pull leave, those that would be
+    // entered come back, all at once while that makes them fewer, else the last one alone.
+    int wrong = 0;
+    DirectRow<Real>* last = nullptr;
     for (int i = 0; i < matrix_.size(); ++i) {
       DirectRow<Real>& row = rows[sequence_[i]];
-      if (!row.active || !row.one_sided || double(*row.impulse) + x_[i] >= 0) continue;
-      row.active = false;
-      pulls = true;
+      row.wrong = row.one_sided &&
+                  (row.active ? double(*row.impulse) + x_[i] < 0
+                              : out && rate_of(motion, row) + answer_of(motion, i) < -kEntered * asked);
+      if (row.wrong) ++wrong, last = &row;
     }
-    if (!pulls) break;
+    if (wrong == 0) break;
     if (attempt + 1 == kTries) {
       contradicted_ = contradicts(asked, push_speed);
+      give_back(motion);
       return false;
     }
-    // Take back the impulses of the removed rows.
-    for (int i = 0; i < matrix_.size(); ++i) {
-      DirectRow<Real>& row = rows[sequence_[i]];
-      if (row.active || *row.impulse == 0) continue;
-      motion[row.a].apply(-*row.impulse * row.linear_a, -*row.impulse * row.angular_a);
-      motion[row.b].apply(-*row.impulse * row.linear_b, -*row.impulse * row.angular_b);
-      *row.impulse = 0;
+    if (wrong < fewest) {
+      fewest = wrong, patience = kPatience;
+    } else if (--patience < 0) {
+      for (DirectRow<Real>& row : rows) row.wrong = &row == last;
     }
-    factorise(motion);
+    for (DirectRow<Real>& row : rows) row.active = row.active != row.wrong;
+    out = true;
+    take_back(motion);
+    if (attempt + 1 == kRigidTries) {
+      sharing_ = kMoreSharing;
+      fewest = std::numeric_limits<int>::max();
+    }
+    factorise_again(motion);
   }
   contradicted_ = contradicts(asked, push_speed);
+  if (contradicted_) give_back(motion);
   return !contradicted_;
+}
+
+// Returns the velocity that a row misses, m/s: J v + bias.
+template <class Real>
+double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const {
+  const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
+  return double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
+                dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
+}
+
+// Returns the velocity that the impulses found cause along the row at a place, m/s.
+template <class Real>
+double DirectRows<Real>::answer_of(const BodyMotion<Real>* motion, int place) const {
+  const DirectRow<Real>& row = rows[sequence_[place]];
+  double sum = 0;
+  const auto add = [&](int other) {
+    const DirectRow<Real>& from = rows[sequence_[other]];
+    if (from.active) sum += coupling(motion, row, from) * x_[other];
+  };
+  for (int i = first_[place]; i < place; ++i) add(i);
+  for (int i = place + 1; i < matrix_.size(); ++i)
+    if (first_[i] <= place) add(i);
+  return sum;
+}
+
+// Takes back the impulses of the removed rows.
+template <class Real>
+void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
+  for (int i = 0; i < matrix_.size(); ++i) {
+    DirectRow<Real>& row = rows[sequence_[i]];
+    if (row.active || *row.impulse == 0) continue;
+    row.taken = *row.impulse;
+    motion[row.a].apply(-row.taken * row.linear_a, -row.taken * row.angular_a);
+    motion[row.b].apply(-row.taken * row.linear_b, -row.taken * row.angular_b);
+    *row.impulse = 0;
+  }
+}
+
+// Applies them again, so that what is solved by iterations instead keeps its load.
+template <class Real>
+void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
+  for (DirectRow<Real>& row : rows) {
+    if (row.taken == 0) continue;
+    motion[row.a].apply(row.taken * row.linear_a, row.taken * row.angular_a);
+    motion[row.b].apply(row.taken * row.linear_b, row.taken * row.angular_b);
+    *row.impulse += row.taken;
+    row.taken = 0;
+  }
 }
 
 template <class Real>

@@ -20,6 +20,8 @@ struct DirectRow {
   Real* impulse = nullptr;  ///< the impulse that is kept between substeps
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part; a one-sided row that would have to pull does not
+  bool wrong = false;       ///< set by `find`: it would pull, or is entered though it is not active
+  Real taken = 0;           ///< impulse that `find` has taken back, as the row is not active any more
   int block = 0;            ///< index of its constraint
 };
 
@@ -47,9 +49,9 @@ class DirectRows {
   double order(const BodyMotion<Real>* motion);
   /// Factorises for the present masses and Jacobians.
   void factorise(const BodyMotion<Real>* motion);
-  /// Solves for the missing impulses. Returns false, having only removed pulls, if a few tries found no set
-  /// of pressing rows, or if the rows contradict each other. `push_speed`, m/s: depenetration speed of the
-  /// rows.
+  /// Solves for the missing impulses. Returns false, having changed nothing but `active`, if a few tries
+  /// found no set of pressing rows, or if the rows contradict each other. `push_speed`, m/s: depenetration
+  /// speed of the rows.
   bool find(BodyMotion<Real>* motion, double push_speed);
   /// Returns true if the rows in `find` were infeasible, such as those of a body pushed out of two walls at
   /// once. Its result is then invalid.
@@ -66,6 +68,11 @@ class DirectRows {
 
  private:
   bool contradicts(double asked, double push_speed) const;
+  void factorise_again(const BodyMotion<Real>* motion);
+  double rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const;
+  double answer_of(const BodyMotion<Real>* motion, int place) const;
+  void take_back(BodyMotion<Real>* motion);
+  void give_back(BodyMotion<Real>* motion);
   void note_masses(const BodyMotion<Real>* motion);
 
   std::pmr::vector<int> sequence_;  // place -> row
@@ -76,7 +83,8 @@ class DirectRows {
   std::pmr::vector<int> block_first_;
   std::pmr::vector<double> x_;
   EnvelopeMatrix matrix_;
-  double apart_ = 1;  // factor on the limits of contradiction: by mass ratio and number of one-sided rows
+  double apart_ = 1;    // factor on the limits of contradiction: by mass ratio and number of one-sided rows
+  double sharing_ = 0;  // regularisation in this step
   bool contradicted_ = false;
 };
 

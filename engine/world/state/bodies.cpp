@@ -205,7 +205,9 @@ template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type) {
   BodyRecord<Real>& record = w.bodies[body];
   if (record.quarantined) {
+    if (own_type(w, body) == type) return;
     quarantine_of(w, body).type = type;
+    find_mass(w, body);
     return;
   }
   if (record.type == type) return;

@@ -18,6 +18,7 @@ struct Flight {
   bool stands = false;    ///< stopped for the rest of the step
   bool squeezed = false;  ///< stopped between the body that pushes it and another one
   int impacts = 0;        ///< impacts with rebound in this step
+  int lifts = 0;          ///< times it was lifted off a surface that it rests on
   int version = 0;        ///< counts changes of the trajectory
   int carrier = -1;       ///< kinematic body that pushes it along for the rest of the step
 
@@ -70,6 +71,15 @@ struct Flight {
     way = left * velocity, curve = (0.5 * left * (1 - fraction)) * gain, turn = left * new_spin;
     arm = {}, stands = false, carrier = -1;
     ++impacts;
+  }
+  /// Continues from a fraction of the step as before, displaced by `by` (m) at the step's end.
+  void go_on_lifted(double fraction, Vec2d by) {
+    const double s = share(fraction), left = 1 - s, rest = left * turn;
+    const Vec2d rest_way = left * (way + (2 * s) * curve), rest_curve = (left * left) * curve;
+    velocity = velocity_at(fraction);
+    begin_anew(fraction);
+    way = rest_way + by, curve = rest_curve, turn = rest;
+    ++lifts;
   }
   /// Stops at a fraction of the step.
   void stop(double fraction) {

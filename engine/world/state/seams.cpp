@@ -153,10 +153,14 @@ ContactManifold<Real> on_face(const WorldData<Real>& w, const ContactRecord& con
                               const Pose<Real>& b_in_a, Real reach) {
   const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
   const Real slack = 4 * side.touched.tolerance;
+  const Vec2<Real> pivot = pivot_between(w, contact, b_in_a);
   if (side.shape == contact.shape_a)
-    return collide_face(shape_a, side.answer.face, side.answer.at_start, slack, shape_b, b_in_a, reach);
+    return collide_face(shape_a, side.answer.face, side.answer.at_start, slack, shape_b, b_in_a, reach,
+                        pivot);
+  const Pose<Real> a_in_b = inverse(b_in_a);
   const ContactManifold<Real> found =
-      collide_face(shape_b, side.answer.face, side.answer.at_start, slack, shape_a, inverse(b_in_a), reach);
+      collide_face(shape_b, side.answer.face, side.answer.at_start, slack, shape_a, a_in_b, reach,
+                   a_in_b.position + a_in_b.rotation * pivot);
   return seen_from_other(found, b_in_a);
 }
 
