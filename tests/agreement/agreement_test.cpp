@@ -1,12 +1,10 @@
 // Every scenario on every engine, from the registries: a new one of either is tested without an edit here.
 #include <algorithm>
 #include <cctype>
-#include <map>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "harness/compare.h"
@@ -15,60 +13,52 @@
 #include "reference/backend.h"
 #include "scenarios/scenario.h"
 
+namespace plumb::scenarios {
+
+void PrintTo(const Instance& instance, std::ostream* out) { *out << instance.label(); }
+
+}  // namespace plumb::scenarios
+
 namespace plumb::harness {
 namespace {
 
-struct Pairing {
-  scenarios::Instance instance;
-  const reference::Backend* backend;
-};
+// Calls `act` with each engine that does not refuse the scene.
+void for_engines_of(const Scene& scene, const std::function<void(const reference::Backend&)>& act) {
+  for (const reference::Backend* backend : reference::backends())
+    if (backend->unsupported(scene, {}).empty()) act(*backend);
+}
 
-// The test's name has the instance.
-void PrintTo(const Pairing& pairing, std::ostream* out) { *out << pairing.backend->name(); }
-
-// Those that the engine does not refuse.
-std::vector<Pairing> pairings() {
-  std::vector<Pairing> out;
-  for (const scenarios::Scenario& scenario : scenarios::all()) {
-    for (const scenarios::Instance& instance : scenarios::select(scenario.name)) {
-      const Scene scene = instance.build().scene;
-      for (const reference::Backend* backend : reference::backends())
-        if (backend->unsupported(scene, {}).empty()) out.push_back({instance, backend});
-    }
-  }
+std::vector<scenarios::Instance> every_instance() {
+  std::vector<scenarios::Instance> out;
+  for (const scenarios::Scenario& scenario : scenarios::all())
+    for (const scenarios::Instance& instance : scenarios::select(scenario.name)) out.push_back(instance);
   return out;
 }
 
 // GoogleTest's names hold letters, digits and underscores alone.
-std::string name_of_test(const testing::TestParamInfo<Pairing>& info) {
-  std::string name = fmt::format("{}__on__{}", info.param.instance.label(), info.param.backend->name());
+std::string name_of_test(const testing::TestParamInfo<scenarios::Instance>& info) {
   std::string out;
-  for (const char c : name) {
+  for (const char c : info.param.label()) {
     if (c == ']') continue;
     out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   }
   return out;
 }
 
-// Kept from one engine to the next: the truth may take long.
-const Case& case_of(const scenarios::Instance& instance) {
-  static std::unique_ptr<Case> kept;
-  if (!kept || kept->label != instance.label())
-    kept = std::make_unique<Case>(instance, reference::StepSettings{}.dt);
-  return *kept;
-}
-
-class Agreement : public testing::TestWithParam<Pairing> {};
+// One test a case, for all engines: they share its truth, which may take longer than their runs.
+class Agreement : public testing::TestWithParam<scenarios::Instance> {};
 
 TEST_P(Agreement, KeepsEveryBound) {
-  const Pairing& pairing = GetParam();
   const reference::StepSettings settings;
-  IsolatedRun isolated = run_isolated(case_of(pairing.instance), *pairing.backend, settings, nullptr, 600);
-  Result& result = isolated.result;
-  ASSERT_NE(result.status, Status::Skipped) << result.reason;
-  judge(result, is_default(settings));
-  for (const std::string& sentence : result.unexpected) ADD_FAILURE() << sentence;
-  EXPECT_FALSE(result.checks.empty());
+  const Case scene_case(GetParam(), settings.dt);
+  for_engines_of(scene_case.problem.scene, [&](const reference::Backend& backend) {
+    SCOPED_TRACE(backend.name());
+    Result result = run_isolated(scene_case, backend, settings, nullptr, 600).result;
+    ASSERT_NE(result.status, Status::Skipped) << result.reason;
+    judge(result, is_default(settings));
+    for (const std::string& sentence : result.unexpected) ADD_FAILURE() << sentence;
+    EXPECT_FALSE(result.checks.empty());
+  });
 }
 
 // Joints that every adapter translates: rigid ones that leave the bodies free to turn.
@@ -93,21 +83,21 @@ bool is_plain(const Scene& scene) {
 
 // An engine that came to refuse what it ran would be missed by nobody else.
 TEST(Pairings, EveryScenarioRunsOnPlumbAndOnARival) {
-  std::map<std::string, int> plumb, rivals;
-  for (const Pairing& pairing : pairings())
-    ++(pairing.backend->name().starts_with("plumb") ? plumb : rivals)[pairing.instance.label()];
-  for (const scenarios::Scenario& scenario : scenarios::all()) {
-    for (const scenarios::Instance& instance : scenarios::select(scenario.name)) {
-      const bool everywhere = is_plain(instance.build().scene);
-      EXPECT_GE(plumb[instance.label()], everywhere ? 3 : 1) << instance.label();
-      // Springs in hinges and on rails: no adapter of a rival translates them.
-      const bool alone = scenario.name.ends_with("_springs");
-      EXPECT_GE(rivals[instance.label()], everywhere ? 3 : alone ? 0 : 1) << instance.label();
-    }
+  for (const scenarios::Instance& instance : every_instance()) {
+    const Scene scene = instance.build().scene;
+    int plumb = 0, rivals = 0;
+    for_engines_of(scene, [&](const reference::Backend& backend) {
+      ++(backend.name().starts_with("plumb") ? plumb : rivals);
+    });
+    const bool everywhere = is_plain(scene);
+    EXPECT_GE(plumb, everywhere ? 3 : 1) << instance.label();
+    // Springs in hinges and on rails: no adapter of a rival translates them.
+    const bool alone = instance.scenario->name.ends_with("_springs");
+    EXPECT_GE(rivals, everywhere ? 3 : alone ? 0 : 1) << instance.label();
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Agreement, testing::ValuesIn(pairings()), name_of_test);
+INSTANTIATE_TEST_SUITE_P(All, Agreement, testing::ValuesIn(every_instance()), name_of_test);
 
 }  // namespace
 }  // namespace plumb::harness
