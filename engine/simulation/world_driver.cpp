@@ -115,7 +115,14 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     std::ranges::copy(before_, out.begin());
     return;
   }
-  for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
+  // A scene's bodies have their origins at their centres of mass.
+  const WorldData<Real>& w = world_.data();
+  for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
+    const int body = static_cast<int>(parts_.bodies[i].index);
+    const BodyMotion<Real>& motion = w.motion[body];
+    out[i] = {w.position[body], w.bodies[body].angle, motion.velocity.template as<double>(),
+              static_cast<double>(motion.angular_velocity)};
+  }
 }
 
 template <class Real>

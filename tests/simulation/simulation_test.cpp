@@ -174,12 +174,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 10260428815586719191ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 8886944178789415561ull},
-      {Precision::Double, Solver::Direct, 0.5, 10292982149467729767ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 7276885105743881168ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 4824797874095809019ull},
-      {Precision::Float, Solver::Direct, 0.5, 4917346003382479835ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 12857202056841947368ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 8927880766446998013ull},
+      {Precision::Double, Solver::Direct, 0.5, 14989347133497540625ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 13591451848338578435ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 15167407802022274178ull},
+      {Precision::Float, Solver::Direct, 0.5, 2856796698252619732ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -33,7 +33,7 @@ World make_stirred(int count) {
 // Each island with room of its own asked for it 11 times here.
 TEST(Churn, StepsHardlyEverAllocateOnceWarm) {
   World world = make_stirred(120);
-  run(world, 3600);
+  run(world, 6000);
   int begun = 0;
   const long before = test::allocations();
   for (int i = 0; i < 600; ++i) {

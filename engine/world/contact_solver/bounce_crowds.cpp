@@ -126,8 +126,8 @@ void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<R
   }
   for (Bounce<Real>* bounce : room.crowd) {
     ContactConstraint<Real>& c = *bounce->contact;
-    face(motion, *bounce, h);
     const Real start = std::max(room.last[c.body_a], room.last[c.body_b]);
+    face(motion, *bounce, h, std::min(start, h));
     for (int i = 0; i < c.count; ++i) {
       const Real closing = -velocity_along_normal(motion, c, i);
       const Real s = std::max(separation_of(motion, c, i), Real(0));

@@ -27,16 +27,16 @@ void let_through(Bounce<Real>& bounce) {
 }  // namespace
 
 template <class Real>
-void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h) {
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h, Real from) {
   ContactConstraint<Real>& c = *bounce.contact;
   if (bounce.radii == 0 || c.normal_impulse[0] > 0) return;
   const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
   const Vec2<Real> p = bounce.between + (b.moved - a.moved), v = b.velocity - a.velocity;
   const Real vv = dot(v, v), pv = dot(p, v), open = dot(p, p) - bounce.radii * bounce.radii;
-  Real t = 0;
+  Real t = from;
   if (open > 0 && pv < 0) {
     const Real d = pv * pv - vv * open;
-    t = std::min(d > 0 ? open / (std::sqrt(d) - pv) : -pv / vv, h);
+    t = std::clamp(d > 0 ? open / (std::sqrt(d) - pv) : -pv / vv, from, h);
   }
   const Vec2<Real> there = p + t * v;
   const Real length = std::sqrt(dot(there, there));
@@ -52,7 +52,7 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
   bool parted = false;
   for (Bounce<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
-    face(motion, bounce, step.h);
+    face(motion, bounce, step.h, Real(0));
     bool parts = c.restitution > 0;
     for (int i = 0; i < c.count; ++i) {
       bounce.before[i] = velocity_along_normal(motion, c, i);
@@ -116,7 +116,7 @@ void hold_again(std::vector<Bounce<Real>>& bounces) {
 }
 
 #define PLUMB_FOR(Real)                                                              \
-  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real);                  \
+  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real, Real);            \
   template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&, \
                                 const ContactStep<Real>&);                           \
   template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,   \

@@ -37,11 +37,12 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
   c.approach[i] = first ? rate : std::min(c.approach[i], rate);
 }
 
-/// Turns the normal of two separated discs to that at their contact within `h`, or else at their closest
-/// approach. With p from centre to centre and v its rate, |p + v t| = R. The present normal would deflect
-/// them by the angle that it turns until then.
+/// Turns the normal of two separated discs to that at their contact between `from` and `h`, or else at their
+/// closest approach. With p from centre to centre and v its rate, |p + v t| = R. The present normal would
+/// deflect them by the angle that it turns until then. After an impact at `from` that leaves them sliding,
+/// t = `from` is a double root: rounding would find an earlier one, at which they still approach.
 template <class Real>
-void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h);
+void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h, Real from);
 
 /// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
 /// be warm started: returns true if one of these had an impulse.
