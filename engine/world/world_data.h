@@ -283,6 +283,7 @@ struct Scratch {
   std::vector<FastBody> fast_bodies;
   std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores
   std::vector<Flight> flights;
+  std::vector<int> stopped;        ///< flights that are being stopped together
   std::vector<Meeting> meetings;   ///< a heap, earliest on top
   std::vector<int> flight_places;  ///< by body: index of its flight, during continuous collision
   std::vector<ShapeId> visitors;

@@ -199,6 +199,16 @@ TYPED_TEST(Mechanisms, AWeldedGridThatLandsLiesStill) {
   }
 }
 
+// Draws whose bodies hang on what stops them: they fell ever faster without falling.
+TYPED_TEST(Mechanisms, WhatIsStoppedGainsNoEnergy) {
+  for (const std::uint64_t seed : {89, 233, 310, 464, 575, 813, 1122}) {
+    Draw draw(seed);
+    const Plan plan = test::draw_plan(draw);
+    auto m = test::build<TypeParam>(plan, seed);
+    EXPECT_LT(test::run_mechanism(m, 180).growth, 0.01) << "seed " << seed << ": " << plan.text();
+  }
+}
+
 // Drawn at random: stars, trees, chains, bridges, grids and walkers of all kinds of joints. Whatever they do,
 // their energy never grows and their joints stay together.
 TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {

@@ -174,9 +174,59 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
   queue.clear();
 }
 
+// Returns the velocity that a body had at the start of the step. The solver lists bodies in the order of
+// `awake`; what is not among them flies freely, by the mean of its velocities.
+template <class Real>
+BodyVelocity<Real> velocity_at_start(const WorldData<Real>& w, int body, double dt) {
+  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  const auto place_of = [&](int each) { return w.bodies[each].awake_index; };
+  const auto found =
+      std::lower_bound(kicks.begin(), kicks.end(), place_of(body),
+                       [&](const Kick<Real>& kick, int place) { return place_of(kick.body) < place; });
+  if (found != kicks.end() && found->body == body)
+    return w.scratch.starts[static_cast<std::size_t>(found - kicks.begin())];
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real twice = static_cast<Real>(2 / dt);
+  return {twice * motion.moved - motion.velocity, twice * motion.turned - motion.angular_velocity};
+}
+
+// Leaves bodies that are stopped together at a fraction of the step that share of the kinetic energy that
+// they gained in it: forces do no more work on what does not move. Otherwise a mechanism that hangs on what
+// stops it would fall faster from step to step without falling.
+template <class Real>
+void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
+  double before = 0, after = 0;
+  for (const int place : places) {
+    const int body = w.scratch.flights[place].body;
+    if (w.scratch.flights[place].impacts > 0) return;  // its velocity is that after an impact
+    const BodyRecord<Real>& record = w.bodies[body];
+    const double mass = static_cast<double>(record.mass), inertia = static_cast<double>(record.inertia);
+    const auto energy = [&](Vec2<Real> velocity, Real spin) {
+      return mass * static_cast<double>(length_squared(velocity)) +
+             inertia * static_cast<double>(spin * spin);
+    };
+    const BodyVelocity<Real> start = velocity_at_start(w, body, dt);
+    before += energy(start.velocity, start.angular_velocity);
+    after += energy(w.motion[body].velocity, w.motion[body].angular_velocity);
+  }
+  const double most = before + fraction * (after - before);
+  if (!(after > before && most >= 0)) return;
+  const Real keep = static_cast<Real>(std::sqrt(most / after));
+  for (const int place : places) {
+    BodyMotion<Real>& motion = w.motion[w.scratch.flights[place].body];
+    motion.velocity *= keep, motion.angular_velocity *= keep;
+  }
+}
+
 // Stops a body and all bodies connected to it by joints, so that they stay together.
 template <class Real>
 void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
+  std::vector<int>& stopped = w.scratch.stopped;
+  stopped.clear();
+  for_each_tied(w, place, search.dt, [&](int tied) {
+    if (!w.scratch.flights[tied].stands) append(stopped, tied);
+  });
+  take_unmoved_work(w, stopped, fraction, search.dt);
   for_each_tied(w, place, search.dt, [&](int tied) {
     Flight& flight = w.scratch.flights[tied];
     if (flight.stands) return;
