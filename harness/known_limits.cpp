@@ -132,6 +132,7 @@ constexpr KnownLimit kLimits[] = {
     {"plumb", "pushed_block/holds|pushed_block/barely_slips|ramp_block/barely_holds", "position_error",
      kSettling},
     {"plumb|plumb-float", "toppling_block/stands", "position_error|angle_error|velocity_error", kSettling},
+    {"plumb", "ladder", "velocity_error", kSettling},
     {"plumb|plumb-float", "toppling_block/topples",
      "position_error|angle_error|velocity_error|angular_velocity_error", kSettling},
     {"plumb", "welded_pair", "angle_error", kSoft},

@@ -59,8 +59,8 @@ double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span
   std::pmr::vector<std::pair<int, int>> ends(rows.get_allocator());
   const int count = static_cast<int>(blocks.size());
   for (int block = 0; block < count; ++block) {
-    if (bodies[blocks[block].first].gives_way()) ends.emplace_back(blocks[block].first, block);
-    if (bodies[blocks[block].second].gives_way()) ends.emplace_back(blocks[block].second, block);
+    if (bodies[blocks[block].first].is_dynamic()) ends.emplace_back(blocks[block].first, block);
+    if (bodies[blocks[block].second].is_dynamic()) ends.emplace_back(blocks[block].second, block);
   }
   order_.find(count, ends);
   block_place_.assign(count, 0);

@@ -19,7 +19,7 @@ struct BoundedBody {
   Vec2d velocity{};            ///< m/s
   double spin = 0;             ///< rad/s
 
-  bool gives_way() const { return inverse_mass.x + inverse_mass.y + inverse_inertia > 0; }
+  bool is_dynamic() const { return inverse_mass.x + inverse_mass.y + inverse_inertia > 0; }
 };
 
 /// One scalar constraint with a bounded impulse x. J v + compliance x is `wanted` while x is between its

@@ -63,9 +63,9 @@ class PreciseDriver final : public Driver {
   Plan plan_;
   Flight flight_;
   EquationsOfMotion equations_;
-  mutable SmoothMotion smooth_;  // mutable: its polynomial is made on reading
-  mutable Compensated sample_;   // of the integrated bodies at sampled_, if within the last step
-  mutable double sampled_ = -1;  // s
+  mutable EventFreeIntegrator smooth_;  // mutable: its polynomial is made on reading
+  mutable Compensated sample_;          // of the integrated bodies at sampled_, if within the last step
+  mutable double sampled_ = -1;         // s
   Contacts contacts_;
   Invariants invariants_;
   std::vector<std::string> names_;

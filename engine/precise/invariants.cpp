@@ -30,7 +30,7 @@ double Invariants::bound() const {
          kRoundings * std::numeric_limits<double>::epsilon() * std::sqrt(rounding_);
 }
 
-void Invariants::account(const SmoothMotion& motion) {
+void Invariants::account(const EventFreeIntegrator& motion) {
   const std::optional<double> work = motion.work();
   if (!work || equations_.held_works()) return;
   double gained = 0, size = 0, rounding = std::abs(*work);

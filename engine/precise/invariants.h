@@ -22,7 +22,7 @@ class Invariants {
   Invariants(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);
 
   /// Accounts for the last step of `motion`, before any jump at its end.
-  void account(const SmoothMotion& motion);
+  void account(const EventFreeIntegrator& motion);
 
   /// J: energy gained or lost without work; and the bound on it so far.
   double drift() const { return drift_; }

@@ -38,7 +38,7 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
       kContacts, "contacts", contacts,
       "shapes that meet get Newton's restitution and Coulomb's friction; contacts that last are constraints",
       "no shapes may touch");
-  const bool springs = KindJoints(scene).has_springs();
+  const bool springs = GeneralJoints(scene).has_springs();
   std::string forces = laws > 0 ? count(laws, "force law", "force laws") + " on integrated bodies" : "";
   if (springs) forces += (laws > 0 ? ", and " : "") + std::string("springs of joints");
   stage(kForces, "forces", laws > 0 || springs, forces, "no force depends on the motion");

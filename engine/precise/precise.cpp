@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "engine/core/text.h"
-#include "engine/precise/companion.h"
 #include "engine/precise/driver.h"
 #include "engine/precise/dynamics/clock.h"
-#include "engine/precise/origin.h"
+#include "engine/precise/error_estimate.h"
+#include "engine/precise/shifted_origin.h"
 #include "engine/scene/error.h"
 
 namespace plumb::precise {
@@ -63,7 +63,7 @@ void PreciseDriver::go_on(double end) {
     }
   }
   if (smooth_.dimension() > 0) invariants_.account(smooth_);
-  if (++steps_in_step_ > kMostSteps) smooth_.blame_fastest();
+  if (++steps_in_step_ > kMostSteps) smooth_.throw_step_underflow();
   if (contacts_.impacts() - impacts_before_ > kMostImpacts) {
     fail("the scene", "impacts", std::to_string(kMostImpacts) + " and more",
          "they do not stop within one step; Realtime may do");
@@ -157,11 +157,11 @@ std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& p
   const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
     const Vec2d origin = precise::local_origin(scene);
     if (origin == Vec2d{}) return std::make_unique<precise::PreciseDriver>(scene, p, options);
-    return std::make_unique<precise::OffsetDriver>(
+    return std::make_unique<precise::ShiftedOriginDriver>(
         std::make_unique<precise::PreciseDriver>(precise::seen_from(scene, origin), p, options), origin);
   };
   if (precise.estimate_error)
-    return std::make_unique<precise::CompanionDriver>(precise, scene.bodies.size(), make);
+    return std::make_unique<precise::ErrorEstimatingDriver>(precise, scene.bodies.size(), make);
   return make(precise);
 }
 

@@ -44,7 +44,7 @@ std::string precise_unsupported(const Scene& scene) {
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(scene);
   std::vector<char> touches(scene.bodies.size(), 0);
-  for (const precise::Outline& outline : parts.outlines) {
+  for (const precise::FeatureShape& outline : parts.outlines) {
     if (scene.bodies[outline.body].type == BodyType::Dynamic) touches[outline.body] = 1;
   }
   const auto count = static_cast<std::size_t>(std::count(touches.begin(), touches.end(), 1));
@@ -69,7 +69,7 @@ std::string symplectic_unsupported(const Scene& scene) {
              "= automatic";
     }
   }
-  if (precise::KindJoints(scene).has_springs()) {
+  if (precise::GeneralJoints(scene).has_springs()) {
     return "a joint has a spring, whose stiffness changes with its bodies' effective mass; use method = "
            "automatic";
   }

@@ -7,9 +7,9 @@
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 #include "engine/world/state/bodies.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/step.h"
@@ -123,7 +123,7 @@ void BasicWorld<Real>::set_solver(Solver solver) {
   validate(changed);
   if (solver != data_->settings.solver) wake_all();
   data_->settings = changed;
-  data_->ties_changed = true;
+  data_->topology_changed = true;
 }
 template <class Real>
 Solver BasicWorld<Real>::solver() const {

@@ -5,11 +5,11 @@
 
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/mass.h"
 #include "engine/world/state/naming.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/world.h"
@@ -184,7 +184,7 @@ void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
     require_finite("body", "force", force);
     require_finite("body", "point", point);
   });
-  if (!data_->gives_way(index)) return;
+  if (!data_->is_dynamic(index)) return;
   settle(*data_);
   wake(index);
   Load<Real>& load = data_->loads.at(index, data_->bodies.size());
@@ -196,7 +196,7 @@ void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
   unlocked(*this);
   const int index = place(body);
   naming_body(*data_, index, [&] { require_finite("body", "torque", torque); });
-  if (!data_->gives_way(index)) return;
+  if (!data_->is_dynamic(index)) return;
   settle(*data_);
   wake(index);
   data_->loads.at(index, data_->bodies.size()).torque += static_cast<Real>(torque);
@@ -214,7 +214,7 @@ void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
     require_finite("body", "impulse", impulse);
     require_finite("body", "point", point);
   });
-  if (!data_->gives_way(index)) return;
+  if (!data_->is_dynamic(index)) return;
   settle(*data_);
   wake(index);
   push_body(*data_, index, impulse, cross(point - data_->position[index], impulse));
@@ -224,7 +224,7 @@ void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
   unlocked(*this);
   const int index = place(body);
   naming_body(*data_, index, [&] { require_finite("body", "angular_impulse", impulse); });
-  if (!data_->gives_way(index)) return;
+  if (!data_->is_dynamic(index)) return;
   settle(*data_);
   wake(index);
   push_body(*data_, index, {}, impulse);
@@ -271,7 +271,7 @@ template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
   unlocked(*this);
   const int index = place(body);
-  if (data_->gives_way(index)) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
+  if (data_->is_dynamic(index)) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
   settle(*data_);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);
@@ -307,10 +307,11 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   const bool turns = dynamic && !rotation && record.inertia > 0;
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
-  data_->remainders.renew(index,
-                          data_->bodies.size());  // locked axes do not move by rounding residues either
-  data_->ties_changed = true;
-  forget_manifolds(*data_, index);
+  data_->position_compensation.renew(
+      index,
+      data_->bodies.size());  // locked axes do not move by rounding residues either
+  data_->topology_changed = true;
+  invalidate_manifolds(*data_, index);
   wake(index);
 }
 template <class Real>
@@ -344,15 +345,15 @@ bool BasicWorld<Real>::may_sleep(BodyId body) const {
 }
 template <class Real>
 double BasicWorld<Real>::gravity_scale(BodyId body) const {
-  return static_cast<double>(data_->uncommon_of(place(body)).gravity_scale);
+  return static_cast<double>(data_->extras_of(place(body)).gravity_scale);
 }
 template <class Real>
 double BasicWorld<Real>::linear_damping(BodyId body) const {
-  return static_cast<double>(data_->uncommon_of(place(body)).linear_damping);
+  return static_cast<double>(data_->extras_of(place(body)).linear_damping);
 }
 template <class Real>
 double BasicWorld<Real>::angular_damping(BodyId body) const {
-  return static_cast<double>(data_->uncommon_of(place(body)).angular_damping);
+  return static_cast<double>(data_->extras_of(place(body)).angular_damping);
 }
 template <class Real>
 BodyLocks BasicWorld<Real>::locks(BodyId body) const {
@@ -361,7 +362,7 @@ BodyLocks BasicWorld<Real>::locks(BodyId body) const {
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
-  return data_->uncommon_of(place(body)).name;
+  return data_->extras_of(place(body)).name;
 }
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
@@ -398,12 +399,12 @@ std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
 template <class Real>
 void BasicWorld<Real>::wake(int body) {
   wake_body(*data_, body);
-  data_->bodies[body].still_for = 0;
+  data_->bodies[body].sleep_time = 0;
 }
 // Wakes a moved body, and the bodies that lie on it if it is kinematic.
 template <class Real>
 void BasicWorld<Real>::wake_moved(int body) {
-  if (!data_->gives_way(body)) wake_neighbours(*data_, body);
+  if (!data_->is_dynamic(body)) wake_neighbours(*data_, body);
   wake(body);
 }
 

@@ -9,13 +9,13 @@
 
 #include "engine/collision/broad_phase/dynamic_tree.h"
 #include "engine/collision/broad_phase/pair_set.h"
-#include "engine/core/burst_list.h"
-#include "engine/core/slots.h"
-#include "engine/core/used_list.h"
+#include "engine/core/chunked_buffer.h"
+#include "engine/core/lazy_array.h"
+#include "engine/core/slot_map.h"
 #include "engine/linear_algebra/bounded_rows.h"
 #include "engine/world/contact_solver/body_motion.h"
-#include "engine/world/contact_solver/bounce_crowds.h"
 #include "engine/world/contact_solver/contact_graph.h"
+#include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/contact_solver/soft_contacts.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
@@ -24,7 +24,7 @@
 #include "engine/world/joint_solver/joint_set.h"
 #include "engine/world/profile.h"
 #include "engine/world/state/corner_pool.h"
-#include "engine/world/state/flight.h"
+#include "engine/world/state/swept_body.h"
 
 /// The data of a world. Bodies, shapes, contacts and joints are in slots with stable indices; solver data are
 /// in separate arrays. Lists through the slots (a body's shapes, contacts, joints) are linked by index, -1 at
@@ -46,11 +46,11 @@ struct BodyRecord {
   int first_shape = kNone, first_contact = kNone,
       first_joint = kNone;     ///< contact and joint: edge = 2 index + side
   int constraints = 0;         ///< contacts with points, and joints; 0: free flight
-  int uncommon = kNone;        ///< index of its UncommonBody
+  int uncommon = kNone;        ///< index of its BodyExtras
   Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: unknown, for a static body
   Vec2<Real> centre{};         ///< m, centre of rotation in the body's frame: mass.h
   Real half_width = 0;         ///< m, smallest half width of its shapes; negative: in `unsettled`
-  Real still_for = 0;          ///< s, sleep timer
+  Real sleep_time = 0;         ///< s, sleep timer
   double angle = 0;            ///< rad, whole turns counted
 
   BodyLocks locks() const { return {lock_x, lock_y, lock_rotation}; }
@@ -59,7 +59,7 @@ static_assert(sizeof(BodyRecord<float>) == 64);
 
 /// Optional data of a body: name, damping, gravity scale.
 template <class Real>
-struct UncommonBody {
+struct BodyExtras {
   std::string name{};
   Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
   Vec2<Real> mass_centre{};  ///< m, in the body's frame, if its mass was given
@@ -150,7 +150,7 @@ struct BodyVelocity {
 
 /// External velocity change of a body in a substep: forces and damping.
 template <class Real>
-struct Kick {
+struct VelocityIncrement {
   int body = 0;
   Vec2<Real> velocity{};         ///< m/s
   Real spin = 0;                 ///< rad/s
@@ -251,10 +251,10 @@ struct Scratch {
   std::vector<std::pair<int, int>> found_pairs;
   std::vector<char> meets;  ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  BurstList<ContactConstraint<Real>> begun_contacts;
-  std::vector<Kick<Real>> kicks;           ///< of the awake bodies that move by substeps
-  std::vector<BodyVelocity<Real>> starts;  ///< their velocities at the start of the step
-  std::vector<int> bad_bodies;             ///< bodies with an invalid motion in this step
+  ChunkedBuffer<ContactConstraint<Real>> begun_contacts;
+  std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
+  std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
+  std::vector<int> nonfinite_bodies;           ///< bodies with an invalid motion in this step
   std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
@@ -271,21 +271,21 @@ struct Scratch {
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
   std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
-  std::vector<Bounce<Real>> bounces;
+  std::vector<RestitutionContact<Real>> bounces;
   std::vector<char> apart;  ///< by contact: it is not solved side by side with others
   SoftContacts<Real> passes;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step
   std::vector<int> expecting_bodies;
   std::vector<char> pressed, expecting;  ///< by body: it is in the list; all 0 if the list is empty
-  CrowdRoom<Real> crowds;
-  std::vector<char> restless;
+  ImpactScratch<Real> impacts;
+  std::vector<char> cannot_sleep;
   std::vector<FastBody> fast_bodies;
   std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores
-  std::vector<Flight> flights;
-  std::vector<int> stopped;        ///< flights that are being stopped together
-  std::vector<Meeting> meetings;   ///< a heap, earliest on top
-  std::vector<int> flight_places;  ///< by body: index of its flight, during continuous collision
+  std::vector<SweptBody> swept_bodies;
+  std::vector<int> stopped;            ///< swept bodies that are being stopped together
+  std::vector<ToiEvent> toi_events;    ///< a heap, earliest on top
+  std::vector<int> swept_body_places;  ///< by body: index of its swept body, during continuous collision
   std::vector<ShapeId> visitors;
 };
 
@@ -297,37 +297,37 @@ struct WorldData {
   double last_h = 0;  ///< s, substep of the last step
 
   // Bodies, by index.
-  Slots<BodyRecord<Real>> bodies;
-  Slots<UncommonBody<Real>> uncommon;
-  UsedList<Load<Real>> loads;
-  UsedList<std::uint64_t> body_data;  ///< user data
+  SlotMap<BodyRecord<Real>> bodies;
+  SlotMap<BodyExtras<Real>> uncommon;
+  LazyArray<Load<Real>> loads;
+  LazyArray<std::uint64_t> body_data;  ///< user data
   std::vector<BodyMotion<Real>> motion;
   std::vector<Rotation<Real>> rotation;
-  std::vector<Vec2d> position;  ///< m, of the centres of mass
-  UsedList<Vec2d> remainders;   ///< m, Kahan compensation of the positions; in double only
-  std::vector<Real> extents;    ///< m, from the centre of mass to the farthest point
-  std::vector<char> enlarged;   ///< a shape of it left its fat AABB in the last step
+  std::vector<Vec2d> position;             ///< m, of the centres of mass
+  LazyArray<Vec2d> position_compensation;  ///< m, Kahan compensation of the positions; in double only
+  std::vector<Real> extents;               ///< m, from the centre of mass to the farthest point
+  std::vector<char> enlarged;              ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;
   std::vector<int> unsettled;  ///< bodies with changed shapes: mass.h
 
   // Shapes, by index.
-  Slots<ShapeRecord<Real>> shapes;
+  SlotMap<ShapeRecord<Real>> shapes;
   std::vector<ShapeForm<Real>> forms;
   std::vector<Aabb<Real>> boxes;  ///< tight AABBs
   CornerPool<Real> corners;
-  UsedList<std::uint64_t> shape_data;  ///< user data
-  Slots<ChainRecord> chains;
-  std::vector<int> moved_shapes;
-  DynamicTree<Real> still_tree, moving_tree;  ///< of static bodies; of kinematic and dynamic ones
+  LazyArray<std::uint64_t> shape_data;  ///< user data
+  SlotMap<ChainRecord> chains;
+  std::vector<int> move_buffer;
+  DynamicTree<Real> static_tree, dynamic_tree;  ///< of static bodies; of kinematic and dynamic ones
 
   // Contacts.
-  Slots<ContactRecord> contacts;
+  SlotMap<ContactRecord> contacts;
   PairSet pairs;
   std::vector<int> near;
   ContactGraph<Real> graph;
   std::vector<ContactConstraint<Real>> parked;
 
-  Slots<JointRecord> joints;
+  SlotMap<JointRecord> joints;
   JointSet<Real> joint_set;
 
   std::vector<SensorRecord> sensors;
@@ -341,8 +341,8 @@ struct WorldData {
   mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
   bool abandoned = false;               ///< its owner is gone; the last of these deletes it
   bool reports_hits = false;            ///< a shape has hit events
-  bool ties_changed = true;  ///< since islands were found: a contact or joint was added or removed, a body
-                             ///< woke or fell asleep
+  bool topology_changed = true;  ///< since islands were found: a contact or joint was added or removed, a
+                                 ///< body woke or fell asleep
   Scratch<Real> scratch;
 
   /// Called for contacts of shapes with `pre_solve` after their manifold was computed; false disables one in
@@ -355,9 +355,9 @@ struct WorldData {
   /// Returns the buffer for events that happen now.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
-  bool gives_way(int body) const { return bodies[body].type == BodyType::Dynamic; }
-  const UncommonBody<Real>& uncommon_of(int body) const {
-    static const UncommonBody<Real> common;
+  bool is_dynamic(int body) const { return bodies[body].type == BodyType::Dynamic; }
+  const BodyExtras<Real>& extras_of(int body) const {
+    static const BodyExtras<Real> common;
     const int place = bodies[body].uncommon;
     return place == kNone ? common : uncommon[place];
   }
@@ -365,7 +365,7 @@ struct WorldData {
     const ShapeForm<Real>& form = forms[shape];
     return {corners.data() + form.corner + (form.chain ? 1 : 0), form.count, form.radius};
   }
-  DynamicTree<Real>& tree_of(BodyType type) { return type == BodyType::Static ? still_tree : moving_tree; }
+  DynamicTree<Real>& tree_of(BodyType type) { return type == BodyType::Static ? static_tree : dynamic_tree; }
 };
 
 }  // namespace plumb

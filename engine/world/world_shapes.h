@@ -3,10 +3,10 @@
 #include <type_traits>
 
 #include "engine/world/state/bodies.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/naming.h"
 #include "engine/world/state/shape_reading.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 #include "engine/world/world.h"
 
@@ -17,7 +17,7 @@ template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   unlocked(*this);
   const int index = place(body);
-  const bool weighs = data_->gives_way(index) && !data_->bodies[index].mass_given;
+  const bool weighs = data_->is_dynamic(index) && !data_->bodies[index].mass_given;
   naming_part(*data_, "shape", index, [&] {
     validate(definition);
     if (std::is_same_v<Real, float> && weighs) require_weight(definition);
@@ -157,7 +157,7 @@ void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
   const JointRecord& record = data_->joints[place(joint)];
   data_->joint_set.change(record.slot, kind);
   data_->joint_set.meet(record.slot, data_->bodies[record.body_a].angle, data_->bodies[record.body_b].angle);
-  data_->ties_changed = true;
+  data_->topology_changed = true;
   wake(record.body_a), wake(record.body_b);
 }
 template <class Real>

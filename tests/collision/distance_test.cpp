@@ -126,7 +126,7 @@ TYPED_TEST(Distance, SixtyFourCorners) {
 // what it is on paper.
 TYPED_TEST(Distance, TouchingIsExact) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 1), disc = truth::shape_of<Real>({{0, 0}}, 0.5);
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 1), disc = truth::shape_of<Real>({{0, 0}}, 0.5);
   const auto at = [&](const Shape<Real>& b, Real x, Real y) {
     return distance<Real>(box, b, {{x, y}, {}}).distance;
   };
@@ -153,7 +153,7 @@ TYPED_TEST(Distance, TouchingIsExact) {
 // The normal of an edge has all of its digits at any distance.
 TYPED_TEST(Distance, NormalFromFarAway) {
   using Real = TypeParam;
-  const Shape<Real> small = truth::box_of<Real>(1e-3, 1e-3), point = truth::shape_of<Real>({{0, 0}});
+  const Shape<Real> small = truth::tight_aabb<Real>(1e-3, 1e-3), point = truth::shape_of<Real>({{0, 0}});
   for (const double angle : {0.1, 0.7, 2.0}) {
     const Rotation<Real> q{static_cast<Real>(std::cos(angle)), static_cast<Real>(std::sin(angle))};
     const auto got = distance<Real>(point, small, {{Real(1e3) * q.c, Real(1e3) * q.s}, q});
@@ -164,7 +164,7 @@ TYPED_TEST(Distance, NormalFromFarAway) {
 
 TYPED_TEST(Distance, NormalOfATouchingEdgeIsTheEdgesOwn) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 1);
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 1);
   for (const Real gap : {Real(0), 4 * std::numeric_limits<Real>::epsilon(), Real(-0x1p-20), Real(0x1p-20)}) {
     const auto got = distance<Real>(box, box, {{2 + gap, Real(0.3)}, {}});
     EXPECT_EQ(got.normal.x, 1);
@@ -178,7 +178,7 @@ TYPED_TEST(Distance, DegenerateShapes) {
   using Real = TypeParam;
   const Shape<Real> point = truth::shape_of<Real>({{0, 0}}),
                     segment = truth::shape_of<Real>({{-1, 0}, {1, 0}}),
-                    twice = truth::shape_of<Real>({{1, 1}, {1, 1}}), box = truth::box_of<Real>(2, 2);
+                    twice = truth::shape_of<Real>({{1, 1}, {1, 1}}), box = truth::tight_aabb<Real>(2, 2);
   const Rotation<Real> quarter{0, 1};
   const struct {
     const Shape<Real>*a, *b;
@@ -216,7 +216,8 @@ TYPED_TEST(Distance, NearlyParallelEdges) {
   using Real = TypeParam;
   Random random(3);
   for (int k = 0; k < 5000; ++k) {
-    const Shape<Real> a = truth::box_of<Real>(1, random.decade(-4, 0)), b = truth::box_of<Real>(1, 0.5);
+    const Shape<Real> a = truth::tight_aabb<Real>(1, random.decade(-4, 0)),
+                      b = truth::tight_aabb<Real>(1, 0.5);
     const double angle = random.decade(-18, -2), x = random.uniform(-2.5, 2.5);
     const double gap = random.chance(0.5) ? random.decade(-17, 0) : -random.decade(-17, -2);
     const Pose<Real> pose{{static_cast<Real>(x), static_cast<Real>(a.corners[2].point.y + 0.5 + gap)},

@@ -33,7 +33,7 @@ TYPED_TEST(DynamicTreeMeetings, AreThoseOfEachWithEach) {
   DynamicTree<Real> tree;
   std::vector<Aabb<Real>> boxes;
   std::vector<char> meets;
-  EXPECT_TRUE(tree.mark_meetings(meets, 0));
+  EXPECT_TRUE(tree.mark_self_overlaps(meets, 0));
   EXPECT_TRUE(meets.empty());
   int met = 0;
   for (int round = 0; round < 200; ++round) {
@@ -47,7 +47,7 @@ TYPED_TEST(DynamicTreeMeetings, AreThoseOfEachWithEach) {
     }
     if (round % 3 == 0) tree.rebuild();
     if (round % 50 == 49) tree.rebuild_all();
-    ASSERT_TRUE(tree.mark_meetings(meets, 1 << 20));
+    ASSERT_TRUE(tree.mark_self_overlaps(meets, 1 << 20));
     ASSERT_EQ(meets, by_comparing_all(boxes)) << "round " << round;
     for (const char each : meets) met += each;
   }
@@ -55,10 +55,10 @@ TYPED_TEST(DynamicTreeMeetings, AreThoseOfEachWithEach) {
   EXPECT_LT(met, 15000) << "not all";
   // What was taken out meets nobody.
   for (int proxy = 0; proxy < 200; ++proxy) tree.remove(proxy);
-  ASSERT_TRUE(tree.mark_meetings(meets, 1 << 20));
+  ASSERT_TRUE(tree.mark_self_overlaps(meets, 1 << 20));
   EXPECT_EQ(meets, std::vector<char>(200, 0));
   const int last = tree.insert({{-1, -1}, {1, 1}}, 1, 0);  // around where free places have their boxes
-  ASSERT_TRUE(tree.mark_meetings(meets, 1 << 20));
+  ASSERT_TRUE(tree.mark_self_overlaps(meets, 1 << 20));
   EXPECT_EQ(meets[last], 0);
 }
 
@@ -74,7 +74,7 @@ TYPED_TEST(DynamicTreeMeetings, CostLittleWhereFewMeet) {
     }
     tree.rebuild_all();
     std::vector<char> meets;
-    EXPECT_EQ(tree.mark_meetings(meets, apart ? 100 : 10000), apart);
+    EXPECT_EQ(tree.mark_self_overlaps(meets, apart ? 100 : 10000), apart);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/collision/broad_phase/late_enlarging.h"
+#include "engine/collision/broad_phase/prefetched_enlarging.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TYPED_TEST(LateEnlargingTest, GivesTheTreeThatEnlargingAtOnceGives) {
     at_once.rebuild_all();
     DynamicTree<Real> tree = at_once;
 
-    LateEnlarging<Real> late(tree);
+    PrefetchedEnlarging<Real> late(tree);
     for (int i = 0; i < count; ++i) {
       const int proxy = std::uniform_int_distribution<int>(0, i % 5 == 0 ? 3 : 299)(random);
       const Aabb<Real> box =

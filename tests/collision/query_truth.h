@@ -52,7 +52,7 @@ Shape<Real> shape_of(const std::vector<Point>& points, Wide radius = 0) {
 }
 
 template <class Real>
-Shape<Real> box_of(Wide half_width, Wide half_height, Wide radius = 0) {
+Shape<Real> tight_aabb(Wide half_width, Wide half_height, Wide radius = 0) {
   const Wide w = half_width, h = half_height;
   return shape_of<Real>({{-w, -h}, {w, -h}, {w, h}, {-w, h}}, radius);
 }
@@ -92,9 +92,9 @@ Shape<Real> random_shape(Random& random, double size, int max_corners = 10) {
       return shape_of<Real>({p, q}, radius);
     }
     case 2:
-      return box_of<Real>(size * random.uniform(0.1, 1), size * random.uniform(0.1, 1), radius);
+      return tight_aabb<Real>(size * random.uniform(0.1, 1), size * random.uniform(0.1, 1), radius);
     case 3:
-      return box_of<Real>(size, size * random.decade(-4, -1), radius);
+      return tight_aabb<Real>(size, size * random.decade(-4, -1), radius);
     default: {
       const int count = 3 + random.below(max_corners - 2);
       const double flat = random.uniform(0.2, 1), first = random.uniform(0, 6);

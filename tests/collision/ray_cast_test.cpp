@@ -79,9 +79,9 @@ TYPED_TEST(RayCast, AgreesWithTheSignedDistance) {
 
 TYPED_TEST(RayCast, ClosedForms) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 2), disc = truth::shape_of<Real>({{0, 0}}, 5),
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 2), disc = truth::shape_of<Real>({{0, 0}}, 5),
                     capsule = truth::shape_of<Real>({{-4, 0}, {4, 0}}, 1),
-                    round = truth::box_of<Real>(1, 2, 0.5),
+                    round = truth::tight_aabb<Real>(1, 2, 0.5),
                     segment = truth::shape_of<Real>({{-1, 0}, {1, 0}});
   const auto cast = [](const Shape<Real>& shape, Vec2<Real> from, Vec2<Real> way) {
     return ray_cast<Real>(shape, from, way);
@@ -195,7 +195,7 @@ TYPED_TEST(RayCast, NearestPointAndContains) {
 
 TYPED_TEST(RayCast, ContainsItsSurface) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 2), disc = truth::shape_of<Real>({{0, 0}}, 5),
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 2), disc = truth::shape_of<Real>({{0, 0}}, 5),
                     segment = truth::shape_of<Real>({{-1, 0}, {1, 0}}),
                     point = truth::shape_of<Real>({{3, 4}});
   EXPECT_TRUE((contains<Real>(box, {1, Real(0.3)})));

@@ -94,7 +94,7 @@ TYPED_TEST(ShapeCast, AgreesWithTheDifferenceHull) {
 
 TYPED_TEST(ShapeCast, ClosedForms) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 1), disc = truth::shape_of<Real>({{0, 0}}, 2),
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 1), disc = truth::shape_of<Real>({{0, 0}}, 2),
                     big = truth::shape_of<Real>({{0, 0}}, 3), point = truth::shape_of<Real>({{0, 0}});
   const auto cast = [](const Shape<Real>& a, const Shape<Real>& b, Vec2<Real> from, Vec2<Real> way) {
     return shape_cast<Real>(a, b, {from, {}}, way);
@@ -133,7 +133,8 @@ TYPED_TEST(ShapeCast, ClosedForms) {
 // 10^8 m in one cast through a wall of 1 mm.
 TYPED_TEST(ShapeCast, FastThroughAThinWall) {
   using Real = TypeParam;
-  const Shape<Real> wall = truth::box_of<Real>(0.0005, 10), bullet = truth::shape_of<Real>({{0, 0}}, 0.01);
+  const Shape<Real> wall = truth::tight_aabb<Real>(0.0005, 10),
+                    bullet = truth::shape_of<Real>({{0, 0}}, 0.01);
   const auto got = shape_cast<Real>(wall, bullet, {{-5e7, Real(0.3)}, {}}, {Real(1e8), 0});
   ASSERT_TRUE(got.hit);
   EXPECT_TRUE(near(got.fraction, 0.5 - 0.0105e-8, std::numeric_limits<Real>::epsilon()));

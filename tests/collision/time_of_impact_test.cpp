@@ -140,7 +140,8 @@ TYPED_TEST(TimeOfImpact, BoxesInAGame) {
   Random random(1);
   Counts counts;
   for (int k = 0; k < 10000; ++k) {
-    const Shape<Real> a = truth::box_of<Real>(0.5, 0.5), b = truth::box_of<Real>(random.uniform(0.1, 1), 0.3);
+    const Shape<Real> a = truth::tight_aabb<Real>(0.5, 0.5),
+                      b = truth::tight_aabb<Real>(random.uniform(0.1, 1), 0.3);
     const Point from = random.uniform(0, 4) * random.direction(), to = random.direction();
     const Motion<Real> motion{
         a, b, sweep_of<Real>({}, {}, random.rotation<Real>(), random.uniform(-1, 1)),
@@ -159,7 +160,7 @@ TYPED_TEST(TimeOfImpact, ThinRodsThatSpin) {
   Random random(2);
   Counts counts;
   for (int k = 0; k < 6000; ++k) {
-    const Shape<Real> a = truth::box_of<Real>(1, random.decade(-4, -1)),
+    const Shape<Real> a = truth::tight_aabb<Real>(1, random.decade(-4, -1)),
                       b = truth::shape_of<Real>({{-1, 0}, {random.uniform(0, 2), 0}}, random.decade(-4, -1));
     const Point from = random.uniform(0.5, 3) * random.direction(), to = random.direction();
     const double turn = random.decade(0, 2);
@@ -207,7 +208,8 @@ TYPED_TEST(TimeOfImpact, AnySizeAndSpeed) {
 // V.
 TYPED_TEST(TimeOfImpact, ThroughAThinWallAtAnySpeed) {
   using Real = TypeParam;
-  const Shape<Real> wall = truth::box_of<Real>(0.0005, 10), bullet = truth::shape_of<Real>({{0, 0}}, 0.01);
+  const Shape<Real> wall = truth::tight_aabb<Real>(0.0005, 10),
+                    bullet = truth::shape_of<Real>({{0, 0}}, 0.01);
   for (const double way : {1.1, 10.0, 1e3, 1e5, 1e7, 1e8})
     for (const double spin : {0.0, 1.0, 100.0})
       for (const double from : {-1.0, -0.4 * way}) {
@@ -255,7 +257,7 @@ TYPED_TEST(TimeOfImpact, SpinningRodMeetsADisc) {
 // for a thousand turns. What was found out until then still holds.
 TYPED_TEST(TimeOfImpact, GearsThatNeverTouch) {
   using Real = TypeParam;
-  const Shape<Real> rod = truth::box_of<Real>(1, 0.01);
+  const Shape<Real> rod = truth::tight_aabb<Real>(1, 0.01);
   const auto turn = [&](Real angle) {
     return Motion<Real>{rod, rod, {{}, {}, {}, angle}, {{Real(1.5), 0}, {}, {0, 1}, -angle}};
   };
@@ -275,7 +277,7 @@ TYPED_TEST(TimeOfImpact, GearsThatNeverTouch) {
 // What rests or slides closer than the target is left alone; what comes closer is stopped.
 TYPED_TEST(TimeOfImpact, StartsCloserThanTheTarget) {
   using Real = TypeParam;
-  const Shape<Real> ground = truth::box_of<Real>(100, 1), box = truth::box_of<Real>(1, 1);
+  const Shape<Real> ground = truth::tight_aabb<Real>(100, 1), box = truth::tight_aabb<Real>(1, 1);
   const Real target = Real(0.005), tolerance = Real(0.001), start = Real(0.002);
   const auto go = [&](Vec2<Real> motion, Real turn) {
     const Motion<Real> all{ground, box, {}, {{0, 2 + start}, motion, {}, turn}};
@@ -297,7 +299,7 @@ TYPED_TEST(TimeOfImpact, StartsCloserThanTheTarget) {
 
 TYPED_TEST(TimeOfImpact, WithoutMotion) {
   using Real = TypeParam;
-  const Shape<Real> box = truth::box_of<Real>(1, 1), point = truth::shape_of<Real>({{0, 0}});
+  const Shape<Real> box = truth::tight_aabb<Real>(1, 1), point = truth::shape_of<Real>({{0, 0}});
   const auto state = [&](const Shape<Real>& a, const Shape<Real>& b, Vec2<Real> at) {
     return time_of_impact<Real>(a, {}, b, {at, {}, {}, 0}, Real(0.005), Real(0.001)).state;
   };

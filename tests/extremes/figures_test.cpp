@@ -66,7 +66,7 @@ TEST(StiffSpring, KeepsItsEnergy) {
   for (const double turn : {0.01, 0.3, 0.5, 1.0, 2.0, 10.0, 1e2, 1e4}) {
     const double w = turn / kDt;
     Scene scene{.name = "spring", .gravity = {0, 0}};
-    Body mass = box_of("mass", {0.1, 0}, 0.1, 0.1, 1);
+    Body mass = tight_aabb("mass", {0.1, 0}, 0.1, 0.1, 1);
     scene.bodies = {mass};
     scene.forces = {SpringForce{.body_a = std::string(kWorld),
                                 .body_b = "mass",
@@ -98,8 +98,8 @@ TEST_P(Bullets, DoNotPassAndKeepTheirSpeed) {
   for (const double radius : {0.005, 0.5}) {
     for (const bool disc : {true, false}) {
       Scene scene{.name = "bullet", .gravity = {0, 0}};
-      Body wall = fixed(box_of("wall", {0, 0}, 1e-3, 10, 1));
-      Body bullet = box_of("bullet", {-10, 0.3}, 2 * radius, 2 * radius, 1);
+      Body wall = fixed(tight_aabb("wall", {0, 0}, 1e-3, 10, 1));
+      Body bullet = tight_aabb("bullet", {-10, 0.3}, 2 * radius, 2 * radius, 1);
       if (disc) bullet.shapes[0].geometry = Circle{radius};
       bullet.velocity = {1e8, 0};
       for (Body* body : {&wall, &bullet}) body->shapes[0].friction = 0, body->shapes[0].restitution = 1;
@@ -128,7 +128,7 @@ class Spin : public EachEngine {};
 // by that angle.
 TEST_P(Spin, OfAMillionRadiansASecondIsKept) {
   Scene scene{.name = "spin", .gravity = {0, 0}};
-  Body top = box_of("top", {0, 0}, 1, 1, 1);
+  Body top = tight_aabb("top", {0, 0}, 1, 1, 1);
   top.angular_velocity = 1e6;
   scene.bodies = {top};
   const auto runner = make_runner(GetParam(), scene);
@@ -157,7 +157,7 @@ TEST_P(FarAway, AThrowIsItsParabola) {
   double worst = 0;
   for (const Vec2d origin : kFar) {
     Scene scene{.name = "throw"};
-    Body body = box_of("ball", origin, 1, 1, 1);
+    Body body = tight_aabb("ball", origin, 1, 1, 1);
     body.velocity = {3.1, 20.7};
     body.angular_velocity = 1;
     scene.bodies = {body};
@@ -233,7 +233,7 @@ Scene sized(Sized kind, double size) {
   const double speed = std::sqrt(size);
   Scene scene{.name = "sized"};
   const auto box = [&](const std::string& name, Vec2d at, double width, double height) {
-    return box_of(name, size * at, size * width, size * height, size * size * width * height);
+    return tight_aabb(name, size * at, size * width, size * height, size * size * width * height);
   };
   scene.bodies = {fixed(box("ground", {0, -0.5}, 20, 1))};
   switch (kind) {

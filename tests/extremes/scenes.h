@@ -12,7 +12,7 @@ namespace plumb::test {
 inline constexpr double kGravity = 9.81;
 
 /// A box of a mass; no restitution, friction 0.5.
-inline Body box_of(std::string name, Vec2d position, double width, double height, double mass) {
+inline Body tight_aabb(std::string name, Vec2d position, double width, double height, double mass) {
   Body body;
   body.name = std::move(name);
   body.position = position;
@@ -29,7 +29,7 @@ inline Body fixed(Body body) {
 /// A uniform rod of a length and mass about its end, at rest level, without a shape.
 inline Scene rod_pendulum(Vec2d pivot, double length = 1, double mass = 1) {
   Scene scene{.name = "pendulum"};
-  Body rod = box_of("rod", pivot + Vec2d{length / 2, 0}, length, length / 10, mass);
+  Body rod = tight_aabb("rod", pivot + Vec2d{length / 2, 0}, length, length / 10, mass);
   rod.shapes.clear();
   rod.inertia = mass * length * length / 12;
   scene.bodies = {rod};
@@ -42,7 +42,7 @@ inline Scene chain_with_tip(double angle, double tip) {
   Scene scene{.name = "chain"};
   const Rotation<double> q = rotation_of(angle);
   for (int i = 0; i < 10; ++i) {
-    Body link = box_of("link " + std::to_string(i), q * Vec2d{i + 0.5, 0}, 1, 0.2, i == 9 ? tip : 1);
+    Body link = tight_aabb("link " + std::to_string(i), q * Vec2d{i + 0.5, 0}, 1, 0.2, i == 9 ? tip : 1);
     link.angle = angle;
     link.shapes[0].filter.group = -1;
     scene.joints.push_back(RevoluteJoint{"joint " + std::to_string(i),
@@ -58,8 +58,8 @@ inline Scene chain_with_tip(double angle, double tip) {
 /// A box on a lighter one of 1 kg, on a ground; bodies 0 ground, 1 light, 2 heavy.
 inline Scene heavy_on_light(double ratio) {
   Scene scene{.name = "heavy on light"};
-  scene.bodies = {fixed(box_of("ground", {0, -0.5}, 20, 1, 1)), box_of("light", {0, 0.5}, 1, 1, 1),
-                  box_of("heavy", {0, 1.5}, 1, 1, ratio)};
+  scene.bodies = {fixed(tight_aabb("ground", {0, -0.5}, 20, 1, 1)), tight_aabb("light", {0, 0.5}, 1, 1, 1),
+                  tight_aabb("heavy", {0, 1.5}, 1, 1, ratio)};
   return scene;
 }
 

@@ -49,7 +49,7 @@ FEATURES = [
     # Materials.
     feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * pressure;", "most = pressure / 2;",
             "world/contacts"),
-    feature("Restitution", WORLD + "contact_solver/bounces.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
+    feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
             "world/restitution"),
     feature("Rolling resistance", WORLD + "state/contact_setup.cpp",
             "std::max(a.rolling_resistance, b.rolling_resistance)", "std::min(a.rolling_resistance, b.rolling_resistance)",
@@ -144,9 +144,9 @@ FEATURES = [
     feature("Filters of queries", WORLD + "queries/queries.cpp", "if (w.forms[shape].sensor && !filter.sensors) return false;",
             "", "world/queries", "world/queries_use"),
     feature("Continuous collision", WORLD + "step/step.cpp",
-            "stop_at_impacts(w, static_cast<Real>(dt)), clock", "clock", "world/resting"),
-    feature("Islands, sleeping, waking", WORLD + "state/islands.cpp",
-            "for_each_tie(w, body, [&](int other) { wake_body(w, other); });", "", "world/resting"),
+            "solve_continuous(w, static_cast<Real>(dt)), clock", "clock", "world/resting"),
+    feature("Islands, sleeping, waking", WORLD + "state/sleeping.cpp",
+            "for_each_constraint_edge(w, body, [&](int other) { wake_body(w, other); });", "", "world/resting"),
     feature("Character mover", WORLD + "character/mover.cpp", "if (step_up(speed)) return true;", "", "world/mover"),
 
     # State.
@@ -187,7 +187,7 @@ FEATURES = [
     feature("Scenes are one way in", WORLD + "scene/add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",
             "world/add_scene"),
     feature("Constants in one place", WORLD + "step/narrow_phase.cpp",
-            "return Real(tuning::kContactReach) * smaller +", "return Real(tuning::kContactReach) +", "extremes/figures"),
+            "return Real(tuning::kSpeculativeMargin) * smaller +", "return Real(tuning::kSpeculativeMargin) +", "extremes/figures"),
     feature("Handles that know what is gone", WORLD + "world.cpp",
             "if (!data().bodies.holds(body.index, body.generation)) report_gone(",
             "if (body.index >= static_cast<std::uint32_t>(data_->bodies.size())) report_gone(", "world/world"),
@@ -196,5 +196,5 @@ FEATURES = [
     feature("Quarantine of bodies that go bad", WORLD + "state/quarantine.cpp",
             "if (!w.settings.quarantine) report(why);", "report(why);", "world/quarantine"),
     feature("No allocation in a warm step", WORLD + "step/step.cpp", "const double h = dt / substeps;",
-            "const double h = dt / substeps; w.scratch.bad_bodies = std::vector<int>(8);", "world/world"),
+            "const double h = dt / substeps; w.scratch.nonfinite_bodies = std::vector<int>(8);", "world/world"),
 ]

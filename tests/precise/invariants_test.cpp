@@ -37,7 +37,7 @@ struct Followed {
   Parts parts;
   Flight flight;
   EquationsOfMotion equations;
-  SmoothMotion motion;
+  EventFreeIntegrator motion;
   Invariants invariants;
 };
 

@@ -1,4 +1,4 @@
-#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/feature_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -32,9 +32,9 @@ double along(const Row<double>& row, const Twist<double>& a, const Twist<double>
 TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const Outline box = outlines_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3})[0];
-  const Outline disc = outlines_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}})[0];
-  const Outline box_b = outlines_of(1, {.geometry = Box{0.7, 0.9}})[0];
+  const FeatureShape box = outlines_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3})[0];
+  const FeatureShape disc = outlines_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}})[0];
+  const FeatureShape box_b = outlines_of(1, {.geometry = Box{0.7, 0.9}})[0];
   const auto motion = [&](Vec2d at) {
     return Moving{at,
                   {unit(random), unit(random)},
@@ -45,7 +45,7 @@ TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
   };
   const struct {
     Feature feature;
-    const Outline& b;
+    const FeatureShape& b;
   } cases[] = {{{Feature::Kind::CornerOfB, 2, 0}, disc},
                {{Feature::Kind::Corners, 3, 0}, disc},
                {{Feature::Kind::CornerOfB, 1, 3}, box_b},
@@ -72,9 +72,9 @@ TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
 
 TEST(PreciseOutline, SeparationIsTheDistance) {
   // Against the least distance of points sampled on both outlines.
-  const Outline a = outlines_of(0, {.geometry = Box{1, 0.6}})[0];
-  const Outline b = outlines_of(1, {.geometry = Box{0.8, 0.8}})[0];
-  const auto edge_points = [](const Outline& o, const Pose<double>& pose) {
+  const FeatureShape a = outlines_of(0, {.geometry = Box{1, 0.6}})[0];
+  const FeatureShape b = outlines_of(1, {.geometry = Box{0.8, 0.8}})[0];
+  const auto edge_points = [](const FeatureShape& o, const Pose<double>& pose) {
     std::vector<Vec2d> points;
     for (int i = 0; i < o.count(); ++i) {
       for (int k = 0; k < 80; ++k) {
@@ -97,8 +97,8 @@ TEST(PreciseOutline, SeparationIsTheDistance) {
 }
 
 TEST(PreciseOutline, EdgesThatLieOnEachOtherTouchInTheEndsOfWhatTheyShare) {
-  const Outline low = outlines_of(0, {.geometry = Box{2, 1}})[0];
-  const Outline high = outlines_of(1, {.geometry = Box{2, 1}})[0];
+  const FeatureShape low = outlines_of(0, {.geometry = Box{2, 1}})[0];
+  const FeatureShape high = outlines_of(1, {.geometry = Box{2, 1}})[0];
   const auto touching = [&](double x) {
     return touching_features(low, {{0, 0}, {}}, {}, high, {{x, 1}, {}}, {}, 1e-12);
   };
@@ -122,14 +122,14 @@ TEST(PreciseEvents, FirstFallIsTheFirst) {
     values[2] = 1;
   };
   const std::vector<double> tolerance(3, 0.0);
-  const auto dip = first_fall(evaluate, tolerance, 0, 3, 5);
+  const auto dip = first_zero_crossing(evaluate, tolerance, 0, 3, 5);
   ASSERT_TRUE(dip);
   EXPECT_EQ(dip->index, 1u);
   EXPECT_NEAR(dip->time, 0.929, 1e-12);
-  const auto later = first_fall(evaluate, tolerance, 0.94, 3, 5);
+  const auto later = first_zero_crossing(evaluate, tolerance, 0.94, 3, 5);
   EXPECT_EQ(later->index, 0u);
   EXPECT_NEAR(later->time, std::acos(0.0), 1e-15);
-  EXPECT_FALSE(first_fall(evaluate, tolerance, 0.94, 1.5, 5));
+  EXPECT_FALSE(first_zero_crossing(evaluate, tolerance, 0.94, 1.5, 5));
 }
 
 }  // namespace

@@ -174,12 +174,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 12857202056841947368ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 8927880766446998013ull},
-      {Precision::Double, Solver::Direct, 0.5, 14989347133497540625ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 13591451848338578435ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 15167407802022274178ull},
-      {Precision::Float, Solver::Direct, 0.5, 2856796698252619732ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 52099832793203201ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 476018767022401964ull},
+      {Precision::Double, Solver::Direct, 0.5, 4999698417108666890ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 7361442408048366727ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 4981349978874090334ull},
+      {Precision::Float, Solver::Direct, 0.5, 10685767992226599875ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -293,7 +293,7 @@ TYPED_TEST(Histories, EventsBetweenStepsDoNotGrowWithoutBound) {
       world.apply_impulse(box, {1e12, 0}), world.apply_impulse(box, {1e12, 0}), world.release(box);
   }
   const WorldData<TypeParam>& w = std::as_const(world).data();
-  EXPECT_LT(w.moved_shapes.size(), 200u);
+  EXPECT_LT(w.move_buffer.size(), 200u);
   EXPECT_LT(w.unsettled.size(), 10u);
   world.step();
   EXPECT_LT(world.events().woke.size() + world.events().fell_asleep.size(), 500u);

@@ -155,7 +155,7 @@ std::vector<Operation<Real>> operations() {
 template <class Real>
 void expect_sound(BasicWorld<Real>& world, const std::string& where) {
   EXPECT_NO_THROW(check_state(world.data())) << where;
-  EXPECT_TRUE(world.data().still_tree.valid() && world.data().moving_tree.valid()) << where;
+  EXPECT_TRUE(world.data().static_tree.valid() && world.data().dynamic_tree.valid()) << where;
   for (const BodyId body : world.bodies()) {
     const BodyState s = world.state(body);
     ASSERT_TRUE(std::isfinite(s.position.x + s.position.y + s.angle + s.velocity.x + s.velocity.y)) << where;

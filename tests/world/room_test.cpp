@@ -3,8 +3,8 @@
 #include <map>
 #include <random>
 
-#include "engine/core/slots.h"
-#include "engine/core/used_list.h"
+#include "engine/core/lazy_array.h"
+#include "engine/core/slot_map.h"
 #include "engine/world/state/corner_pool.h"
 #include "tests/world/allocations.h"
 #include "tests/world/support.h"
@@ -90,8 +90,8 @@ TEST(Room, LongListsGrowByAQuarter) {
   EXPECT_LT(growths, 35);  // 11 doublings, then log(100000 / 1024) / log(1.25) = 20.5
 }
 
-TEST(UsedList, HasNoRoomUntilItIsUsed) {
-  UsedList<double> list;
+TEST(LazyArray, HasNoRoomUntilItIsUsed) {
+  LazyArray<double> list;
   list.renew(2, 3);
   EXPECT_FALSE(list.used());
   EXPECT_EQ(list.get(2), 0);

@@ -69,7 +69,7 @@ class DynamicTree {
   /// Self-overlap pass: sets meets[proxy] to 1 for each leaf whose box overlaps another leaf's, and to 0 for
   /// the others. With few overlaps this costs a fraction of a query per leaf. Returns false, with marks
   /// missing, when it takes more than `most` comparisons of boxes.
-  bool mark_meetings(std::vector<char>& meets, int most) const;
+  bool mark_self_overlaps(std::vector<char>& meets, int most) const;
 
   /// Sweeps a box of `half_extent` (zero for a ray) from `origin` by `translation`, m. Calls visit(int user,
   /// Real max_fraction) -> Real for leaves hit at a fraction of at most max_fraction of the translation,

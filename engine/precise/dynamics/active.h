@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "engine/joints/row.h"
-#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/feature_shape.h"
 
 namespace plumb::precise {
 
 /// A persistent contact: one or two points of the same two shapes, with a common tangent.
-struct ActivePatch {
-  const Outline* a = nullptr;
-  const Outline* b = nullptr;
+struct ActiveContact {
+  const FeatureShape* a = nullptr;
+  const FeatureShape* b = nullptr;
   double friction = 0;
   int mode = 0;  ///< contact mode, 0: sticks; +1, -1: slips in this direction, friction acts against it
   int count = 0;

@@ -23,9 +23,9 @@ Row<double> sum(const Row<double>& a, double factor, const Row<double>& b) {
 
 }  // namespace
 
-void EquationsOfMotion::hold_contacts(std::vector<ActivePatch> patches) {
+void EquationsOfMotion::hold_contacts(std::vector<ActiveContact> patches) {
   patches_ = std::move(patches);
-  for (const ActivePatch& patch : patches_) {
+  for (const ActiveContact& patch : patches_) {
     for (const std::size_t body : {patch.a->body, patch.b->body}) {
       if (flight_.holds(body)) guides_.push_back(body);
     }
@@ -116,7 +116,7 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
   constraints_.clear();
   std::vector<Row<double>> pushes, tangents;
   points_ = 0;
-  for (const ActivePatch& patch : patches_) {
+  for (const ActiveContact& patch : patches_) {
     for (int i = 0; i < patch.count; ++i) {
       const std::size_t a = patch.a->body, b = patch.b->body;
       const ContactRows rows =
@@ -173,7 +173,7 @@ void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
                                 contact_side_.begin() + static_cast<std::ptrdiff_t>(points_));
   contact_forces_.tangent.clear();
   std::size_t point = 0, stuck = points_;
-  for (const ActivePatch& patch : patches_) {
+  for (const ActiveContact& patch : patches_) {
     double normal = 0;
     for (int i = 0; i < patch.count; ++i) normal += contact_side_[point++];
     contact_forces_.tangent.push_back(patch.sticks() ? contact_side_[stuck++]
@@ -235,7 +235,7 @@ void EquationsOfMotion::close_contacts(std::span<const Twist<double>> motion, bo
   std::size_t place = constraints_.size() - held_stops_;
   for (std::size_t k = 0; held_stops_ > 0 && k < stop_modes_.size(); ++k) {
     if (stop_modes_[k] != StopMode::Held) continue;
-    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
     if (gaps && stop.role == RowRole::Limit) contact_side_[place] -= constraints_[place].residual;
     if (!gaps && stop.role == RowRole::Motor) contact_side_[place] += stop.speed;
     ++place;
@@ -267,7 +267,7 @@ void EquationsOfMotion::push(const ContactResponse& response, std::span<const do
 
 std::span<const Twist<double>> EquationsOfMotion::accelerations_without_contacts(double time,
                                                                                  std::span<const double> y) {
-  std::vector<ActivePatch> held;
+  std::vector<ActiveContact> held;
   std::size_t stops = 0;
   std::swap(held, patches_);
   std::swap(stops, held_stops_);

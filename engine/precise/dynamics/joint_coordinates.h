@@ -5,23 +5,23 @@
 
 #include "engine/precise/dynamics/joints.h"
 
-// Shared parts of the implementation of KindJoints.
+// Shared parts of the implementation of GeneralJoints.
 namespace plumb::precise {
 
 /// Pose and motion of a joint's two bodies; derivatives are along `Directions`.
-struct KindJoints::Ends {
+struct GeneralJoints::Ends {
   JointPose<Dual> pose{};
   Vec2<Dual> velocity_a{}, velocity_b{};
   Dual spin_a{}, spin_b{};
 };
 
 /// Rates of change of the poses and velocities of both bodies along the direction of differentiation.
-struct KindJoints::Directions {
+struct GeneralJoints::Directions {
   Twist<double> place_a{}, place_b{}, motion_a{}, motion_b{};
 };
 
 /// Forces on both bodies.
-struct KindJoints::Pull {
+struct GeneralJoints::Pull {
   Wrench<Dual> a{}, b{};
 
   void add(const JointRow<Dual>& row, Dual lambda) {
@@ -33,7 +33,7 @@ struct KindJoints::Pull {
 /// Calls visit.row(row, rule) for each scalar coordinate with each of its rules, and visit.point(point, rule)
 /// for a point whose rule is not rigid. The residual of a row is C.
 template <class Visit>
-void KindJoints::each_coordinate(const Entry& e, const Ends& ends, const Visit& visit) {
+void GeneralJoints::each_coordinate(const Entry& e, const Ends& ends, const Visit& visit) {
   std::visit(
       [&](const auto& kind) {
         using Rows = std::remove_cvref_t<decltype(kind)>;

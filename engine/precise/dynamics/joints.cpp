@@ -20,7 +20,7 @@ Rotation<Dual> turning(Rotation<double> q, double change) {
 
 }  // namespace
 
-KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const Directions& along) {
+GeneralJoints::Ends GeneralJoints::ends_of(const Entry& e, const BodiesNow& now, const Directions& along) {
   const auto pose_of = [&](int body) { return body == kFixedFrame ? Pose<double>{} : now.poses[body]; };
   const auto twist_of = [&](int body) { return body == kFixedFrame ? Twist<double>{} : now.twists[body]; };
   const auto angle_of_body = [&](int body) { return body == kFixedFrame ? 0.0 : now.angles[body]; };
@@ -53,7 +53,7 @@ KindJoints::Ends KindJoints::ends_of(const Entry& e, const BodiesNow& now, const
 }
 
 /// Returns the mobility of a scalar coordinate's spring: see engine/joints/spring_mobility.h.
-Dual KindJoints::mobility_of_spring(const Entry& e, const Ends& ends, const JointRow<Dual>& j) {
+Dual GeneralJoints::mobility_of_spring(const Entry& e, const Ends& ends, const JointRow<Dual>& j) {
   const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
   const bool point_holds = e.rules.point.role == RowRole::Rigid &&
                            e.rules.point.max_force == std::numeric_limits<double>::infinity();
@@ -76,7 +76,7 @@ Dual KindJoints::mobility_of_spring(const Entry& e, const Ends& ends, const Join
       e.kind);
 }
 
-KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
+GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& ends) {
   struct Visitor {
     const Entry& e;
     const Ends& ends;
@@ -128,8 +128,8 @@ KindJoints::Pull KindJoints::pull_of_springs(const Entry& e, const Ends& ends) {
   return pull;
 }
 
-KindJoints::Pull KindJoints::pull_of_rows(const Entry& e, const Ends& ends,
-                                          std::span<const double> multipliers) {
+GeneralJoints::Pull GeneralJoints::pull_of_rows(const Entry& e, const Ends& ends,
+                                                std::span<const double> multipliers) {
   Pull pull;
   std::size_t next = e.first_row;
   const auto take = [&](const JointRow<Dual>& j) { pull.add(j, multipliers[next++]); };
@@ -163,7 +163,7 @@ Twist<double> twist_of(const BodiesNow& now, int body) {
 
 }  // namespace
 
-void KindJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const {
+void GeneralJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const {
   for (const Entry& e : entries_) {
     if (e.rows == 0) continue;
     const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
@@ -175,7 +175,7 @@ void KindJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const {
   }
 }
 
-void KindJoints::stop_rows(const BodiesNow& now, std::span<Row<double>> out) const {
+void GeneralJoints::stop_rows(const BodiesNow& now, std::span<Row<double>> out) const {
   for (const Entry& e : entries_) {
     if (e.stops == 0) continue;
     const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
@@ -187,7 +187,7 @@ void KindJoints::stop_rows(const BodiesNow& now, std::span<Row<double>> out) con
   }
 }
 
-void KindJoints::add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const {
+void GeneralJoints::add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
     const Pull pull = pull_of_springs(e, ends_of(e, now, {}));
@@ -201,8 +201,8 @@ void KindJoints::add_springs(const BodiesNow& now, std::span<Wrench<double>> out
   }
 }
 
-void KindJoints::each_spring(const BodiesNow& now,
-                             const std::function<void(const std::string&, Vec2d, double)>& take) const {
+void GeneralJoints::each_spring(const BodiesNow& now,
+                                const std::function<void(const std::string&, Vec2d, double)>& take) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
     const Wrench<Dual> w = pull_of_springs(e, ends_of(e, now, {})).b;
@@ -212,8 +212,8 @@ void KindJoints::each_spring(const BodiesNow& now,
 
 /// Adds the derivatives of a pull by the first `directions` of: x, y and angle of a, of b; their velocities.
 template <class Evaluate>
-void KindJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,
-                            std::vector<ForceBlock>& out) {
+void GeneralJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,
+                               std::vector<ForceBlock>& out) {
   const int body[2] = {e.a, e.b};
   ForceBlock blocks[2][2];
   for (int k = 0; k < directions; ++k) {
@@ -241,7 +241,7 @@ void KindJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions
   }
 }
 
-void KindJoints::add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const {
+void GeneralJoints::add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
     add_blocks(
@@ -249,8 +249,8 @@ void KindJoints::add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>
   }
 }
 
-void KindJoints::add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
-                                    std::vector<ForceBlock>& out) const {
+void GeneralJoints::add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
+                                       std::vector<ForceBlock>& out) const {
   for (const Entry& e : entries_) {
     if (e.rows == 0) continue;
     add_blocks(

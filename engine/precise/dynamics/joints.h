@@ -36,10 +36,10 @@ struct BodiesNow {
 /// General joints: those of a scene other than plain hinges and rods, with their rigid rows, and their
 /// springs as forces. Residuals and Jacobians are those of engine/joints; their derivatives along a motion,
 /// for accelerations and implicit methods, are computed by `Dual`.
-class KindJoints {
+class GeneralJoints {
  public:
   /// The scene is valid.
-  explicit KindJoints(const Scene& scene);
+  explicit GeneralJoints(const Scene& scene);
 
   std::size_t row_count() const { return row_names_.size(); }
   /// Returns the joint's name by row.

@@ -23,7 +23,7 @@ const Body* body_called(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries) {
+void GeneralJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries) {
   Entry e;
   bool plain = false;
   std::visit(
@@ -80,7 +80,7 @@ void KindJoints::add(const Scene& scene, const Joint& joint, std::vector<Entry>&
 }
 
 /// Sets the anchors of a stop whose coordinate is not an angle.
-void KindJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
+void GeneralJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
   if (!moves) return;
   const auto value = [](Vec2<Dual> v) { return Vec2d{v.x.value, v.y.value}; };
   if (const auto* rod = std::get_if<DistanceRows<Dual>>(&e.kind)) {
@@ -93,7 +93,7 @@ void KindJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
   }
 }
 
-KindJoints::KindJoints(const Scene& scene) {
+GeneralJoints::GeneralJoints(const Scene& scene) {
   std::vector<Pose<double>> poses;
   std::vector<double> angles;
   for (const Body& body : scene.bodies) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/feature_shape.h"
 
 namespace plumb::precise {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using Kind = Feature::Kind;
 
 struct Pair {
-  const Outline &a, &b;
+  const FeatureShape &a, &b;
   const Pose<double>&pose_a, &pose_b;
 
   Gap gap(const Feature& f) const { return gap_of(f, a, pose_a, b, pose_b); }
@@ -40,8 +40,8 @@ Feature closest_corners(const Pair& pair) {
 /// one corner or, along an edge of the other, the two ends of the common part.
 std::vector<Feature> on_edge(const Pair& pair, Kind kind, int edge, double lowest, double near) {
   const bool of_a = kind == Kind::CornerOfB;
-  const Outline& cornered = of_a ? pair.b : pair.a;
-  const Outline& edged = of_a ? pair.a : pair.b;
+  const FeatureShape& cornered = of_a ? pair.b : pair.a;
+  const FeatureShape& edged = of_a ? pair.a : pair.b;
   struct At {
     int corner;
     double along;
@@ -74,8 +74,8 @@ std::vector<Feature> on_edge(const Pair& pair, Kind kind, int edge, double lowes
 
 }  // namespace
 
-std::vector<Feature> touching_features(const Outline& a, const Pose<double>& pose_a,
-                                       const Twist<double>& twist_a, const Outline& b,
+std::vector<Feature> touching_features(const FeatureShape& a, const Pose<double>& pose_a,
+                                       const Twist<double>& twist_a, const FeatureShape& b,
                                        const Pose<double>& pose_b, const Twist<double>& twist_b,
                                        double near) {
   const Pair pair{a, b, pose_a, pose_b};
@@ -100,7 +100,7 @@ std::vector<Feature> touching_features(const Outline& a, const Pose<double>& pos
     fastest = opening;
   };
   for (int of = 0; of < 2; ++of) {
-    const Outline& edged = of == 0 ? a : b;
+    const FeatureShape& edged = of == 0 ? a : b;
     const Kind kind = of == 0 ? Kind::CornerOfB : Kind::CornerOfA;
     for (int edge = 0; edge < edged.edges(); ++edge) {
       double lowest = std::numeric_limits<double>::infinity();

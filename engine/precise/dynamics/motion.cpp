@@ -13,7 +13,7 @@
 namespace plumb::precise {
 namespace {
 
-std::vector<std::string> joint_names_by_row(const Scene& scene, const KindJoints& others) {
+std::vector<std::string> joint_names_by_row(const Scene& scene, const GeneralJoints& others) {
   std::vector<std::string> names;
   for (const Joint& joint : scene.joints) {
     if (const auto* revolute = std::get_if<RevoluteJoint>(&joint))
@@ -28,7 +28,8 @@ std::vector<std::string> joint_names_by_row(const Scene& scene, const KindJoints
 }
 
 /// Computes the rows for bodies that lie on each other: only their body indices matter.
-std::vector<Row<double>> pattern(const Joints<double>& joints, const KindJoints& others, std::size_t bodies) {
+std::vector<Row<double>> pattern(const Joints<double>& joints, const GeneralJoints& others,
+                                 std::size_t bodies) {
   std::vector<Row<double>> rows(joints.row_count() + others.row_count());
   const std::vector<Pose<double>> poses(bodies);
   const std::vector<double> angles(bodies);
@@ -71,7 +72,7 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
 /// Returns the hinges of mechanisms that consist of hinges alone. With wide mass ratios rounding requires the
 /// refinement that rows have.
 HingeLines hinge_lines(const JointSystem<double>& system, const Joints<double>& joints,
-                       const KindJoints& others, const std::vector<double>& inverse_mass,
+                       const GeneralJoints& others, const std::vector<double>& inverse_mass,
                        const std::vector<double>& inverse_inertia, bool wide_mass_ratio) {
   const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio;
   return {plain ? system.hinges() : std::vector<HingePlace>{}, joints.revolute, inverse_mass,

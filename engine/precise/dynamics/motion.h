@@ -109,11 +109,11 @@ class EquationsOfMotion final : public Flow {
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
 
   /// Sets the persistent contacts: they are held as joints are, by accelerations and by `project`.
-  void hold_contacts(std::vector<ActivePatch> patches);
-  std::span<const ActivePatch> held() const { return patches_; }
+  void hold_contacts(std::vector<ActiveContact> patches);
+  std::span<const ActiveContact> held() const { return patches_; }
 
-  /// Sets the mode of each stop of a joint (`KindJoints::stops`): held as a constraint, a motor saturated in
-  /// either direction, or inactive. Cleared by an empty list.
+  /// Sets the mode of each stop of a joint (`GeneralJoints::stops`): held as a constraint, a motor saturated
+  /// in either direction, or inactive. Cleared by an empty list.
   enum class StopMode : signed char { Free, Held, Forward, Backward };
   void hold_stops(std::vector<StopMode> modes);
   std::span<const StopMode> stop_modes() const { return stop_modes_; }
@@ -164,7 +164,7 @@ class EquationsOfMotion final : public Flow {
   std::span<const Row<double>> rows() const { return rows_; }
   std::span<const double> multipliers() const { return multipliers_; }
   const Joints<double>& joints() const { return joints_; }
-  const KindJoints& kind_joints() const { return kind_joints_; }
+  const GeneralJoints& kind_joints() const { return kind_joints_; }
   BodiesNow bodies_now() const { return {poses_, angles_, twists_}; }
   const std::string& name(std::size_t body) const { return names_[body]; }
   static BodyState state(std::span<const double> y, std::size_t slot);
@@ -224,7 +224,7 @@ class EquationsOfMotion final : public Flow {
   Vec2d gravity_;
   Forces<double> forces_;
   Joints<double> joints_;
-  KindJoints kind_joints_;
+  GeneralJoints kind_joints_;
   std::vector<std::string> joint_of_row_, names_;
   std::vector<JointEnd> joint_ends_;  // of the scene's joints, in its order: their bodies b
   std::vector<Row<double>> rows_, rows_elsewhere_;
@@ -248,7 +248,7 @@ class EquationsOfMotion final : public Flow {
   double may_stay_open_ = 0;  // m, of gaps
   std::int64_t evaluations_ = 0;
 
-  std::vector<ActivePatch> patches_;
+  std::vector<ActiveContact> patches_;
   std::vector<Row<double>> constraints_;  // of active contacts: normals, then tangents of sticking ones
   std::size_t points_ = 0;                // number of normals
   ContactResponse active_response_;

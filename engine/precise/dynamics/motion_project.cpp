@@ -53,10 +53,10 @@ bool EquationsOfMotion::held_works() const {
   const auto moves = [&](std::size_t body) {
     return twists_[body].velocity != Vec2d{} || twists_[body].angular_velocity != 0;
   };
-  const auto rubs = [](const ActivePatch& patch) { return patch.friction > 0 && patch.mode != 0; };
+  const auto rubs = [](const ActiveContact& patch) { return patch.friction > 0 && patch.mode != 0; };
   bool drives = false;
   for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
-    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
     drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor && stop.speed != 0);
   }
   return drives || std::any_of(guides_.begin(), guides_.end(), moves) ||
@@ -167,11 +167,11 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
     }
   }
   for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {
-    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
     if (stop_modes_[k] != StopMode::Held || stop.role != RowRole::Limit) continue;
     offer(stop_rows_[k].residual, [&] { return "joint '" + stop.joint + "'"; });
   }
-  for (const ActivePatch& patch : patches_) {
+  for (const ActiveContact& patch : patches_) {
     for (int i = 0; i < patch.count; ++i) {
       const Gap gap =
           gap_of(patch.features[i], *patch.a, poses_[patch.a->body], *patch.b, poses_[patch.b->body]);

@@ -146,7 +146,7 @@ class LawScales {
 
 /// Returns the acceleration (m/s^2) by the springs of joints at the start, of points up to `arm` away.
 double acceleration_by_springs(const Scene& scene, double arm) {
-  const KindJoints joints(scene);
+  const GeneralJoints joints(scene);
   if (!joints.has_springs()) return 0;
   std::vector<Pose<double>> poses;
   std::vector<double> angles;
@@ -192,7 +192,7 @@ Parts divide(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (const Shape& shape : scene.bodies[i].shapes) {
       if (partner(scene, parts, i, shape) == i) continue;
-      for (Outline& outline : outlines_of(i, shape)) parts.outlines.push_back(std::move(outline));
+      for (FeatureShape& outline : outlines_of(i, shape)) parts.outlines.push_back(std::move(outline));
       if (scene.bodies[i].type == BodyType::Dynamic) integrated[i] = 1;
     }
   }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/feature_shape.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -22,7 +22,7 @@ struct Parts {
   std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
                                         ///< forces that depend on the motion
   bool ballistic = false;               ///< contacts apart, only constant forces act on the integrated bodies
-  std::vector<Outline> outlines;        ///< of shapes that may touch another one
+  std::vector<FeatureShape> outlines;   ///< of shapes that may touch another one
   std::vector<std::pair<std::size_t, std::size_t>>
       apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
   std::vector<double> switches;  ///< s, > 0: when forces are switched, ascending

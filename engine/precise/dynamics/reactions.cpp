@@ -63,7 +63,7 @@ Reactions EquationsOfMotion::reactions(double time, std::span<const double> y) {
   const std::span<const Row<double>> stops = stop_rows();
   std::size_t held = 0;
   for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
-    const KindJoints::Stop& stop = kind_joints_.stops()[k];
+    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
     if (stop_modes_[k] == StopMode::Free) continue;
     const double force = stop_modes_[k] == StopMode::Held      ? contact_forces_.stop[held++]
                          : stop_modes_[k] == StopMode::Forward ? stop.max_force
@@ -80,7 +80,7 @@ Reactions EquationsOfMotion::reactions(double time, std::span<const double> y) {
   }
   std::size_t point = 0;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
-    const ActivePatch& patch = patches_[p];
+    const ActiveContact& patch = patches_[p];
     for (int i = 0; i < patch.count; ++i) {
       const Gap gap =
           gap_of(patch.features[i], *patch.a, poses_[patch.a->body], *patch.b, poses_[patch.b->body]);

@@ -74,8 +74,9 @@ std::optional<double> dip(const Sample& a, const Sample& b, const Sample& c, std
 
 }  // namespace
 
-std::optional<Fall> first_fall(const std::function<void(double, std::span<double>)>& evaluate,
-                               std::span<const double> tolerance, double start, double end, int samples) {
+std::optional<Fall> first_zero_crossing(const std::function<void(double, std::span<double>)>& evaluate,
+                                        std::span<const double> tolerance, double start, double end,
+                                        int samples) {
   if (tolerance.empty()) return std::nullopt;
   Watch watch(evaluate, tolerance);
   std::vector<Sample> known{{start, watch.at(start)}};

@@ -17,7 +17,8 @@ struct Fall {
 
 /// `evaluate(time, values)` computes all functions' values. They are sampled at `samples` equal parts of the
 /// step. Dips between samples are found by parabolas, and roots by the Illinois method with bisection.
-std::optional<Fall> first_fall(const std::function<void(double, std::span<double>)>& evaluate,
-                               std::span<const double> tolerance, double start, double end, int samples);
+std::optional<Fall> first_zero_crossing(const std::function<void(double, std::span<double>)>& evaluate,
+                                        std::span<const double> tolerance, double start, double end,
+                                        int samples);
 
 }  // namespace plumb::precise

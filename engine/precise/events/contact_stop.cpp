@@ -24,10 +24,10 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
 
 /// Returns the feature of the corner that touches next when the limit `index` of a corner on an edge is
 /// reached.
-Feature feature_of_height(const Feature& f, const Outline& a, const Outline& b, int index) {
+Feature feature_of_height(const Feature& f, const FeatureShape& a, const FeatureShape& b, int index) {
   Feature other = f;
   int& corner = f.kind == Feature::Kind::CornerOfB ? other.b : other.a;
-  const Outline& cornered = f.kind == Feature::Kind::CornerOfB ? b : a;
+  const FeatureShape& cornered = f.kind == Feature::Kind::CornerOfB ? b : a;
   corner = index == 2 ? cornered.previous(corner) : cornered.next(corner);
   return other;
 }
@@ -39,7 +39,7 @@ void Contacts::stop() {
   paths_.take(smooth_);
   double until = smooth_.time();
   std::optional<Event> event;
-  if (!finder_.outlines().empty()) event = first_meeting(until);
+  if (!finder_.outlines().empty()) event = first_toi_event(until);
   if (event) until = event->time;
   if (const auto met = stops_.first_met(paths_, smooth_, until)) {
     until = met->time;
@@ -76,17 +76,18 @@ void Contacts::stop() {
   settled_ = false;
 }
 
-std::optional<Contacts::Event> Contacts::first_meeting(double until) {
+std::optional<Contacts::Event> Contacts::first_toi_event(double until) {
   std::optional<Event> first;
   for (const OutlinePair& pair : near_pairs(finder_, paths_)) {
     if (std::binary_search(held_.begin(), held_.end(), pair)) continue;
     double from = paths_.start();
     if (std::binary_search(passing_.begin(), passing_.end(), pair)) {
-      const auto apart = search_.departure(pair, until, near_, ContactSearch::Overlap::Allowed).apart;
+      const auto apart =
+          search_.departure(pair, until, near_, ConservativeAdvancement::Overlap::Allowed).apart;
       if (!apart) continue;
       from = *apart;
     } else if (std::binary_search(touching_.begin(), touching_.end(), pair)) {
-      const ContactSearch::Departure departure = search_.departure(pair, until, near_);
+      const ConservativeAdvancement::Departure departure = search_.departure(pair, until, near_);
       if (departure.pressed) {
         until = *departure.pressed;
         first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
@@ -122,7 +123,7 @@ void Contacts::watch_contacts() {
     tolerance_.push_back(tolerance);
   };
   for (std::size_t p = 0; p < equations_.held().size(); ++p) {
-    const ActivePatch& patch = equations_.held()[p];
+    const ActiveContact& patch = equations_.held()[p];
     const double light = equations_.inverse_mass(patch.a->body) + equations_.inverse_mass(patch.b->body);
     const double force = kForceNoise * force_scale_ + (light > 0 ? 1e-12 * acceleration / light : 0);
     const double quiet = 0.25e-12 * finder_.scale_of_speed();
@@ -147,7 +148,7 @@ void Contacts::watch_contacts() {
 void Contacts::evaluate(double time, std::span<double> values) {
   smooth_.at(time, false, sample_);
   const std::span<const double> y = sample_.value();
-  const std::span<const ActivePatch> held = equations_.held();
+  const std::span<const ActiveContact> held = equations_.held();
   if (!stops_.empty()) {
     stop_values_.resize(stops_.count());
     stops_.evaluate(time, y, stop_values_);
@@ -172,8 +173,8 @@ void Contacts::evaluate(double time, std::span<double> values) {
 
 void Contacts::evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first,
                                 double time, double& value) {
-  const ActivePatch& patch = equations_.held()[watched.patch];
-  const auto placed = [&](const Outline& o) { return paths_.at(o.body, time); };
+  const ActiveContact& patch = equations_.held()[watched.patch];
+  const auto placed = [&](const FeatureShape& o) { return paths_.at(o.body, time); };
   switch (watched.quantity) {
     case Quantity::Force:
       value = forces.normal[first + static_cast<std::size_t>(watched.point)];
@@ -185,7 +186,7 @@ void Contacts::evaluate_contact(const Watched& watched, const ContactForces& for
       break;
     }
     case Quantity::Slip: {
-      const StepPaths::Placed a = placed(*patch.a), b = placed(*patch.b);
+      const StepMotionBounds::Placed a = placed(*patch.a), b = placed(*patch.b);
       const ContactRows rows =
           rows_of(patch.features[0], *patch.a, a.pose, a.twist, *patch.b, b.pose, b.twist);
       value = patch.mode * speed_along(rows.tangent, a.twist, b.twist);
@@ -207,8 +208,9 @@ void Contacts::evaluate_contact(const Watched& watched, const ContactForces& for
 std::optional<Contacts::Event> Contacts::first_change(double until) {
   if (held_.empty() && stops_.empty()) return std::nullopt;
   list_watched();
-  const auto fall = first_fall([this](double time, std::span<double> values) { evaluate(time, values); },
-                               tolerance_, smooth_.start(), until, samples_until(until));
+  const auto fall =
+      first_zero_crossing([this](double time, std::span<double> values) { evaluate(time, values); },
+                          tolerance_, smooth_.start(), until, samples_until(until));
   if (!fall) return std::nullopt;
   const Watched& watched = watched_[fall->index];
   Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
@@ -234,11 +236,11 @@ void Contacts::refine(const Event& event) {
   for (int i = 0; i < kMost; ++i) {
     look_at_states();
     const OutlinePair pair = event.meet ? *event.meet : held_[event.down->first];
-    const Outline &a = finder_.outlines()[pair.a], &b = finder_.outlines()[pair.b];
-    const StepPaths::Placed at_a{{states_[a.body].position, rotation_of(states_[a.body].angle)},
-                                 {states_[a.body].velocity, states_[a.body].angular_velocity}};
-    const StepPaths::Placed at_b{{states_[b.body].position, rotation_of(states_[b.body].angle)},
-                                 {states_[b.body].velocity, states_[b.body].angular_velocity}};
+    const FeatureShape &a = finder_.outlines()[pair.a], &b = finder_.outlines()[pair.b];
+    const StepMotionBounds::Placed at_a{{states_[a.body].position, rotation_of(states_[a.body].angle)},
+                                        {states_[a.body].velocity, states_[a.body].angular_velocity}};
+    const StepMotionBounds::Placed at_b{{states_[b.body].position, rotation_of(states_[b.body].angle)},
+                                        {states_[b.body].velocity, states_[b.body].angular_velocity}};
     const Feature feature =
         event.meet ? touching_features(a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist, near_)[0]
                    : event.down->second;
@@ -276,7 +278,7 @@ void Contacts::refine_limit(std::size_t limit) {
 void Contacts::save(SnapshotWriter& out) const {
   out.put(static_cast<std::uint64_t>(held_.size()));
   for (std::size_t p = 0; p < held_.size(); ++p) {
-    const ActivePatch& patch = equations_.held()[p];
+    const ActiveContact& patch = equations_.held()[p];
     out.put(held_[p]);
     out.put(patch.friction);
     out.put(patch.mode);
@@ -302,9 +304,9 @@ void Contacts::restore(SnapshotReader& in) {
     in.expect(read.a < finder_.outlines().size() && read.b < finder_.outlines().size());
     return read;
   };
-  std::vector<ActivePatch> patches(in.count(sizeof(OutlinePair)));
+  std::vector<ActiveContact> patches(in.count(sizeof(OutlinePair)));
   held_.clear();
-  for (ActivePatch& patch : patches) {
+  for (ActiveContact& patch : patches) {
     held_.push_back(pair());
     patch.a = &finder_.outlines()[held_.back().a];
     patch.b = &finder_.outlines()[held_.back().b];

@@ -25,7 +25,7 @@ constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
-                   SmoothMotion& smooth)
+                   EventFreeIntegrator& smooth)
     : flight_(flight),
       equations_(equations),
       smooth_(smooth),
@@ -64,7 +64,7 @@ void Contacts::refuse_overlaps(double share) {
   std::vector<OutlinePair> passing;
   double deepest = allowed;
   std::string subject;
-  for (const Touch& touch : finder_.touches(states_, near, passing)) {
+  for (const ContactCandidate& touch : finder_.touches(states_, near, passing)) {
     for (int i = 0; i < touch.count; ++i) {
       const double depth = -touch.rows[i].normal.residual;
       if (!(depth > deepest)) continue;
@@ -95,7 +95,7 @@ void Contacts::settle() {
   look_at_states();
   near_ = kTouching * finder_.near(states_);
   for (int round = 0;; ++round) {
-    std::vector<Touch> touches = finder_.touches(states_, near_, passing_);
+    std::vector<ContactCandidate> touches = finder_.touches(states_, near_, passing_);
     stops_.find(now, smooth_.state().value(), finder_, states_, touches);
     if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion continues as before
       touching_.clear();
@@ -114,11 +114,11 @@ void Contacts::settle() {
   settled_ = true;
 }
 
-bool Contacts::is_held(const Touch& touch, int point) const {
+bool Contacts::is_held(const ContactCandidate& touch, int point) const {
   if (touch.stop) return false;
   for (std::size_t p = 0; p < held_.size(); ++p) {
     if (held_[p] != touch.pair) continue;
-    const ActivePatch& patch = equations_.held()[p];
+    const ActiveContact& patch = equations_.held()[p];
     for (int i = 0; i < patch.count; ++i) {
       if (patch.features[i] == touch.features[point]) return true;
     }
@@ -138,7 +138,7 @@ std::vector<Twist<double>> Contacts::accelerations() {
 
 /// Returns how fast each point's gap accelerates towards closing: minus the gap's second derivative, under
 /// the held contacts; without contacts for the points that are held themselves.
-std::vector<std::array<double, 2>> Contacts::pulls(std::span<const Touch> touches) {
+std::vector<std::array<double, 2>> Contacts::pulls(std::span<const ContactCandidate> touches) {
   std::vector<std::array<double, 2>> result(touches.size());
   const std::vector<Twist<double>> with = accelerations();
   const std::span<const Twist<double>> without =
@@ -154,8 +154,8 @@ std::vector<std::array<double, 2>> Contacts::pulls(std::span<const Touch> touche
   return result;
 }
 
-void Contacts::resolve_impacts(std::vector<Touch>& touches) {
-  const bool closes = std::any_of(touches.begin(), touches.end(), [](const Touch& touch) {
+void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
+  const bool closes = std::any_of(touches.begin(), touches.end(), [](const ContactCandidate& touch) {
     for (int i = 0; i < touch.count; ++i) {
       if (touch.closing[i] < -touch.quiet) return true;
     }
@@ -164,16 +164,17 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
   if (!closes) return;
   const double now = smooth_.time();
   const std::vector<std::array<double, 2>> pull = pulls(touches);
-  const std::vector<Touch> before = touches;
+  const std::vector<ContactCandidate> before = touches;
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
   double limit = 0;
   bool ends = false;
-  const auto restitution = [&](const Touch& touch, int point) {
+  const auto restitution = [&](const ContactCandidate& touch, int point) {
     const double speed = -touch.closing[point];
     const double e = speed >= finder_.rules().restitution_threshold ? touch.restitution : 0;
     if (e == 0 || e == 1) return e;
-    const auto place = std::find_if(before.begin(), before.end(),
-                                    [&](const Touch& t) { return !t.stop && t.pair == touch.pair; });
+    const auto place = std::find_if(before.begin(), before.end(), [&](const ContactCandidate& t) {
+      return !t.stop && t.pair == touch.pair;
+    });
     const double drawn =
         pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
     if (!(drawn > 0)) return e;
@@ -192,7 +193,7 @@ void Contacts::resolve_impacts(std::vector<Touch>& touches) {
 
 /// Decides which points with zero gap rate have forces, by Coulomb's law for the accelerations, and which
 /// motors at their speed hold it.
-Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
+Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   const double now = smooth_.time();
   const std::span<const double> y = smooth_.state().value();
   const std::vector<Brake> brakes = stops_.push(now, y, states_, touches);
@@ -205,7 +206,7 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
     p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
   }
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
-    const Touch& touch = touches[p.touches[q]];
+    const ContactCandidate& touch = touches[p.touches[q]];
     if (std::abs(touch.slip) > touch.quiet) p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
   }
   if (p.problem.size() > 0 &&
@@ -223,7 +224,7 @@ Contacts::Decision Contacts::decide(std::vector<Touch>& touches) {
   if (solution.ambiguous) count(ContactEvent::Paradox, now);
   activate(touches, p, solution);
   act_on_stops(touches, brakes, p, solution);
-  return end_clatter(touches) ? Decision::Again : Decision::Done;
+  return resolve_zeno_contacts(touches) ? Decision::Again : Decision::Done;
 }
 
 /// The digits of other forces would be lost beside motors that are far stronger: their bounds are reduced as
@@ -240,7 +241,7 @@ CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> 
   const std::size_t first_patch = problem.patches.size() - brakes.size();
   for (;;) {
     strength *= kStronger;
-    bool weaker = false, gives_way = false;
+    bool weaker = false, is_dynamic = false;
     for (std::size_t b = 0; b < brakes.size(); ++b) {
       double& bound = problem.patches[first_patch + b].bound;
       bound = strength > 0 ? std::min(brakes[b].bound, strength) : brakes[b].bound;
@@ -248,17 +249,17 @@ CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> 
     }
     const CoulombSolution solution = solve_coulomb(problem);
     for (std::size_t b = 0; b < brakes.size(); ++b)
-      gives_way = gives_way || (solution.mode[first_patch + b] != 0 &&
-                                problem.patches[first_patch + b].bound < brakes[b].bound);
-    if (!weaker || (solution.solved && !gives_way)) return solution;
+      is_dynamic = is_dynamic || (solution.mode[first_patch + b] != 0 &&
+                                  problem.patches[first_patch + b].bound < brakes[b].bound);
+    if (!weaker || (solution.solved && !is_dynamic)) return solution;
   }
 }
 
-void Contacts::act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+void Contacts::act_on_stops(std::span<const ContactCandidate> touches, std::span<const Brake> brakes,
                             const TouchProblem& p, const CoulombSolution& solution) {
   double most = 0;
   for (std::size_t i = 0; i < p.problem.points(); ++i) {
-    const Touch& touch = touches[p.touch_of[i]];
+    const ContactCandidate& touch = touches[p.touch_of[i]];
     if (!touch.stop || !solution.pushes[i]) continue;
     stops_.hold(*touch.stop);
     most = std::max(most, solution.force[i]);
@@ -271,21 +272,21 @@ void Contacts::act_on_stops(std::span<const Touch> touches, std::span<const Brak
   stops_.act(most);
 }
 
-void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
+void Contacts::activate(std::span<const ContactCandidate> touches, const TouchProblem& p,
                         const CoulombSolution& solution) {
-  std::vector<ActivePatch> patches;
+  std::vector<ActiveContact> patches;
   const std::vector<OutlinePair> before = held_;
   held_.clear();
   force_scale_ = 0;
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
-    const Touch& touch = touches[p.touches[q]];
+    const ContactCandidate& touch = touches[p.touches[q]];
     if (touch.stop) continue;
-    ActivePatch patch{&finder_.outlines()[touch.pair.a],
-                      &finder_.outlines()[touch.pair.b],
-                      touch.friction,
-                      solution.mode[q],
-                      0,
-                      {}};
+    ActiveContact patch{&finder_.outlines()[touch.pair.a],
+                        &finder_.outlines()[touch.pair.b],
+                        touch.friction,
+                        solution.mode[q],
+                        0,
+                        {}};
     for (std::size_t i = 0; i < p.problem.points(); ++i) {
       if (p.touch_of[i] != p.touches[q] || !solution.pushes[i]) continue;
       patch.features[patch.count++] = touch.features[p.index_of[i]];
@@ -298,7 +299,7 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
       count(ContactEvent::Hold, smooth_.time());
   }
   touching_.clear();
-  for (const Touch& touch : touches) {
+  for (const ContactCandidate& touch : touches) {
     if (!touch.stop && !std::binary_search(held_.begin(), held_.end(), touch.pair))
       touching_.push_back(touch.pair);
   }
@@ -307,20 +308,22 @@ void Contacts::activate(std::span<const Touch> touches, const TouchProblem& p,
 
 /// Closes points that open but would return at once, as with corners that touch alternately. Returns true if
 /// there were any.
-bool Contacts::end_clatter(std::vector<Touch>& touches) {
+bool Contacts::resolve_zeno_contacts(std::vector<ContactCandidate>& touches) {
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
-  const auto opens = [](const Touch& touch, int i) { return !touch.stop && touch.closing[i] > touch.quiet; };
+  const auto opens = [](const ContactCandidate& touch, int i) {
+    return !touch.stop && touch.closing[i] > touch.quiet;
+  };
   bool any = false;
-  for (const Touch& touch : touches) {
+  for (const ContactCandidate& touch : touches) {
     for (int i = 0; i < touch.count; ++i) any = any || opens(touch, i);
   }
   if (!any) return false;
   const std::vector<Twist<double>> now = accelerations();
-  std::vector<ActivePatch> closed;
+  std::vector<ActiveContact> closed;
   any = false;
-  for (const Touch& touch : touches) {
+  for (const ContactCandidate& touch : touches) {
     if (touch.stop) continue;
-    ActivePatch patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
+    ActiveContact patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
     for (int i = 0; i < touch.count; ++i) {
       const Row<double>& row = touch.rows[i].normal;
       const double pull = -(rate_along(row, now) + row.bias_acceleration);

@@ -10,12 +10,12 @@
 #include "engine/driver/snapshot.h"
 #include "engine/precise/dynamics/flight.h"
 #include "engine/precise/dynamics/motion.h"
+#include "engine/precise/event_search/conservative_advancement.h"
 #include "engine/precise/event_search/events.h"
-#include "engine/precise/event_search/paths.h"
-#include "engine/precise/event_search/search.h"
+#include "engine/precise/event_search/motion_bounds.h"
+#include "engine/precise/events/contact_candidate.h"
 #include "engine/precise/events/impacts.h"
 #include "engine/precise/events/stops.h"
-#include "engine/precise/events/touch.h"
 #include "engine/precise/integration/smooth.h"
 
 namespace plumb::precise {
@@ -28,7 +28,7 @@ namespace plumb::precise {
 class Contacts {
  public:
   Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
-           SmoothMotion& smooth);
+           EventFreeIntegrator& smooth);
 
   /// Returns true if no shapes may touch, and joints have neither limits nor motors.
   bool empty() const { return finder_.outlines().empty() && stops_.empty(); }
@@ -74,20 +74,21 @@ class Contacts {
   void count(ContactEvent event, double time, std::int64_t times = 1);
 
   // settle
-  void resolve_impacts(std::vector<Touch>& touches);
-  std::vector<std::array<double, 2>> pulls(std::span<const Touch> touches);
-  bool is_held(const Touch& touch, int point) const;
+  void resolve_impacts(std::vector<ContactCandidate>& touches);
+  std::vector<std::array<double, 2>> pulls(std::span<const ContactCandidate> touches);
+  bool is_held(const ContactCandidate& touch, int point) const;
   enum class Decision { Done, Again };
-  Decision decide(std::vector<Touch>& touches);
+  Decision decide(std::vector<ContactCandidate>& touches);
   CoulombSolution solve(CoulombProblem& problem, std::span<const Brake> brakes);
-  void activate(std::span<const Touch> touches, const TouchProblem& problem, const CoulombSolution& solution);
-  void act_on_stops(std::span<const Touch> touches, std::span<const Brake> brakes,
+  void activate(std::span<const ContactCandidate> touches, const TouchProblem& problem,
+                const CoulombSolution& solution);
+  void act_on_stops(std::span<const ContactCandidate> touches, std::span<const Brake> brakes,
                     const TouchProblem& problem, const CoulombSolution& solution);
-  bool end_clatter(std::vector<Touch>& touches);
+  bool resolve_zeno_contacts(std::vector<ContactCandidate>& touches);
   std::vector<Twist<double>> accelerations();
 
   // stop
-  std::optional<Event> first_meeting(double until);
+  std::optional<Event> first_toi_event(double until);
   std::optional<Event> first_change(double until);
   int samples_until(double until) const;
   void list_watched();
@@ -100,12 +101,12 @@ class Contacts {
 
   const Flight& flight_;
   EquationsOfMotion& equations_;
-  SmoothMotion& smooth_;
+  EventFreeIntegrator& smooth_;
   TouchFinder finder_;
   ImpactLaw law_;
   Stops stops_;
-  StepPaths paths_;
-  ContactSearch search_;
+  StepMotionBounds paths_;
+  ConservativeAdvancement search_;
   std::vector<BodyState> states_;  // by body, at the motion's time
   double near_ = 0;                // m: gaps below it count as touching
   double fastest_force_ = 0;       // rad/s, the largest of time-periodic forces

@@ -13,16 +13,16 @@ namespace {
 /// series: approach that remains is rounding, and is resolved together, with restitution only where it is 1.
 constexpr std::int64_t kMostInSequence = 20000;
 
-bool closes(const Touch& touch) {
+bool closes(const ContactCandidate& touch) {
   for (int i = 0; i < touch.count; ++i) {
     if (touch.closing[i] < -touch.quiet) return true;
   }
   return false;
 }
 
-bool closes(const Touch& touch, int point) { return touch.closing[point] < -touch.quiet; }
+bool closes(const ContactCandidate& touch, int point) { return touch.closing[point] < -touch.quiet; }
 
-double fastest(const Touch& touch) {
+double fastest(const ContactCandidate& touch) {
   double least = 0;
   for (int i = 0; i < touch.count; ++i) least = std::min(least, touch.closing[i]);
   return least;
@@ -30,7 +30,7 @@ double fastest(const Touch& touch) {
 
 }  // namespace
 
-TouchProblem TouchProblem::of(std::span<const Touch> touches,
+TouchProblem TouchProblem::of(std::span<const ContactCandidate> touches,
                               const std::function<bool(std::size_t, int)>& take,
                               std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
                               std::span<const double> y) {
@@ -62,27 +62,27 @@ TouchProblem TouchProblem::of(std::span<const Touch> touches,
 }
 
 void ImpactLaw::apply(const ContactResponse& response, std::span<const double> impulses,
-                      std::span<Touch> touches, std::span<BodyState> states, Compensated& y) {
+                      std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y) {
   equations_.push(response, impulses, y);
   for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
     states[equations_.bodies()[slot]] = EquationsOfMotion::state(y.value(), slot);
   }
-  for (Touch& touch : touches) finder_.measure(states, touch);
+  for (ContactCandidate& touch : touches) finder_.measure(states, touch);
 }
 
-std::string ImpactLaw::subject(const Touch& touch) const {
+std::string ImpactLaw::subject(const ContactCandidate& touch) const {
   if (touch.stop) return "joint '" + equations_.kind_joints().stops()[*touch.stop].joint + "'";
   return "bodies '" + equations_.name(finder_.outlines()[touch.pair.a].body) + "' and '" +
          equations_.name(finder_.outlines()[touch.pair.b].body) + "'";
 }
 
 void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>& takes_part,
-                       std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+                       std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y,
                        const Restitution& restitution) {
   TouchProblem p = TouchProblem::of(touches, takes_part, {}, equations_, time, y.value());
   const std::size_t n = p.problem.points();
   for (std::size_t i = 0; i < n; ++i) {
-    const Touch& touch = touches[p.touch_of[i]];
+    const ContactCandidate& touch = touches[p.touch_of[i]];
     const int index = static_cast<int>(p.index_of[i]);
     const double closing = touch.closing[index];
     const double wanted = closing < 0 ? -restitution(touch, index) * closing : 0;
@@ -97,12 +97,12 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
   apply(p.response, solution.force, touches, states, y);
 }
 
-std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states,
-                                Compensated& y, const Restitution& restitution) {
+std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touches,
+                                std::span<BodyState> states, Compensated& y, const Restitution& restitution) {
   std::int64_t count = 0;
   const bool together = finder_.rules().simultaneous == Simultaneous::Together;
   const auto all = [](std::size_t, int) { return true; };
-  const auto to_rest = [&](const Touch& touch, int point) {
+  const auto to_rest = [&](const ContactCandidate& touch, int point) {
     const double e = restitution(touch, point);
     return e < 1 ? 0 : e;
   };
@@ -119,7 +119,7 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
     }
     const bool at_limit = count >= kMostInSequence;
     if (together || at_limit) {
-      for (const Touch& touch : touches) count += closes(touch) ? 1 : 0;
+      for (const ContactCandidate& touch : touches) count += closes(touch) ? 1 : 0;
       if (at_limit) {
         strike(time, all, touches, states, y, to_rest);
       } else {
@@ -130,7 +130,7 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
     ++count;
     // Corners of one shape that approach together are one impact. If one of them opens, it is resolved after
     // the other, and so on in turn: the limit of corners that touch at slightly different times.
-    const Touch& struck = touches[worst];
+    const ContactCandidate& struck = touches[worst];
     bool both = true;
     for (int i = 0; i < struck.count; ++i) both = both && closes(struck, i);
     const auto part = [&](std::size_t t, int point) {
@@ -140,13 +140,14 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<Touch>& touches, std::s
   }
 }
 
-bool ImpactLaw::jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y) {
+bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::span<BodyState> states,
+                     Compensated& y) {
   std::size_t worst = touches.size();
   int worst_point = 0, worst_way = 0;
   double least = 0, response[4] = {};
   ContactResponse found;
   for (std::size_t t = 0; t < touches.size(); ++t) {
-    const Touch& touch = touches[t];
+    const ContactCandidate& touch = touches[t];
     if (std::abs(touch.slip) <= touch.quiet || touch.friction == 0) continue;
     const int way = touch.slip > 0 ? 1 : -1;
     for (int i = 0; i < touch.count; ++i) {
@@ -164,7 +165,7 @@ bool ImpactLaw::jamb(double time, std::vector<Touch>& touches, std::span<BodySta
     }
   }
   if (worst == touches.size()) return false;
-  const Touch& touch = touches[worst];
+  const ContactCandidate& touch = touches[worst];
   const double nn = response[0], nt = response[1], tn = response[2], tt = response[3], mu = touch.friction;
   // Until slip ends: J_t = -mu J_n.
   const double slowing = tn - worst_way * mu * tt;

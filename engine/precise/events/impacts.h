@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/precise/dynamics/motion.h"
+#include "engine/precise/events/contact_candidate.h"
 #include "engine/precise/events/coulomb.h"
-#include "engine/precise/events/touch.h"
 
 namespace plumb::precise {
 
@@ -27,9 +27,9 @@ struct TouchProblem {
   CoulombProblem problem;  ///< with the response; the caller fills the rates
 
   /// Builds the problem of the points that `take` selects.
-  static TouchProblem of(std::span<const Touch> touches, const std::function<bool(std::size_t, int)>& take,
-                         std::span<const Brake> brakes, EquationsOfMotion& equations, double time,
-                         std::span<const double> y);
+  static TouchProblem of(std::span<const ContactCandidate> touches,
+                         const std::function<bool(std::size_t, int)>& take, std::span<const Brake> brakes,
+                         EquationsOfMotion& equations, double time, std::span<const double> y);
 };
 
 /// Impacts at an instant: Newton's restitution and Coulomb's friction for impulses. For a touch with gap
@@ -47,25 +47,25 @@ class ImpactLaw {
       : finder_(finder), equations_(equations) {}
 
   /// Restitution by touch and point; the caller may set it to zero where bouncing ends.
-  using Restitution = std::function<double(const Touch& touch, int point)>;
+  using Restitution = std::function<double(const ContactCandidate& touch, int point)>;
 
   /// Resolves all approaching touches. `states` are by body of the scene, of all bodies with outlines; their
   /// velocities change with `y`. Returns the number of impacts; throws `Error` (Run) if nothing can move.
-  std::int64_t resolve(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y,
-                       const Restitution& restitution);
+  std::int64_t resolve(double time, std::vector<ContactCandidate>& touches, std::span<BodyState> states,
+                       Compensated& y, const Restitution& restitution);
 
   /// Painleve's paradox: a slipping touch that no finite force holds. A jamming impulse stops its slip while
   /// it pushes, then sticks (or slips back) until the gap's rate is zero again. Returns true if one was
   /// found.
-  bool jamb(double time, std::vector<Touch>& touches, std::span<BodyState> states, Compensated& y);
+  bool jamb(double time, std::vector<ContactCandidate>& touches, std::span<BodyState> states, Compensated& y);
 
  private:
   void strike(double time, const std::function<bool(std::size_t touch, int point)>& takes_part,
-              std::span<Touch> touches, std::span<BodyState> states, Compensated& y,
+              std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y,
               const Restitution& restitution);
-  std::string subject(const Touch& touch) const;
-  void apply(const ContactResponse& response, std::span<const double> impulses, std::span<Touch> touches,
-             std::span<BodyState> states, Compensated& y);
+  std::string subject(const ContactCandidate& touch) const;
+  void apply(const ContactResponse& response, std::span<const double> impulses,
+             std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y);
 
   const TouchFinder& finder_;
   EquationsOfMotion& equations_;

@@ -23,14 +23,14 @@ Stops::Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equation
       sample_(equations.dimension()) {}
 
 void Stops::find(double time, std::span<const double> y, const TouchFinder& finder,
-                 std::span<const BodyState> states, std::vector<Touch>& touches) {
+                 std::span<const BodyState> states, std::vector<ContactCandidate>& touches) {
   if (empty()) return;
   const std::span<const Row<double>> rows = equations_.stop_rows(time, y);
   rows_.assign(rows.begin(), rows.end());
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     const bool at_end = rows_[k].residual <= 8 * kNear * std::max(length_, 1.0) || met_ == k;
     if (stop(k).role != RowRole::Limit || !at_end) continue;
-    Touch touch;
+    ContactCandidate touch;
     touch.stop = k;
     touch.count = 1;
     touch.rows[0].normal = rows_[k];
@@ -46,11 +46,11 @@ double Stops::lacking(std::size_t k, std::span<const Twist<double>> twists) cons
 }
 
 std::vector<Brake> Stops::push(double time, std::span<const double> y, std::span<const BodyState> states,
-                               std::vector<Touch>& touches) {
+                               std::vector<ContactCandidate>& touches) {
   if (empty()) return {};
   const std::span<const Row<double>> rows = equations_.stop_rows(time, y);
   rows_.assign(rows.begin(), rows.end());
-  for (Touch& touch : touches) {
+  for (ContactCandidate& touch : touches) {
     if (touch.stop) touch.rows[0].normal = rows_[*touch.stop];
   }
   twists_.clear();
@@ -120,25 +120,25 @@ Stops::Approach Stops::approach(std::size_t limit, double time, std::span<const 
 }
 
 /// Returns a time from `time` on during which a limit is certainly not reached.
-double Stops::safe_step(std::size_t k, const Approach& now, const StepPaths& paths, double time,
+double Stops::safe_step(std::size_t k, const Approach& now, const StepMotionBounds& paths, double time,
                         double until) const {
-  const KindJoints::Stop& s = stop(k);
-  const StepPaths::Turning turn_a = paths.turning_of(s.a), turn_b = paths.turning_of(s.b);
+  const GeneralJoints::Stop& s = stop(k);
+  const StepMotionBounds::Turning turn_a = paths.turning_of(s.a), turn_b = paths.turning_of(s.b);
   const double f = now.gap + tolerance(k);
-  if (s.kind == KindJoints::Stop::Kind::Turn)
+  if (s.kind == GeneralJoints::Stop::Kind::Turn)
     return lasts(f, now.rate, turn_a.acceleration + turn_b.acceleration);
   const auto length = [](Vec2d v) { return std::sqrt(length_squared(v)); };
-  const auto swing = [](const StepPaths::Turning& turn) {
+  const auto swing = [](const StepMotionBounds::Turning& turn) {
     return turn.acceleration + turn.speed * turn.speed;
   };
-  const StepPaths::Relative relative = paths.relative_of(s.a, s.b);
-  const StepPaths::Placed a = paths.placed(s.a, time), b = paths.placed(s.b, time);
+  const StepMotionBounds::Relative relative = paths.relative_of(s.a, s.b);
+  const StepMotionBounds::Placed a = paths.placed(s.a, time), b = paths.placed(s.b, time);
   const double reach_a = length(s.anchor_a), reach_b = length(s.anchor_b);
   const double apart = length((b.pose.position + b.pose.rotation * s.anchor_b) -
                               (a.pose.position + a.pose.rotation * s.anchor_a));
   const double speed = relative.speed + turn_a.speed * reach_a + turn_b.speed * reach_b;
   const double acceleration = relative.acceleration + swing(turn_a) * reach_a + swing(turn_b) * reach_b;
-  if (s.kind == KindJoints::Stop::Kind::Line) {
+  if (s.kind == GeneralJoints::Stop::Kind::Line) {
     // C = n . d, n turning with a: C'' = n . d'' + 2 w t . d' + (dw/dt) t . d - w^2 n . d.
     const double far = apart + (until - time) * speed;
     return lasts(f, now.rate, acceleration + 2 * turn_a.speed * speed + swing(turn_a) * far);
@@ -150,8 +150,8 @@ double Stops::safe_step(std::size_t k, const Approach& now, const StepPaths& pat
   return std::max(f / speed, std::min(bent, half));
 }
 
-std::optional<double> Stops::first_time(std::size_t k, const StepPaths& paths, SmoothMotion& smooth,
-                                        double until) {
+std::optional<double> Stops::first_time(std::size_t k, const StepMotionBounds& paths,
+                                        EventFreeIntegrator& smooth, double until) {
   constexpr double kShortest = 1.0 / 4096;
   const double start = smooth.start(), h = smooth.time() - start, there = 1e-3 * tolerance(k);
   const auto look = [&](double time) {
@@ -175,7 +175,8 @@ std::optional<double> Stops::first_time(std::size_t k, const StepPaths& paths, S
   return now.gap + tolerance(k) <= there ? std::optional(until) : std::nullopt;
 }
 
-std::optional<Stops::Met> Stops::first_met(const StepPaths& paths, SmoothMotion& smooth, double until) {
+std::optional<Stops::Met> Stops::first_met(const StepMotionBounds& paths, EventFreeIntegrator& smooth,
+                                           double until) {
   std::optional<Met> first;
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     if (!is_free_limit(k)) continue;

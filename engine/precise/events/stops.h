@@ -7,9 +7,9 @@
 
 #include "engine/driver/snapshot.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/event_search/paths.h"
+#include "engine/precise/event_search/motion_bounds.h"
+#include "engine/precise/events/contact_candidate.h"
 #include "engine/precise/events/impacts.h"
-#include "engine/precise/events/touch.h"
 #include "engine/precise/integration/smooth.h"
 
 namespace plumb::precise {
@@ -26,12 +26,12 @@ class Stops {
   /// Computes the rows at a state, with the bodies' velocities; appends the limits that are reached there to
   /// `touches`.
   void find(double time, std::span<const double> y, const TouchFinder& finder,
-            std::span<const BodyState> states, std::vector<Touch>& touches);
+            std::span<const BodyState> states, std::vector<ContactCandidate>& touches);
 
   /// After impacts: updates the rows, including those of `touches`. Motors off their speed push from now on;
   /// returns those at their speed.
   std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
-                          std::vector<Touch>& touches);
+                          std::vector<ContactCandidate>& touches);
 
   /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
   /// `force` is the largest of their forces.
@@ -57,7 +57,7 @@ class Stops {
     double time = 0;
     std::size_t limit = 0;
   };
-  std::optional<Met> first_met(const StepPaths& paths, SmoothMotion& smooth, double until);
+  std::optional<Met> first_met(const StepMotionBounds& paths, EventFreeIntegrator& smooth, double until);
 
   /// The gap of a limit at a state, and its rate.
   struct Approach {
@@ -70,10 +70,10 @@ class Stops {
 
  private:
   using Mode = EquationsOfMotion::StopMode;
-  const KindJoints::Stop& stop(std::size_t k) const { return equations_.kind_joints().stops()[k]; }
-  std::optional<double> first_time(std::size_t limit, const StepPaths& paths, SmoothMotion& smooth,
-                                   double until);
-  double safe_step(std::size_t limit, const Approach& now, const StepPaths& paths, double time,
+  const GeneralJoints::Stop& stop(std::size_t k) const { return equations_.kind_joints().stops()[k]; }
+  std::optional<double> first_time(std::size_t limit, const StepMotionBounds& paths,
+                                   EventFreeIntegrator& smooth, double until);
+  double safe_step(std::size_t limit, const Approach& now, const StepMotionBounds& paths, double time,
                    double until) const;
   double lacking(std::size_t motor, std::span<const Twist<double>> twists) const;
 

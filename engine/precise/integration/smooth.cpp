@@ -25,8 +25,8 @@ constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise,
-                           EquationsOfMotion& equations)
+EventFreeIntegrator::EventFreeIntegrator(const Scene& scene, const Parts& parts, const Precise& precise,
+                                         EquationsOfMotion& equations)
     : tolerance_(precise.tolerance / kSteps),
       scales_(scales_of(scene, parts)),
       longest_step_(kLongestStep * scales_.length / scales_.speed),
@@ -56,7 +56,7 @@ SmoothMotion::SmoothMotion(const Scene& scene, const Parts& parts, const Precise
 }
 
 /// Makes the end of the last step the start of the next.
-void SmoothMotion::begin() {
+void EventFreeIntegrator::begin() {
   equations_.set_window(time_, time_);  // forces switched on now stay on to the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
@@ -72,7 +72,7 @@ void SmoothMotion::begin() {
   y0_ = y_;
 }
 
-double SmoothMotion::step(double limit) {
+double EventFreeIntegrator::step(double limit) {
   limit = std::min(limit, next_switch());
   if (y_.size() == 0) {
     start_ = time_;
@@ -99,7 +99,7 @@ double SmoothMotion::step(double limit) {
   for (;;) {
     const double end = end_of_step(limit);
     const double h = end - start_;
-    if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) blame_fastest();
+    if (!(h > 4 * std::numeric_limits<double>::epsilon() * start_) && end < limit) throw_step_underflow();
     const double error = try_step(end, again);
     if (error <= 1) {
       last_implicit_ = stiff_;
@@ -112,12 +112,12 @@ double SmoothMotion::step(double limit) {
     again = true;
     ++rejected_;
     proposed_step_ = h * (stiff_ ? StepControl::sixth_order(error) : control_.after_rejection(error));
-    if (proposed_step_ < std::numeric_limits<double>::min()) blame_fastest();
+    if (proposed_step_ < std::numeric_limits<double>::min()) throw_step_underflow();
   }
 }
 
 /// Under constant forces alone a step is a parabola of any length, with constant accelerations.
-void SmoothMotion::fly(double end) {
+void EventFreeIntegrator::fly(double end) {
   const double h = end - start_;
   const std::span<const double> rate = rate_at_start();
   const std::span<double> last = all_.method.last_rate();
@@ -140,7 +140,7 @@ void SmoothMotion::fly(double end) {
 
 /// Returns the error of a step to `end`; up to 1 it may be accepted. `again`: first step, or after a failed
 /// one.
-double SmoothMotion::try_step(double end, bool again) {
+double EventFreeIntegrator::try_step(double end, bool again) {
   const double h = end - start_;
   if (!stiff_) {
     now().method.step(now().flow, start_, h, seen(y0_));
@@ -154,7 +154,7 @@ double SmoothMotion::try_step(double end, bool again) {
 }
 
 /// Accepts the last step, of length h.
-void SmoothMotion::accept(double h, double error) {
+void EventFreeIntegrator::accept(double h, double error) {
   const double factor = stiff_ ? StepControl::sixth_order(error) : control_.after_acceptance(error);
   const double next = std::min(h * factor, longest_step_);
   proposed_step_ = h < proposed_step_ ? std::max(next, proposed_step_) : next;
@@ -165,7 +165,7 @@ void SmoothMotion::accept(double h, double error) {
 
 /// Returns the end of the proposed step, or of equal parts of the time to `limit`, which avoids a short last
 /// step.
-double SmoothMotion::end_of_step(double limit) const {
+double EventFreeIntegrator::end_of_step(double limit) const {
   const double left = limit - start_;
   const double parts = std::ceil(left / proposed_step_);
   if (parts <= 1) return limit;
@@ -173,7 +173,7 @@ double SmoothMotion::end_of_step(double limit) const {
 }
 
 /// Sets y = y0 + increment, with joints closed.
-void SmoothMotion::take_increment(double end) {
+void EventFreeIntegrator::take_increment(double end) {
   y_ = y0_;
   const std::span<const double> increment =
       last_implicit_ ? implicit_.increment() : last().method.increment();
@@ -187,11 +187,11 @@ void SmoothMotion::take_increment(double end) {
   polynomial_known_ = rate_known_ = false;
 }
 
-std::span<const double> SmoothMotion::seen(const Compensated& y) {
+std::span<const double> EventFreeIntegrator::seen(const Compensated& y) {
   return in_angles() ? hanging_.taken_from(y.value()) : y.value();
 }
 
-void SmoothMotion::project(double time, Compensated& y) {
+void EventFreeIntegrator::project(double time, Compensated& y) {
   const Clock clock(equations_.cost.on, projection_nanoseconds);
   if (hanging_.empty()) {
     equations_.project(time, y);
@@ -200,7 +200,7 @@ void SmoothMotion::project(double time, Compensated& y) {
   }
 }
 
-std::span<const double> SmoothMotion::rate_at_end() {
+std::span<const double> EventFreeIntegrator::rate_at_end() {
   if (!rate_known_) {
     now().flow.rate(time_, seen(y_), now().method.last_rate());
     now().method.set_last_power(now().flow.power());
@@ -209,14 +209,14 @@ std::span<const double> SmoothMotion::rate_at_end() {
   return now().method.last_rate();
 }
 
-std::optional<double> SmoothMotion::work() const {
+std::optional<double> EventFreeIntegrator::work() const {
   if (method_ == MotionMethod::Symplectic) return std::nullopt;
   if (!equations_.has_forces()) return 0.0;
   if (last_implicit_ || last_flew_) return std::nullopt;
   return last().method.work(time_ - start_);
 }
 
-const StepPolynomial& SmoothMotion::polynomial() {
+const StepPolynomial& EventFreeIntegrator::polynomial() {
   if (!polynomial_known_) {
     if (last_implicit_) {
       implicit_.polynomial(all_.polynomial);
@@ -229,7 +229,7 @@ const StepPolynomial& SmoothMotion::polynomial() {
   return last().polynomial;
 }
 
-void SmoothMotion::at(double time, bool project_too, Compensated& out) {
+void EventFreeIntegrator::at(double time, bool project_too, Compensated& out) {
   if (time == time_) {
     out = y_;
     return;
@@ -258,14 +258,14 @@ void SmoothMotion::at(double time, bool project_too, Compensated& out) {
   equations_.hold_only_above(0, 0);
 }
 
-void SmoothMotion::cut(double time) {
+void EventFreeIntegrator::cut(double time) {
   if (y_.size() > 0 && flies()) {
     fly(time);
   } else if (y_.size() > 0 && last_implicit_) {
     implicit_.forget();
     const bool found =
         implicit_.step(stiff_motion_, start_, time - start_, y0_.value(), rate_at_start(), all_.error_scale);
-    if (!found) blame_fastest();
+    if (!found) throw_step_underflow();
     take_increment(time);
   } else if (y_.size() > 0) {
     now().method.step(flow_of_last(), start_, time - start_, seen(y0_));
@@ -274,7 +274,7 @@ void SmoothMotion::cut(double time) {
   time_ = time;
 }
 
-void SmoothMotion::rewind(double time) {
+void EventFreeIntegrator::rewind(double time) {
   if (time == time_) return;
   Compensated y(y_.size());
   at(time, true, y);
@@ -283,7 +283,7 @@ void SmoothMotion::rewind(double time) {
   restart();
 }
 
-void SmoothMotion::restart() {
+void EventFreeIntegrator::restart() {
   start_ = time_;
   y0_ = y_;
   polynomial_known_ = rate_known_ = false;
@@ -298,7 +298,7 @@ void SmoothMotion::restart() {
   }
 }
 
-void SmoothMotion::start_anew() {
+void EventFreeIntegrator::start_anew() {
   equations_.strike_hinges(time_, y_);
   project(time_, y_);
   control_.reset();
@@ -306,7 +306,7 @@ void SmoothMotion::start_anew() {
   restart();
 }
 
-double SmoothMotion::next_switch() const {
+double EventFreeIntegrator::next_switch() const {
   const auto next = std::upper_bound(switches_.begin(), switches_.end(), time_);
   return next == switches_.end() ? std::numeric_limits<double>::infinity() : *next;
 }

@@ -27,9 +27,10 @@ namespace plumb::precise {
 /// Integrates the integrated bodies between events: steps whose error meets the tolerance, and the state at
 /// any time within the last one. The caller handles events: it makes a step, locates events inside it, and
 /// ends it at one by `cut`; after a jump it must call `restart`.
-class SmoothMotion {
+class EventFreeIntegrator {
  public:
-  SmoothMotion(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);
+  EventFreeIntegrator(const Scene& scene, const Parts& parts, const Precise& precise,
+                      EquationsOfMotion& equations);
 
   double time() const { return time_; }                ///< s: end of the last step
   const Compensated& state() const { return y_; }      ///< at that time, joints closed
@@ -81,7 +82,7 @@ class SmoothMotion {
   const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
 
   /// Throws `Error` (Run) that names the body whose motion changes fastest.
-  [[noreturn]] void blame_fastest() const;
+  [[noreturn]] void throw_step_underflow() const;
 
   /// Saves all data on which later steps and states from `sampled` on depend.
   void save(double sampled, SnapshotWriter& out);

@@ -37,7 +37,7 @@ constexpr double kShortest = 1e-5;
 /// Returns true if the linkage approaches or leaves a singularity: extrapolated, the strength of its weakest
 /// row would reach zero within a few steps. It is proportional to the distance from there. The last step is
 /// from `start_` to `time_`.
-bool SmoothMotion::is_near_crossing() {
+bool EventFreeIntegrator::is_near_crossing() {
   if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic || equations_.holds_anything())
     return false;
   const double h = time_ - start_;
@@ -47,7 +47,7 @@ bool SmoothMotion::is_near_crossing() {
 }
 
 /// Before a step: sets the expected motion from the motion so far.
-void SmoothMotion::expect_passage() {
+void EventFreeIntegrator::expect_passage() {
   const bool near = is_near_crossing();
   if (near && !near_) {
     equations_.weakness(time_, y_.value());
@@ -62,7 +62,7 @@ void SmoothMotion::expect_passage() {
 }
 
 /// Without a last step, decides by the rows themselves.
-void SmoothMotion::look_at_rows() {
+void EventFreeIntegrator::look_at_rows() {
   constexpr double kWeak = 0.01;
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
       equations_.holds_anything())
@@ -70,7 +70,7 @@ void SmoothMotion::look_at_rows() {
   near_ = rank_at_start_.weakest < kWeak || rank_at_start_.dependent > 0;
 }
 
-double SmoothMotion::step_near_crossing(double limit) {
+double EventFreeIntegrator::step_near_crossing(double limit) {
   if (!expects_) passage_.expect(start_, y0_.value(), rate_at_start());
   const double shortest_step = kShortest * scales_.length / scales_.speed;
   double h = proposed_step_;
@@ -119,7 +119,7 @@ double SmoothMotion::step_near_crossing(double limit) {
   }
 }
 
-double SmoothMotion::accept_near_crossing(double error) {
+double EventFreeIntegrator::accept_near_crossing(double error) {
   equations_.forget_rank();
   rate_at_end();
   accept(time_ - start_, error);
@@ -128,7 +128,7 @@ double SmoothMotion::accept_near_crossing(double error) {
 
 /// Returns the error of a step to `end`, without the part that joints do not allow, which is removed there.
 /// Leaves y at that end.
-double SmoothMotion::try_near_crossing(double end) {
+double EventFreeIntegrator::try_near_crossing(double end) {
   const double h = end - start_;
   constexpr double kLost = std::numeric_limits<double>::infinity();
   last_near_ = true;
@@ -157,7 +157,7 @@ double SmoothMotion::try_near_crossing(double end) {
   return Dop853::error(all_.error_scale, fifth, third);
 }
 
-void SmoothMotion::refuse_crossing() const {
+void EventFreeIntegrator::refuse_crossing() const {
   const std::string joint = equations_.weakest_joint();
   throw Error(
       Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",

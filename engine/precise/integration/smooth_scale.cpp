@@ -21,7 +21,7 @@ constexpr double kAngles = 0.5;
 
 /// Sets the unit of the error by component: the tolerance times the scene's length and speed, a body's own
 /// speed if that is more, and one radian.
-void SmoothMotion::set_error_scale() {
+void EventFreeIntegrator::set_error_scale() {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = EquationsOfMotion::state(y_.value(), slot);
     const double speed = std::max(scales_.speed, std::sqrt(length_squared(now.velocity)));
@@ -38,7 +38,7 @@ void SmoothMotion::set_error_scale() {
 }
 
 /// Returns a tenth of the time in which any component changes by its scale.
-double SmoothMotion::first_step() const {
+double EventFreeIntegrator::first_step() const {
   double fastest = 0;
   const std::span<const double> rate = rate_at_start();
   for (std::size_t i = 0; i < rate.size(); ++i) {
@@ -48,7 +48,7 @@ double SmoothMotion::first_step() const {
   return fastest > 0 ? std::min(std::max(0.1, eighth) / fastest, longest_step_) : longest_step_;
 }
 
-void SmoothMotion::blame_fastest() const {
+void EventFreeIntegrator::throw_step_underflow() const {
   std::size_t worst = 0;
   double fastest = -1;
   const std::span<const double> rate = rate_at_start();

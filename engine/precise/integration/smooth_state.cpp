@@ -6,7 +6,7 @@
 // Saves and restores the motion.
 namespace plumb::precise {
 
-void SmoothMotion::save(double sampled, SnapshotWriter& out) {
+void EventFreeIntegrator::save(double sampled, SnapshotWriter& out) {
   // A flight may also be read before its last step, if an impact was slightly later than located: the
   // difference is a step of its own, with the same parabola.
   const bool within = sampled < time_ && sampled != start_ && y_.size() > 0;
@@ -34,7 +34,7 @@ void SmoothMotion::save(double sampled, SnapshotWriter& out) {
   for (int k = 1; k <= path.degree(); ++k) put(path.term(k));
 }
 
-void SmoothMotion::restore(SnapshotReader& in) {
+void EventFreeIntegrator::restore(SnapshotReader& in) {
   const auto get = [&](std::span<double> numbers) {
     for (double& number : numbers) number = in.get<double>();
   };

@@ -11,7 +11,7 @@ namespace plumb::precise {
 
 /// Switches to the implicit method when only stability limits the steps. Switches back when steps are so
 /// short that the explicit method could make them as well.
-void SmoothMotion::watch_stiffness() {
+void EventFreeIntegrator::watch_stiffness() {
   constexpr double kStable = 6.1;  // stability limit of DOP853, in step length times rate
   constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
   const double h = time_ - start_;
@@ -38,7 +38,7 @@ void SmoothMotion::watch_stiffness() {
 
 /// Estimates the largest modulus of an eigenvalue of d(rate)/dy, 1/s, by the power method on differences of
 /// rates: two applications at a time, because positions and velocities alternate in an oscillation.
-double SmoothMotion::fastest_rate() {
+double EventFreeIntegrator::fastest_rate() {
   constexpr double kShift = 1e-7;
   constexpr int kPairs = 3;
   const std::span<const double> rate = rate_at_end();

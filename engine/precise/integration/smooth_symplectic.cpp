@@ -8,7 +8,7 @@
 namespace plumb::precise {
 
 /// Makes a step of fixed length, shorter only if it would go beyond `limit`.
-double SmoothMotion::symplectic_step(double limit) {
+double EventFreeIntegrator::symplectic_step(double limit) {
   if (proposed_step_ == 0) proposed_step_ = longest_symplectic_step();
   const double end = std::min(start_ + proposed_step_, limit);
   symplectic_.step(start_, end - start_, y_);
@@ -18,7 +18,7 @@ double SmoothMotion::symplectic_step(double limit) {
 }
 
 /// Finds a step length that meets the tolerance from here on: the error is the difference to two half steps.
-double SmoothMotion::longest_symplectic_step() {
+double EventFreeIntegrator::longest_symplectic_step() {
   constexpr double kFewest = 1e-12;
   const auto fits = [&](double h) {
     Compensated whole = y0_, halves = y0_;
@@ -41,7 +41,7 @@ double SmoothMotion::longest_symplectic_step() {
   double h = static_cast<float>(first_step());
   const double least = kFewest * h;
   while (!meets(h) && h > least) h *= 0.5;
-  if (h <= least) blame_fastest();
+  if (h <= least) throw_step_underflow();
   while (2 * h <= longest_step_ && meets(1.25 * h)) h = static_cast<float>(1.25 * h);
   return h;
 }

@@ -33,7 +33,7 @@ void StiffMotion::linearise(double time, std::span<const double> y) {
   rows_.assign(equations_.rows().begin(), equations_.rows().end());
   add_tension();
   const BodiesNow now = equations_.bodies_now();
-  const KindJoints& others = equations_.kind_joints();
+  const GeneralJoints& others = equations_.kind_joints();
   others.add_spring_blocks(now, blocks_);
   others.add_tension_blocks(now, equations_.multipliers().subspan(equations_.joints().row_count()), blocks_);
   if (!order_is_known()) find_order();

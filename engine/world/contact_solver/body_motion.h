@@ -25,7 +25,7 @@ struct alignas(16) BodyMotion {
 
 /// Returns true if impulses change the body's velocity.
 template <class Real>
-bool gives_way(const BodyMotion<Real>& motion) {
+bool is_dynamic(const BodyMotion<Real>& motion) {
   return motion.inverse_mass + motion.inverse_inertia > 0;
 }
 

@@ -26,7 +26,7 @@ struct ContactBlock {
   // In the order of ContactConstraint, up to its flags.
   Vec2<Number> normal;
   Number arm_a[2], arm_tangent_a, arm_b[2], arm_tangent_b;
-  Number separation[2], now[2], normal_impulse[2], expected_impulse[2], tangent_impulse;
+  Number separation[2], now[2], normal_impulse[2], load_estimate[2], tangent_impulse;
   Number mass[2], inverse_pp, inverse_pq, inverse_qq, between, tangent_mass;
   Number friction, push_speed, surface_speed, flags;
 
@@ -113,8 +113,8 @@ template <class Number, class Real>
   const Constraint& first = *block.contact[0];
   block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);
   const bool both = first.hardness == ContactHardness::Soft;
-  block.gives_way_a = both || gives_way(motion[first.body_a]);
-  block.gives_way_b = both || gives_way(motion[first.body_b]);
+  block.gives_way_a = both || is_dynamic(motion[first.body_a]);
+  block.gives_way_b = both || is_dynamic(motion[first.body_b]);
   static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
   if (block.watched || block.rolls)
@@ -128,7 +128,7 @@ template <class Number>
   using Constraint = ContactConstraint<typename Number::Number>;
   const ContactRows<Number> rows{block};
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
-  rows.store(offsetof(Constraint, expected_impulse), offsetof(Block, expected_impulse));
+  rows.store(offsetof(Constraint, load_estimate), offsetof(Block, load_estimate));
   if (!block.watched && !block.rolls) return;
   typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
   block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),

@@ -14,8 +14,8 @@ enum class ContactHardness : std::uint8_t {
 };
 
 /// A contact at one or two points: manifold and constraint in one, kept from step to step. It is rebuilt only
-/// when the bodies have moved relative to each other by more than `travel_left` (manifold recycling). Until
-/// then the separations are updated to first order, as the solver does within a step.
+/// when the bodies have moved relative to each other by more than `recycle_budget` (manifold recycling).
+/// Until then the separations are updated to first order, as the solver does within a step.
 ///
 /// With n the normal, t = (n.y, -n.x) the tangent and r the arm from a centre of mass, the velocity along n
 /// is n.(vB - vA) + (rB x n) wB - (rA x n) wA, along t likewise. Both points lie on one line along t, so one
@@ -26,11 +26,11 @@ struct ContactConstraint {
   Vec2<Real> normal{};                    ///< unit, from a to b
   Real arm_a[2] = {}, arm_tangent_a = 0;  ///< m, r x n of each point, r x t half-way between them
   Real arm_b[2] = {}, arm_tangent_b = 0;
-  Real separation[2] = {};        ///< m, at the start of the step
-  Real now[2] = {};               ///< m, current separation, updated in each substep
-  Real normal_impulse[2] = {};    ///< N s, of the last substep
-  Real expected_impulse[2] = {};  ///< N s, low-pass filtered normal impulse
-  Real tangent_impulse = 0;       ///< N s
+  Real separation[2] = {};      ///< m, at the start of the step
+  Real now[2] = {};             ///< m, current separation, updated in each substep
+  Real normal_impulse[2] = {};  ///< N s, of the last substep
+  Real load_estimate[2] = {};   ///< N s, low-pass filtered normal impulse
+  Real tangent_impulse = 0;     ///< N s
   /// kg: effective mass of each point alone, and the inverse of both points' K = J M^-1 J^T. With one point
   /// the inverse is its mass, and the rest is 0.
   Real mass[2] = {}, inverse_pp = 0, inverse_pq = 0, inverse_qq = 0;
@@ -51,7 +51,7 @@ struct ContactConstraint {
   Real rolling_impulse = 0;   ///< N m s, of the last substep
   Real peak_impulse[2] = {};  ///< N s, largest normal impulse of the substeps
   Real approach[2] = {};      ///< m/s, velocity along n at the start of the step, or at impact
-  Real travel_left = 0;       ///< m, relative motion left until the manifold is rebuilt
+  Real recycle_budget = 0;    ///< m, relative motion left until the manifold is rebuilt
   int contact = 0;            ///< index of its record
   std::uint16_t features[2] = {};
 };

@@ -57,16 +57,16 @@ class ContactGraph {
   bool empty() const { return used_count_ == 0; }
 
   /// Rebuilds each colour's set of bodies and the list of used colours, after constraints were written to the
-  /// colours' lists directly. `gives_way(body)`: true if it is dynamic. Returns false if two constraints of a
-  /// colour share a dynamic body.
+  /// colours' lists directly. `is_dynamic(body)`: true if it is dynamic. Returns false if two constraints of
+  /// a colour share a dynamic body.
   template <class GivesWay>
-  bool find_bodies(GivesWay&& gives_way) {
+  bool find_bodies(GivesWay&& is_dynamic) {
     bool sound = true;
     for (int c = 0; c < kColours; ++c) {
       bodies_[c].clear();
       for (const ContactConstraint<Real>& constraint : colours_[c]) {
         for (const int body : {constraint.body_a, constraint.body_b}) {
-          if (!gives_way(body)) continue;
+          if (!is_dynamic(body)) continue;
           sound = sound && !bodies_[c].test(body);
           bodies_[c].set(body);
         }

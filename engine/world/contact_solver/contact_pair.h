@@ -72,9 +72,9 @@ template <class Pair, class Contact, class Number>
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1];
   const Number rate_p = v + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at_p.bias);
   const Number rate_q = v + (c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + at_q.bias);
-  Number new_p = (p - at_p.impulse_scale * (p - c.expected_impulse[0])) -
+  Number new_p = (p - at_p.impulse_scale * (p - c.load_estimate[0])) -
                  at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
-  Number new_q = (q - at_q.impulse_scale * (q - c.expected_impulse[1])) -
+  Number new_q = (q - at_q.impulse_scale * (q - c.load_estimate[1])) -
                  at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
   // A gap is not softened. Next to a point that is, its impulse follows from the other's: so it closes.
   const auto p_gap = at_p.impulse_scale < at_q.impulse_scale, q_gap = at_q.impulse_scale < at_p.impulse_scale;
@@ -86,10 +86,10 @@ template <class Pair, class Contact, class Number>
     const auto p_pulls = new_p < new_q;
     const auto zero = []() __attribute__((always_inline)) { return Number(0); };
     const auto p_alone = [&]() __attribute__((always_inline)) {
-      return press_alone(at_p, c.mass[0], c.expected_impulse[0], rate_p - c.between * q, p);
+      return press_alone(at_p, c.mass[0], c.load_estimate[0], rate_p - c.between * q, p);
     };
     const auto q_alone = [&]() __attribute__((always_inline)) {
-      return press_alone(at_q, c.mass[1], c.expected_impulse[1], rate_q - c.between * p, q);
+      return press_alone(at_q, c.mass[1], c.load_estimate[1], rate_q - c.between * p, q);
     };
     const Number only_p = choose(p_pulls, zero, p_alone), only_q = choose(p_pulls, q_alone, zero);
     new_p = select(pulls, only_p, new_p), new_q = select(pulls, only_q, new_q);
@@ -103,7 +103,7 @@ template <class Pair, class Contact, class Number>
 [[gnu::always_inline]] inline void press_one(Pair& pair, Contact& c, const Demand<Number>& at) {
   const Number p = c.normal_impulse[0];
   const Number rate = pair.along_normal() + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + at.bias);
-  const Number new_p = press_alone(at, c.mass[0], c.expected_impulse[0], rate, p);
+  const Number new_p = press_alone(at, c.mass[0], c.load_estimate[0], rate, p);
   c.normal_impulse[0] = new_p;
   const Number d = new_p - p;
   pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);

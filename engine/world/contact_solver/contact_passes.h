@@ -18,12 +18,12 @@ inline constexpr double kLoadedPush = 3;
 /// Returns the depenetration speed that a load adds, m/s: a fraction of the velocity change by the last
 /// substep's impulse.
 template <class Number, class Contact, class Real>
-[[gnu::always_inline]] inline Number push_with_load(const Contact& c, const Number& inverse_mass,
-                                                    const ContactStep<Real>& step) {
+[[gnu::always_inline]] inline Number load_push_share(const Contact& c, const Number& inverse_mass,
+                                                     const ContactStep<Real>& step) {
   using std::min;
   if (c.hardness != ContactHardness::Soft) return Number(0);
   const Number loaded = (c.normal_impulse[0] + c.normal_impulse[1]) * inverse_mass;
-  return min(Number(step.push_with_load * loaded), Number(Real(kLoadedPush) * c.push_speed));
+  return min(Number(step.load_push_share * loaded), Number(Real(kLoadedPush) * c.push_speed));
 }
 
 /// Returns the demand of a point at the separation s. The bias is the maximum of three: gaps may close,
@@ -47,7 +47,7 @@ template <class Number, class Pair, class Contact, class Real>
   Number fastest = -c.push_speed;
   if (const auto deep = min(c.now[0], c.now[1]) * soft[0].bias_rate < fastest; any(deep)) [[unlikely]] {
     const Number inverse_mass = pair.a.inverse_mass + pair.b.inverse_mass;
-    fastest = select(deep, Number(fastest - push_with_load<Number>(c, inverse_mass, step)), fastest);
+    fastest = select(deep, Number(fastest - load_push_share<Number>(c, inverse_mass, step)), fastest);
   }
   if (c.count == 2) {
     press(pair, c, demand_at<Number>(c.now[0], closed, fastest, soft, step.inverse_h),
@@ -114,7 +114,7 @@ template <class Number, class Pair, class Contact>
 template <class Contact, class Real>
 [[gnu::always_inline]] inline void scale_impulses(Contact& c, Real ratio) {
   c.normal_impulse[0] *= ratio, c.normal_impulse[1] *= ratio;
-  c.expected_impulse[0] *= ratio, c.expected_impulse[1] *= ratio;
+  c.load_estimate[0] *= ratio, c.load_estimate[1] *= ratio;
   c.tangent_impulse *= ratio, c.rolling_impulse *= ratio;
 }
 

@@ -51,7 +51,7 @@ template <class Real>
 void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
-    c.expected_impulse[0] = c.expected_impulse[1] = 0;
+    c.load_estimate[0] = c.load_estimate[1] = 0;
     if (!c.watched) return;
     const ContactPair<Real> pair(motion, c);
     for (int i = 0; i < c.count; ++i) {

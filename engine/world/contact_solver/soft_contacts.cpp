@@ -55,8 +55,8 @@ template <class Pass, class Real>
   Pair<Real, BodyMotion<Real>&> pair{motion[c.body_a], motion[c.body_b], c.normal};
   Pass::template run<Real>(pair, c, step);
   const bool both = c.hardness == ContactHardness::Soft;
-  if (both || gives_way(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
-  if (both || gives_way(pair.b)) pair.b.velocity = pair.vb, pair.b.angular_velocity = pair.wb;
+  if (both || is_dynamic(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
+  if (both || is_dynamic(pair.b)) pair.b.velocity = pair.vb, pair.b.angular_velocity = pair.wb;
 }
 
 /// The bodies a, or the bodies b, of a block.
@@ -179,7 +179,7 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
       }
       int kind = (c.count == 2) + 2 * rolls(c);
       if (c.hardness != ContactHardness::Soft)
-        kind += gives_way(motion[c.body_a]) ? 4 : gives_way(motion[c.body_b]) ? 8 : 12;
+        kind += is_dynamic(motion[c.body_a]) ? 4 : is_dynamic(motion[c.body_b]) ? 8 : 12;
       waiting[kind][counts[kind]++] = &c;
       if (counts[kind] == kLanes) flush(kind);
     }

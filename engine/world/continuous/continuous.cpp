@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "engine/geometry/convex_bounds.h"
-#include "engine/world/continuous/meetings.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_pair.h"
+#include "engine/world/continuous/toi_events.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/shape_boxes.h"
@@ -18,7 +18,7 @@
 namespace plumb {
 namespace {
 
-// Prefetches the contacts of the next 8 flights' bodies, one of each flight at a time, because contact
+// Prefetches the contacts of the next 8 swept bodies, one of each at a time, because contact
 // records are scattered in memory.
 class ContactsAhead {
  public:
@@ -33,8 +33,8 @@ class ContactsAhead {
     for (int& edge : edges_)
       if (edge != kNone) edge = ask_for(w.contacts[edge / 2].next[edge & 1]);
     const std::size_t coming = place + edges_.size();
-    if (coming < w.scratch.flights.size())
-      edges_[place % edges_.size()] = ask_for(w.bodies[w.scratch.flights[coming].body].first_contact);
+    if (coming < w.scratch.swept_bodies.size())
+      edges_[place % edges_.size()] = ask_for(w.bodies[w.scratch.swept_bodies[coming].body].first_contact);
   }
 
  private:
@@ -44,12 +44,12 @@ class ContactsAhead {
 // Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
 // line.
 template <class Real>
-void set_arm(const WorldData<Real>& w, Flight& flight) {
+void set_arm(const WorldData<Real>& w, SweptBody& flight) {
   const BodyRecord<Real>& record = w.bodies[flight.body];
   if (record.type != BodyType::Dynamic || flight.turn == 0 || record.lock_x || record.lock_y) return;
   for_each_edge(w.joints, record.first_joint, [&](int edge, const JointRecord& joint) {
     const bool is_a = (edge & 1) == 0;
-    if (!joint.active || w.gives_way(is_a ? joint.body_b : joint.body_a)) return;
+    if (!joint.active || w.is_dynamic(is_a ? joint.body_b : joint.body_a)) return;
     const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
     if (hinge != nullptr)
       flight.arm = (is_a ? hinge->anchor_a : hinge->anchor_b) - record.centre.template as<double>();
@@ -58,7 +58,7 @@ void set_arm(const WorldData<Real>& w, Flight& flight) {
 
 // Stores the whole swept AABB of a fast body in the tree, so that queries of others find it.
 template <class Real>
-void show_way(WorldData<Real>& w, Flight& flight) {
+void insert_swept_aabb(WorldData<Real>& w, SweptBody& flight) {
   const int body = flight.body;
   flight.shown = true;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
@@ -70,59 +70,59 @@ void show_way(WorldData<Real>& w, Flight& flight) {
 
 // Restores the fat AABB, and adds the shapes to the move buffer.
 template <class Real>
-void hide_way(WorldData<Real>& w, int body, Real dt) {
+void restore_fat_aabb(WorldData<Real>& w, int body, Real dt) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     if (w.shapes[shape].proxy == kNone) continue;
-    w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, stored_box(w, shape, dt));
+    w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, fat_aabb(w, shape, dt));
     w.enlarged[body] = 1;
-    if (!w.shapes[shape].moved) append(w.moved_shapes, shape);
+    if (!w.shapes[shape].moved) append(w.move_buffer, shape);
     w.shapes[shape].moved = true;
   }
 }
 
 // Orders a heap with the earliest time of impact on top. No two entries are equal.
-bool is_later(const Meeting& a, const Meeting& b) {
+bool is_later(const ToiEvent& a, const ToiEvent& b) {
   return a.fraction != b.fraction ? a.fraction > b.fraction
                                   : (a.flight != b.flight ? a.flight > b.flight : a.version > b.version);
 }
 
 template <class Real>
-void expect(WorldData<Real>& w, const Meeting& meeting) {
+void expect(WorldData<Real>& w, const ToiEvent& meeting) {
   if (!(meeting.fraction < 1)) return;
-  w.scratch.meetings.push_back(meeting);
-  std::push_heap(w.scratch.meetings.begin(), w.scratch.meetings.end(), is_later);
+  w.scratch.toi_events.push_back(meeting);
+  std::push_heap(w.scratch.toi_events.begin(), w.scratch.toi_events.end(), is_later);
 }
 
 template <class Real>
 void look_ahead(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
-  expect(w, first_meeting(w, place, from, search));
+  expect(w, first_toi_event(w, place, from, search));
 }
 
 // Returns the index of a body's flight. If it has none, adds one with the motion that the solver found.
 template <class Real>
 int flight_place(WorldData<Real>& w, int body, double dt) {
-  int& place = w.scratch.flight_places[body];
+  int& place = w.scratch.swept_body_places[body];
   if (place == kNone) {
-    place = static_cast<int>(w.scratch.flights.size());
-    w.scratch.flights.push_back(flight_of(w, body, dt));
-    set_arm(w, w.scratch.flights.back());
-    w.scratch.flights.back().covered = true;
+    place = static_cast<int>(w.scratch.swept_bodies.size());
+    w.scratch.swept_bodies.push_back(flight_of(w, body, dt));
+    set_arm(w, w.scratch.swept_bodies.back());
+    w.scratch.swept_bodies.back().covered = true;
   }
   return place;
 }
 
 // Returns the flight of the body that is hit, or null if the body is static.
 template <class Real>
-Flight* flight_met(WorldData<Real>& w, int body, double dt) {
+SweptBody* flight_met(WorldData<Real>& w, int body, double dt) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
-  return &w.scratch.flights[flight_place(w, body, dt)];
+  return &w.scratch.swept_bodies[flight_place(w, body, dt)];
 }
 
 // Searches impacts of other fast bodies with this one, whose trajectory has changed from a fraction of the
 // step on.
 template <class Real>
 void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
-  const Flight flight = w.scratch.flights[place];
+  const SweptBody flight = w.scratch.swept_bodies[place];
   const Rotation<double> q = flight.rotation_at(from);
   const Pose<Real> pose{flight.start_at(from).template as<Real>(),
                         {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
@@ -131,33 +131,33 @@ void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search)
   for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
-    w.moving_tree.query(convex_bounds(w.convex(shape), pose), mask, [&](int other, int) {
+    w.dynamic_tree.query(convex_bounds(w.convex(shape), pose), mask, [&](int other, int) {
       if (flight_in(w, w.shapes[other].body) != nullptr && may_collide(w, shape, other))
         pairs.emplace_back(shape, other);
       return true;
     });
   }
   for (const auto& [shape, other] : pairs) {
-    const int other_place = w.scratch.flight_places[w.shapes[other].body];
-    const Flight& comer = w.scratch.flights[other_place];
+    const int other_place = w.scratch.swept_body_places[w.shapes[other].body];
+    const SweptBody& comer = w.scratch.swept_bodies[other_place];
     if (comer.stands || go_together(w, flight, comer.body) || comer.carrier == flight.body) continue;
     // A kinematic body is not stopped, but pushes this one along.
-    const bool pushes = !w.gives_way(comer.body);
-    if (pushes && (flight.carrier != kNone || !w.gives_way(flight.body))) continue;
-    const Way way(pushes ? w.scratch.flights[place] : comer, from, search);
+    const bool pushes = !w.is_dynamic(comer.body);
+    if (pushes && (flight.carrier != kNone || !w.is_dynamic(flight.body))) continue;
+    const Way way(pushes ? w.scratch.swept_bodies[place] : comer, from, search);
     const int moving = pushes ? shape : other, met = pushes ? other : shape;
-    Meeting found{.flight = pushes ? place : other_place, .version = way.flight.version};
-    note_meeting(w, way, {moving, met, nullptr, !pushes}, found);
+    ToiEvent found{.flight = pushes ? place : other_place, .version = way.flight.version};
+    push_toi_event(w, way, {moving, met, nullptr, !pushes}, found);
     expect(w, as_it_is(w, found));
   }
 }
 
-// Calls visit(place) for the flights of a body and of all dynamic bodies connected to it by joints.
+// Calls visit(place) for the swept bodies of a body and of all dynamic bodies connected to it by joints.
 template <class Real, class Visit>
 void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit) {
   std::vector<int>& queue = w.scratch.queue;
-  std::vector<char>& seen = w.scratch.restless;
-  const int body = w.scratch.flights[place].body;
+  std::vector<char>& seen = w.scratch.cannot_sleep;
+  const int body = w.scratch.swept_bodies[place].body;
   if (w.bodies[body].first_joint == kNone) return visit(place);
   queue.assign(1, body);
   seen.assign(w.bodies.size(), 0);
@@ -166,7 +166,7 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
     visit(flight_place(w, queue[next], dt));
     for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
       const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
-      if (!joint.active || !w.gives_way(other) || seen[other]) return;
+      if (!joint.active || !w.is_dynamic(other) || seen[other]) return;
       seen[other] = 1;
       queue.push_back(other);
     });
@@ -178,11 +178,11 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
 // `awake`; what is not among them flies freely, by the mean of its velocities.
 template <class Real>
 BodyVelocity<Real> velocity_at_start(const WorldData<Real>& w, int body, double dt) {
-  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   const auto place_of = [&](int each) { return w.bodies[each].awake_index; };
-  const auto found =
-      std::lower_bound(kicks.begin(), kicks.end(), place_of(body),
-                       [&](const Kick<Real>& kick, int place) { return place_of(kick.body) < place; });
+  const auto found = std::lower_bound(
+      kicks.begin(), kicks.end(), place_of(body),
+      [&](const VelocityIncrement<Real>& kick, int place) { return place_of(kick.body) < place; });
   if (found != kicks.end() && found->body == body)
     return w.scratch.starts[static_cast<std::size_t>(found - kicks.begin())];
   const BodyMotion<Real>& motion = w.motion[body];
@@ -197,8 +197,8 @@ template <class Real>
 void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
   double before = 0, after = 0;
   for (const int place : places) {
-    const int body = w.scratch.flights[place].body;
-    if (w.scratch.flights[place].impacts > 0) return;  // its velocity is that after an impact
+    const int body = w.scratch.swept_bodies[place].body;
+    if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
     const BodyRecord<Real>& record = w.bodies[body];
     const double mass = static_cast<double>(record.mass), inertia = static_cast<double>(record.inertia);
     const auto energy = [&](Vec2<Real> velocity, Real spin) {
@@ -213,7 +213,7 @@ void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, doubl
   if (!(after > before && most >= 0)) return;
   const Real keep = static_cast<Real>(std::sqrt(most / after));
   for (const int place : places) {
-    BodyMotion<Real>& motion = w.motion[w.scratch.flights[place].body];
+    BodyMotion<Real>& motion = w.motion[w.scratch.swept_bodies[place].body];
     motion.velocity *= keep, motion.angular_velocity *= keep;
   }
 }
@@ -224,11 +224,11 @@ void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& s
   std::vector<int>& stopped = w.scratch.stopped;
   stopped.clear();
   for_each_tied(w, place, search.dt, [&](int tied) {
-    if (!w.scratch.flights[tied].stands) append(stopped, tied);
+    if (!w.scratch.swept_bodies[tied].stands) append(stopped, tied);
   });
   take_unmoved_work(w, stopped, fraction, search.dt);
   for_each_tied(w, place, search.dt, [&](int tied) {
-    Flight& flight = w.scratch.flights[tied];
+    SweptBody& flight = w.scratch.swept_bodies[tied];
     if (flight.stands) return;
     flight.squeezed = flight.carrier != kNone;
     flight.stop(fraction);
@@ -240,10 +240,10 @@ void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& s
 template <class Real>
 void push_along(WorldData<Real>& w, int place, int pusher, double fraction, ImpactSearch& search) {
   for_each_tied(w, place, search.dt, [&](int tied) {
-    Flight& flight = w.scratch.flights[tied];
+    SweptBody& flight = w.scratch.swept_bodies[tied];
     if (flight.carrier != kNone) return;
-    flight.go_along(w.scratch.flights[pusher], fraction, w.bodies[flight.body].locks());
-    show_way(w, flight);
+    flight.go_along(w.scratch.swept_bodies[pusher], fraction, w.bodies[flight.body].locks());
+    insert_swept_aabb(w, flight);
     look_ahead(w, tied, fraction, search);
     look_back(w, tied, fraction, search);
   });
@@ -251,15 +251,15 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
 
 // Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if it may not.
 template <class Real>
-bool lift(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
-  Flight& flight = w.scratch.flights[next.flight];
+bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
+  SweptBody& flight = w.scratch.swept_bodies[next.flight];
   if (flight.impacts > 0 || (flight.changed && flight.lifts == 0)) return false;
   const SweptPair<Real> pair{next.shape, next.other, constraint_between(w, next.shape, next.other)};
   const Way way(flight, next.fraction, search);
   const std::optional<Vec2d> by = lift_off(w, way, pair);
   if (!by || *by == Vec2d{}) return false;
   flight.go_on_lifted(next.fraction, *by);
-  show_way(w, flight);
+  insert_swept_aabb(w, flight);
   look_ahead(w, next.flight, next.fraction, search);
   look_back(w, next.flight, next.fraction, search);
   return true;
@@ -268,30 +268,30 @@ bool lift(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
 // Processes the next impact. A stale one, of a body whose trajectory has changed since it was found, is
 // dropped or searched again.
 template <class Real>
-void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
-  std::vector<Flight>& flights = w.scratch.flights;
-  if (flights[next.flight].version != next.version) return;
+void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
+  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  if (swept_bodies[next.flight].version != next.version) return;
   const int other_body = w.shapes[next.other].body;
-  Flight* other = flight_met(w, other_body, search.dt);
-  Flight& flight = flights[next.flight];
+  SweptBody* other = flight_met(w, other_body, search.dt);
+  SweptBody& flight = swept_bodies[next.flight];
   if (other != nullptr && other->version != next.other_version) {
     look_ahead(w, next.flight, next.fraction, search);
     return;
   }
-  const int other_place = other == nullptr ? kNone : w.scratch.flight_places[other_body];
+  const int other_place = other == nullptr ? kNone : w.scratch.swept_body_places[other_body];
   if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
     if (!thrown) flight.yields = false;  // they do not approach
-    if (thrown) show_way(w, flight);
-    const bool other_too = thrown && other != nullptr && w.gives_way(other->body);
-    if (other_too) show_way(w, *other);
+    if (thrown) insert_swept_aabb(w, flight);
+    const bool other_too = thrown && other != nullptr && w.is_dynamic(other->body);
+    if (other_too) insert_swept_aabb(w, *other);
     look_ahead(w, next.flight, next.fraction, search);
     if (other_too) look_ahead(w, other_place, next.fraction, search);
     if (thrown) look_back(w, next.flight, next.fraction, search);
     if (other_too) look_back(w, other_place, next.fraction, search);
     return;
   }
-  const bool pushed = other != nullptr && !w.gives_way(other_body);
+  const bool pushed = other != nullptr && !w.is_dynamic(other_body);
   if (pushed && flight.carrier == kNone) {
     push_along(w, next.flight, other_place, next.fraction, search);
     return;
@@ -300,7 +300,7 @@ void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
   const int carrier = flight.carrier;
   if (carrier != kNone && other != nullptr && !pushed && other->carrier == kNone && !other->squeezed) {
     // The pushed body pushes the other one along too.
-    push_along(w, other_place, w.scratch.flight_places[carrier], next.fraction, search);
+    push_along(w, other_place, w.scratch.swept_body_places[carrier], next.fraction, search);
     look_ahead(w, next.flight, next.fraction, search);
     return;
   }
@@ -312,13 +312,13 @@ void meet(WorldData<Real>& w, const Meeting& next, ImpactSearch& search) {
 
 // Processes impacts in the order of time until the step ends.
 template <class Real>
-void fly_on(WorldData<Real>& w, ImpactSearch& search) {
-  std::vector<Meeting>& meetings = w.scratch.meetings;
-  std::make_heap(meetings.begin(), meetings.end(), is_later);
-  while (!meetings.empty()) {
-    std::pop_heap(meetings.begin(), meetings.end(), is_later);
-    const Meeting next = meetings.back();
-    meetings.pop_back();
+void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
+  std::vector<ToiEvent>& toi_events = w.scratch.toi_events;
+  std::make_heap(toi_events.begin(), toi_events.end(), is_later);
+  while (!toi_events.empty()) {
+    std::pop_heap(toi_events.begin(), toi_events.end(), is_later);
+    const ToiEvent next = toi_events.back();
+    toi_events.pop_back();
     meet(w, next, search);
   }
 }
@@ -326,15 +326,15 @@ void fly_on(WorldData<Real>& w, ImpactSearch& search) {
 // Finds impacts of dynamic bodies, even slow ones, with a fast kinematic body that passes them.
 template <class Real>
 void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
-  const Flight pusher = w.scratch.flights[place];
+  const SweptBody pusher = w.scratch.swept_bodies[place];
   const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
     const int body = w.shapes[shape].body;
     if (!pass_fast(w, body, pusher.body)) return;
     const int met = flight_place(w, body, search.dt);
-    const Way way(w.scratch.flights[met], 0, search);
-    Meeting found{.flight = met, .version = way.flight.version};
-    note_meeting(w, way, {shape, other, contact}, found);
-    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+    const Way way(w.scratch.swept_bodies[met], 0, search);
+    ToiEvent found{.flight = met, .version = way.flight.version};
+    push_toi_event(w, way, {shape, other, contact}, found);
+    if (found.fraction < 1) w.scratch.toi_events.push_back(as_it_is(w, found));
   };
   if (pusher.covered) {
     for_each_edge(w.contacts, w.bodies[pusher.body].first_contact,
@@ -351,7 +351,7 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   for (int shape = w.bodies[pusher.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
-    w.moving_tree.query(swept, mask, [&](int other, int) {
+    w.dynamic_tree.query(swept, mask, [&](int other, int) {
       if (may_collide(w, shape, other)) pairs.emplace_back(other, shape);
       return true;
     });
@@ -366,7 +366,7 @@ void find_deep_contacts(WorldData<Real>& w) {
     const Real depth = -std::min(c.now[0], c.now[1]);
     if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
-    const bool a_yields = w.gives_way(c.body_a), b_yields = w.gives_way(c.body_b);
+    const bool a_yields = w.is_dynamic(c.body_a), b_yields = w.is_dynamic(c.body_b);
     const Real limit =
         (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
     if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
@@ -377,8 +377,8 @@ void find_deep_contacts(WorldData<Real>& w) {
 // the path there.
 template <class Real>
 void show_ways(WorldData<Real>& w) {
-  for (Flight& flight : w.scratch.flights)
-    if (!flight.shown && w.enlarged[flight.body]) show_way(w, flight);
+  for (SweptBody& flight : w.scratch.swept_bodies)
+    if (!flight.shown && w.enlarged[flight.body]) insert_swept_aabb(w, flight);
 }
 
 template <class Real>
@@ -387,70 +387,70 @@ void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
     const ContactRecord& contact = w.contacts[id];
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool is_a =
-        w.gives_way(contact.body_a) &&
-        (!w.gives_way(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
+        w.is_dynamic(contact.body_a) &&
+        (!w.is_dynamic(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
     const int met = flight_place(w, is_a ? contact.body_a : contact.body_b, search.dt);
-    const Way way(w.scratch.flights[met], 0, search);
-    Meeting found{.flight = met, .version = way.flight.version};
+    const Way way(w.scratch.swept_bodies[met], 0, search);
+    ToiEvent found{.flight = met, .version = way.flight.version};
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, found);
-    if (found.fraction < 1) w.scratch.meetings.push_back(as_it_is(w, found));
+    push_toi_event(w, way, {shape, other, constraint_in(w, contact)}, found);
+    if (found.fraction < 1) w.scratch.toi_events.push_back(as_it_is(w, found));
   }
 }
 
 }  // namespace
 
 template <class Real>
-void stop_at_impacts(WorldData<Real>& w, Real dt) {
+void solve_continuous(WorldData<Real>& w, Real dt) {
   w.scratch.deep_contacts.clear();
   if (w.settings.continuous) find_deep_contacts(w);
   if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
   const double time = static_cast<double>(dt);
-  std::vector<Flight>& flights = w.scratch.flights;
-  flights.clear(), w.scratch.meetings.clear();
-  w.scratch.flight_places.assign(w.bodies.size(), kNone);
+  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  swept_bodies.clear(), w.scratch.toi_events.clear();
+  w.scratch.swept_body_places.assign(w.bodies.size(), kNone);
   bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
     if (!w.settings.continuous && !fast.expected) continue;
-    Flight& flight = flights[flight_place(w, fast.body, time)];
+    SweptBody& flight = swept_bodies[flight_place(w, fast.body, time)];
     flight.covered = fast.covered, flight.expected = fast.expected;
     all_covered = all_covered && fast.covered;
   }
-  for (Flight& flight : flights)
-    if (!flight.covered) show_way(w, flight);
+  for (SweptBody& flight : swept_bodies)
+    if (!flight.covered) insert_swept_aabb(w, flight);
   if (!all_covered) show_ways(w);
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
-  ImpactSearch search{.dt = time, .long_searches = tuning::kLongSearches};
+  ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
   ContactsAhead ahead;
-  const std::size_t fast_count = flights.size();
+  const std::size_t fast_count = swept_bodies.size();
   for (std::size_t i = 0; i < fast_count; ++i) {
     ahead.advance(w, i);
     const int place = static_cast<int>(i);
-    if (!w.gives_way(flights[i].body)) {
+    if (!w.is_dynamic(swept_bodies[i].body)) {
       meet_pushers(w, place, search);
       continue;
     }
-    const Meeting first = first_meeting(w, place, 0, search);
-    if (first.fraction < 1) w.scratch.meetings.push_back(first);
+    const ToiEvent first = first_toi_event(w, place, 0, search);
+    if (first.fraction < 1) w.scratch.toi_events.push_back(first);
   }
   meet_deep_contacts(w, search);
-  if (!w.scratch.meetings.empty()) {
+  if (!w.scratch.toi_events.empty()) {
     show_ways(w);
-    fly_on(w, search);
+    process_toi_queue(w, search);
   }
-  for (const Flight& flight : flights) {
+  for (const SweptBody& flight : swept_bodies) {
     if (flight.changed) {
       land(w, flight);
       for (int shape = w.bodies[flight.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-        refresh_box(w, shape, dt, Real(0));
+        update_proxy(w, shape, dt, Real(0));
     }
-    if (flight.shown) hide_way(w, flight.body, dt);
+    if (flight.shown) restore_fat_aabb(w, flight.body, dt);
   }
-  w.scratch.flight_places.clear();
+  w.scratch.swept_body_places.clear();
 }
 
-template void stop_at_impacts(WorldData<float>&, float);
-template void stop_at_impacts(WorldData<double>&, double);
+template void solve_continuous(WorldData<float>&, float);
+template void solve_continuous(WorldData<double>&, double);
 
 }  // namespace plumb

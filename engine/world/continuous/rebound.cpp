@@ -34,7 +34,7 @@ bool is_free(const WorldData<Real>& w, int body) {
 // For constant acceleration the displacement is (v0 + v1) dt / 2. An acceleration below rounding error counts
 // as zero.
 template <class Real>
-void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
+void note_parabola(const BodyMotion<Real>& motion, SweptBody& flight, double dt) {
   const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * flight.way);
   const double rounding =
       8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
@@ -46,7 +46,7 @@ void note_parabola(const BodyMotion<Real>& motion, Flight& flight, double dt) {
 // Saves the body state that is overwritten while testing an impact, and restores it if there is none.
 template <class Real>
 struct Kept {
-  Kept(WorldData<Real>& world, const Flight* flight)
+  Kept(WorldData<Real>& world, const SweptBody* flight)
       : w(world), body(flight == nullptr ? kNone : flight->body) {
     if (body == kNone) return;
     position = w.position[body], rotation = w.rotation[body];
@@ -66,14 +66,14 @@ struct Kept {
 };
 
 template <class Real>
-void place(WorldData<Real>& w, const Flight& flight, double fraction) {
+void place(WorldData<Real>& w, const SweptBody& flight, double fraction) {
   const Rotation<double> q = flight.rotation_at(fraction);
   w.position[flight.body] = flight.start_at(fraction);
   w.rotation[flight.body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
 }
 
 template <class Real>
-void set_velocity(WorldData<Real>& w, const Flight& flight, double fraction) {
+void set_velocity(WorldData<Real>& w, const SweptBody& flight, double fraction) {
   w.motion[flight.body].velocity = flight.velocity_at(fraction).template as<Real>();
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
@@ -171,9 +171,9 @@ void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConst
 }  // namespace
 
 template <class Real>
-Flight flight_of(const WorldData<Real>& w, int body, double dt) {
+SweptBody flight_of(const WorldData<Real>& w, int body, double dt) {
   const BodyMotion<Real>& motion = w.motion[body];
-  Flight flight;
+  SweptBody flight;
   flight.body = body;
   flight.way = motion.moved.template as<double>();
   flight.start = flight.first = w.position[body] - flight.way;
@@ -183,7 +183,7 @@ Flight flight_of(const WorldData<Real>& w, int body, double dt) {
   const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
   const Rotation<double> back = rotation_of(-flight.turn);
   flight.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
-  if (w.gives_way(body) && is_free(w, body)) note_parabola(motion, flight, dt);
+  if (w.is_dynamic(body) && is_free(w, body)) note_parabola(motion, flight, dt);
   return flight;
 }
 
@@ -195,7 +195,8 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other) {
 }
 
 template <class Real>
-bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt) {
+bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
+             double dt) {
   Kept<Real> kept_a(w, &a), kept_b(w, b);
   place(w, a, fraction), set_velocity(w, a, fraction);
   if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
@@ -206,8 +207,8 @@ bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, dou
   const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
   if (thrown != Throw::None) report(w, contact, c);
   const Vec2d normal = c.normal.template as<double>();
-  const auto go_on = [&](Flight* flight, Kept<Real>& kept) {
-    if (flight == nullptr || thrown == Throw::None || !w.gives_way(flight->body)) return kept.restore();
+  const auto go_on = [&](SweptBody* flight, Kept<Real>& kept) {
+    if (flight == nullptr || thrown == Throw::None || !w.is_dynamic(flight->body)) return kept.restore();
     const BodyMotion<Real>& motion = w.motion[flight->body];
     // The surface supports the pressing acceleration.
     if (thrown == Throw::Slide) {
@@ -223,7 +224,7 @@ bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, dou
 }
 
 template <class Real>
-void land(WorldData<Real>& w, const Flight& flight) {
+void land(WorldData<Real>& w, const SweptBody& flight) {
   BodyMotion<Real>& motion = w.motion[flight.body];
   const double turned = flight.turned_before + flight.turn;
   w.bodies[flight.body].angle += turned - static_cast<double>(motion.turned);
@@ -235,11 +236,11 @@ void land(WorldData<Real>& w, const Flight& flight) {
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-#define PLUMB_FOR(Real)                                                                \
-  template Flight flight_of(const WorldData<Real>&, int, double);                      \
-  template bool may_rebound(const WorldData<Real>&, int, int);                         \
-  template bool rebound(WorldData<Real>&, Flight&, int, Flight*, int, double, double); \
-  template void land(WorldData<Real>&, const Flight&);
+#define PLUMB_FOR(Real)                                                                      \
+  template SweptBody flight_of(const WorldData<Real>&, int, double);                         \
+  template bool may_rebound(const WorldData<Real>&, int, int);                               \
+  template bool rebound(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double); \
+  template void land(WorldData<Real>&, const SweptBody&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -6,14 +6,14 @@ namespace plumb {
 
 /// Returns the trajectory of a body in a step of `dt`, as computed by the solver.
 template <class Real>
-Flight flight_of(const WorldData<Real>& w, int body, double dt);
+SweptBody flight_of(const WorldData<Real>& w, int body, double dt);
 
 /// Returns the body's flight if it has had, or is to have, an impact in it; else null.
 template <class Real>
-const Flight* flight_in(const WorldData<Real>& w, int body) {
-  if (w.scratch.flight_places.size() <= static_cast<std::size_t>(body)) return nullptr;
-  const int place = w.scratch.flight_places[body];
-  return place == kNone ? nullptr : &w.scratch.flights[place];
+const SweptBody* flight_in(const WorldData<Real>& w, int body) {
+  if (w.scratch.swept_body_places.size() <= static_cast<std::size_t>(body)) return nullptr;
+  const int place = w.scratch.swept_body_places[body];
+  return place == kNone ? nullptr : &w.scratch.swept_bodies[place];
 }
 
 /// Returns true if two shapes separate after an impact and no joint or pressing contact holds their bodies in
@@ -25,10 +25,11 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other);
 /// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; approaches
 /// too slow to bounce slide along the surface. Returns false and does nothing if they do not approach.
 template <class Real>
-bool rebound(WorldData<Real>& w, Flight& a, int shape, Flight* b, int other, double fraction, double dt);
+bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
+             double dt);
 
 /// Moves a body to the end of its flight.
 template <class Real>
-void land(WorldData<Real>& w, const Flight& flight);
+void land(WorldData<Real>& w, const SweptBody& flight);
 
 }  // namespace plumb

@@ -15,7 +15,7 @@
 namespace plumb {
 namespace {
 
-// A body's motion for the rest of the step. `arm` as in Flight.
+// A body's motion for the rest of the step. `arm` as in SweptBody.
 struct Motion {
   Sweep<double> sweep;
   Vec2d arm{};
@@ -23,9 +23,9 @@ struct Motion {
 
 template <class Real>
 Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, double dt) {
-  if (const Flight* flight = flight_in(w, body)) return {flight->sweep(from, origin), flight->arm};
+  if (const SweptBody* flight = flight_in(w, body)) return {flight->sweep(from, origin), flight->arm};
   const BodyMotion<Real>& motion = w.motion[body];
-  if (motion.turned == 0 && !w.gives_way(body)) {
+  if (motion.turned == 0 && !w.is_dynamic(body)) {
     const Vec2d way = motion.moved.template as<double>();
     const Rotation<Real> q = w.rotation[body];
     return {{w.position[body] - (1 - from) * way - origin,
@@ -121,8 +121,8 @@ class Encountering {
 
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing, Real target, Real tolerance) const {
     const Result found = time_of_impact(standing, of_other_.sweep, moving, way_.sweep, target, tolerance,
-                                        tuning::kImpactIterations + way_.search.long_searches);
-    way_.search.long_searches -= std::max(0, found.iterations - tuning::kImpactIterations);
+                                        tuning::kImpactIterations + way_.search.toi_iteration_budget);
+    way_.search.toi_iteration_budget -= std::max(0, found.iterations - tuning::kImpactIterations);
     return found;
   }
   double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
@@ -145,8 +145,8 @@ class Encountering {
 // their inner cores pass. In a pile that is hit, bodies stopped earlier would be overrun.
 template <class Real>
 bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
-  return (pair.contact != nullptr || pair.stands) && w.gives_way(w.shapes[pair.shape].body) &&
-         w.gives_way(w.shapes[pair.other].body);
+  return (pair.contact != nullptr || pair.stands) && w.is_dynamic(w.shapes[pair.shape].body) &&
+         w.is_dynamic(w.shapes[pair.other].body);
 }
 
 // Returns the time of impact of a core with the other shape. If it starts deeper and would penetrate further,
@@ -162,7 +162,7 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
                            : Real(tuning::kCoreDepth) * own;
   // After an impact in flight no contact supports it: in front of a stopped body it stops at the surface.
-  const Flight* met = flight_in(w, w.shapes[pair.other].body);
+  const SweptBody* met = flight_in(w, w.shapes[pair.other].body);
   if (at.flies_on() && met != nullptr && met->stands) {
     const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
     const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
@@ -196,16 +196,16 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
 // Returns true if a quick bound shows that a pair of shapes does not collide on the solver's motions.
 template <class Real>
 bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
-  const auto is_straight = [](const Flight& flight) { return !flight.changed && flight.arm == Vec2d{}; };
+  const auto is_straight = [](const SweptBody& flight) { return !flight.changed && flight.arm == Vec2d{}; };
   // A parabola deviates from its chord by at most a quarter of its curve.
   const auto bend = [&](int body) {
     const BodyMotion<Real>& motion = w.motion[body];
     const Vec2<Real> curve = static_cast<Real>(way.search.dt) * motion.velocity - motion.moved;
-    return w.gives_way(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
+    return w.is_dynamic(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
   };
   if (pair.stands || !is_straight(way.flight)) return false;
   const int other_body = w.shapes[pair.other].body;
-  if (const Flight* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
+  if (const SweptBody* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
     return false;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
   const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent) +
@@ -254,7 +254,7 @@ bool may_lift(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& p
   const Real touching = Real(tuning::kTouch / tuning::kPushSpeed) * c.push_speed;
   if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
   if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
-  return !w.gives_way(other) && w.motion[other].turned == 0;
+  return !w.is_dynamic(other) && w.motion[other].turned == 0;
 }
 
 }  // namespace

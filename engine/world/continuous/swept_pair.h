@@ -8,19 +8,19 @@ namespace plumb {
 
 /// Data shared by all time-of-impact searches of a step.
 struct ImpactSearch {
-  double dt = 0;          ///< s, length of the step
-  int long_searches = 0;  ///< iterations left, see kLongSearches
+  double dt = 0;                 ///< s, length of the step
+  int toi_iteration_budget = 0;  ///< iterations left, see kToiIterationBudget
 };
 
 /// The remaining motion of a body in this step, from a fraction of it on, relative to its start.
 struct Way {
-  Way(const Flight& flight_, double from_, ImpactSearch& search_)
+  Way(const SweptBody& flight_, double from_, ImpactSearch& search_)
       : flight(flight_),
         from(from_),
         origin(flight_.start_at(from_)),
         sweep(flight_.sweep(from_, origin)),
         search(search_) {}
-  const Flight& flight;
+  const SweptBody& flight;
   double from;
   Vec2d origin;
   Sweep<double> sweep;

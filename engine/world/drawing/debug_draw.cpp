@@ -28,8 +28,8 @@ class Drawing {
       for_each_used(w_.contacts, [&](int contact) { draw_contact(w_.contacts[contact]); });
     for_each_used(w_.bodies, [&](int body) {
       if (options_.centres) draw_centre(body);
-      if (options_.names && !w_.uncommon_of(body).name.empty())
-        out_.text(centre(body), w_.uncommon_of(body).name, DrawRole::Name);
+      if (options_.names && !w_.extras_of(body).name.empty())
+        out_.text(centre(body), w_.extras_of(body).name, DrawRole::Name);
     });
   }
 

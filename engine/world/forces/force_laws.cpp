@@ -35,7 +35,7 @@ template <class Real>
 Wrench<double> known_load(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.constraints > 0) return {};
-  const Real scale = w.uncommon_of(body).gravity_scale;
+  const Real scale = w.extras_of(body).gravity_scale;
   const Load<Real> load = w.loads.get(body);
   const Vec2d weight = static_cast<double>(record.mass * scale) * w.settings.gravity;
   return {weight + load.force.template as<double>(), static_cast<double>(load.torque)};
@@ -123,7 +123,7 @@ void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attr
     list.add(body, {force, 0});
     if (is_sound(Wrench<double>{force, 0})) reaction -= force;
   });
-  if (w.gives_way(source)) list.add(source, {reaction, 0});
+  if (w.is_dynamic(source)) list.add(source, {reaction, 0});
   add_wrenches(w, list);
 }
 
@@ -139,7 +139,7 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   WorldData<Real>& w = settled(world);
   const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);
   const int body_a = static_cast<int>(a.index), body_b = static_cast<int>(b.index);
-  const bool moves_a = w.gives_way(body_a), moves_b = w.gives_way(body_b);
+  const bool moves_a = w.is_dynamic(body_a), moves_b = w.is_dynamic(body_b);
   const bool awake = (moves_a && w.bodies[body_a].awake) || (moves_b && w.bodies[body_b].awake);
   if (!awake && !options.wakes) return;
 

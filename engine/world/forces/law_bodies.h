@@ -7,8 +7,8 @@
 
 #include "engine/forces/wrench.h"
 #include "engine/world/queries/placed_shape.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 #include "engine/world/world.h"
 
@@ -54,7 +54,7 @@ inline bool is_sound(const Wrench<double>& wrench) {
 template <class Real>
 void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<double>& wrench,
                            const char* field) {
-  if (!is_sound(wrench)) report_not_finite(w.uncommon_of(body).name, body, field);
+  if (!is_sound(wrench)) report_not_finite(w.extras_of(body).name, body, field);
 }
 
 /// Quarantines a body because of a wrench that is not sound.
@@ -94,7 +94,7 @@ template <class Real>
 void wake_pushed(WorldData<Real>& w, int body) {
   if (!w.bodies[body].awake) {
     wake_body(w, body);
-    w.bodies[body].still_for = 0;
+    w.bodies[body].sleep_time = 0;
   }
 }
 
@@ -103,7 +103,7 @@ template <class Real, class Visit>
 void for_each_law_body(WorldData<Real>& w, bool wakes, Visit&& visit) {
   if (!wakes) {
     for (const int body : w.awake) {
-      if (w.gives_way(body)) visit(body);
+      if (w.is_dynamic(body)) visit(body);
     }
     return;
   }

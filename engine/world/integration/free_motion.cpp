@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/math/small_turn.h"
-#include "engine/world/state/awake_ahead.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/prefetch_awake_bodies.h"
 
 namespace plumb {
 namespace {
@@ -23,15 +23,15 @@ double decay(double x) {
 
 // Returns the velocity increments and damping factors of a body for a time, s.
 template <class Real>
-Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
+VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
   const BodyRecord<Real>& record = w.bodies[body];
   const BodyMotion<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(time);
-  Kick<Real> kick;
+  VelocityIncrement<Real> kick;
   kick.body = body;
   if (record.type != BodyType::Dynamic) return kick;
   const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
-  const UncommonBody<Real>& own = w.uncommon_of(body);
+  const BodyExtras<Real>& own = w.extras_of(body);
   const Load<Real> load = w.loads.get(body);
   kick.velocity = t * (own.gravity_scale * gravity + motion.inverse_mass * load.force);
   kick.spin = t * motion.inverse_inertia * load.torque;
@@ -42,7 +42,7 @@ Kick<Real> kick_of(const WorldData<Real>& w, int body, double time) {
 }
 
 template <class Real>
-void apply(const Kick<Real>& kick, BodyMotion<Real>& motion) {
+void apply(const VelocityIncrement<Real>& kick, BodyMotion<Real>& motion) {
   motion.velocity = kick.keep * (motion.velocity + kick.velocity);
   motion.angular_velocity = kick.keep_spin * (motion.angular_velocity + kick.spin);
   if (kick.locked_x) motion.velocity.x = 0;
@@ -58,7 +58,7 @@ constexpr double share_before(Integrator integrator) {
 // t.
 template <class Real>
 void fly(WorldData<Real>& w, int body, double dt) {
-  const Kick<Real> kick = kick_of(w, body, dt);
+  const VelocityIncrement<Real> kick = velocity_increment_of(w, body, dt);
   BodyMotion<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(dt);
   const Vec2<Real> before = motion.velocity;
@@ -92,15 +92,15 @@ void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
 }  // namespace
 
 template <class Real>
-void prepare_kicks(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
+void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
   w.scratch.kicks.clear(), w.scratch.starts.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
   const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
-  const AwakeAhead<Real> ahead(w);
+  const PrefetchAwakeBodies<Real> ahead(w);
   const std::size_t count = w.awake.size();
   for (std::size_t place = 0; place < count; ++place) {
-    ahead.ask_for_motion(place);
+    ahead.prefetch_motion(place);
     const int body = w.awake[place];
     const BodyRecord<Real>& record = w.bodies[body];
     if (integrator == Integrator::VelocityVerlet && record.constraints == 0) {
@@ -114,14 +114,14 @@ void prepare_kicks(WorldData<Real>& w, double h, int substeps, Integrator integr
     BodyMotion<Real>& motion = w.motion[body];
     motion.moved = {}, motion.turned = 0;
     w.scratch.starts.push_back({motion.velocity, motion.angular_velocity});
-    w.scratch.kicks.push_back(kick_of(w, body, h));
+    w.scratch.kicks.push_back(velocity_increment_of(w, body, h));
     w.scratch.kicks.back().in_tree = articulated && w.scratch.trees.holds[body];
   }
 }
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for (Kick<Real>& kick : w.scratch.kicks) {
+  for (VelocityIncrement<Real>& kick : w.scratch.kicks) {
     if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     apply(kick, motion);
@@ -130,8 +130,8 @@ void integrate_velocities(WorldData<Real>& w) {
 }
 
 template <class Real>
-void repeat_velocities(WorldData<Real>& w) {
-  for (Kick<Real>& kick : w.scratch.kicks) {
+void integrate_and_warm_start(WorldData<Real>& w) {
+  for (VelocityIncrement<Real>& kick : w.scratch.kicks) {
     if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     const Vec2<Real> gained = motion.velocity - kick.velocity_before;
@@ -145,7 +145,7 @@ void repeat_velocities(WorldData<Real>& w) {
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
   const Real share = Real(share_before(integrator));
-  for (const Kick<Real>& kick : w.scratch.kicks) {
+  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
     if (kick.in_tree) continue;
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
@@ -167,8 +167,8 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
 }
 
 template <class Real>
-void hold_locks(WorldData<Real>& w) {
-  for (const Kick<Real>& kick : w.scratch.kicks) {
+void enforce_motion_locks(WorldData<Real>& w) {
+  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
     if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
@@ -177,7 +177,7 @@ void hold_locks(WorldData<Real>& w) {
 
 template <class Real>
 Vec2d free_acceleration(const WorldData<Real>& w, int body) {
-  const double share = static_cast<double>(w.uncommon_of(body).gravity_scale);
+  const double share = static_cast<double>(w.extras_of(body).gravity_scale);
   const Vec2<Real> force = w.motion[body].inverse_mass * w.loads.get(body).force;
   return share * w.settings.gravity + force.template as<double>();
 }
@@ -187,13 +187,13 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
   return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
 }
 
-#define PLUMB_FOR(Real)                                                   \
-  template void prepare_kicks(WorldData<Real>&, double, int, Integrator); \
-  template void integrate_velocities(WorldData<Real>&);                   \
-  template void repeat_velocities(WorldData<Real>&);                      \
-  template void integrate_positions(WorldData<Real>&, Real, Integrator);  \
-  template void hold_locks(WorldData<Real>&);                             \
-  template Vec2d free_acceleration(const WorldData<Real>&, int);          \
+#define PLUMB_FOR(Real)                                                         \
+  template void prepare_integration(WorldData<Real>&, double, int, Integrator); \
+  template void integrate_velocities(WorldData<Real>&);                         \
+  template void integrate_and_warm_start(WorldData<Real>&);                     \
+  template void integrate_positions(WorldData<Real>&, Real, Integrator);        \
+  template void enforce_motion_locks(WorldData<Real>&);                         \
+  template Vec2d free_acceleration(const WorldData<Real>&, int);                \
   template Real bounce_threshold(const WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -10,7 +10,7 @@ namespace plumb {
 /// velocity Verlet, bodies without contact points and joints are moved along a parabola through the whole
 /// step.
 template <class Real>
-void prepare_kicks(WorldData<Real>& w, double h, int substeps, Integrator integrator);
+void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator);
 
 /// Integrates velocities: v += h a.
 template <class Real>
@@ -20,7 +20,7 @@ void integrate_velocities(WorldData<Real>& w);
 /// While normals and lever arms are constant, that warm starts all of them at the cost of a loop over the
 /// bodies.
 template <class Real>
-void repeat_velocities(WorldData<Real>& w);
+void integrate_and_warm_start(WorldData<Real>& w);
 
 /// Integrates positions: x += h v. A body without joints that had no impulse in the substep moves by the
 /// integrator's mean of the velocities before and after the kick. So bodies with separated contacts fall like
@@ -30,7 +30,7 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator);
 
 /// Resets displacement and velocity along locked axes, which projections may have changed.
 template <class Real>
-void hold_locks(WorldData<Real>& w);
+void enforce_motion_locks(WorldData<Real>& w);
 
 /// Returns the acceleration of an unconstrained dynamic body by its weight and its load, m/s^2.
 template <class Real>

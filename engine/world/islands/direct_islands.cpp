@@ -16,12 +16,12 @@ namespace {
 // Returns a contact's hardness outside of direct islands.
 template <class Real>
 ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  return w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+  return w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
 }
 
 template <class Real>
 bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
-  const bool a = w.gives_way(joint.body_a), b = w.gives_way(joint.body_b);
+  const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
   return joint.active && (a || b) && !in_hinge_tree(w, a ? joint.body_a : joint.body_b);
 }
 
@@ -44,18 +44,18 @@ void choose_jointed(WorldData<Real>& w) {
   s.island_joints.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
-    if (!w.gives_way(body)) continue;
+    if (!w.is_dynamic(body)) continue;
     const int root = s.island_of[body];
     s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
   }
   const auto root_of = [&](const JointRecord& joint) {
-    return s.island_of[w.gives_way(joint.body_a) ? joint.body_a : joint.body_b];
+    return s.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (is_swept(w, joint)) ++s.island_joints[root_of(joint)];
   });
   for (const int body : w.awake) {
-    if (!w.gives_way(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
+    if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
     // Each contact counts two rows in island_size.
     const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kJointedContacts;
@@ -71,7 +71,7 @@ void choose_slender(WorldData<Real>& w) {
   std::vector<int>& room = w.scratch.island_room;
   room.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
   for (const int body : w.awake) {
-    if (!w.gives_way(body)) continue;
+    if (!w.is_dynamic(body)) continue;
     int& left = room[w.scratch.island_of[body]];
     left = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : left + 2;
   }
@@ -88,7 +88,7 @@ template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
   const auto tie = [&](int a, int b) {
-    if (w.gives_way(a) && w.gives_way(b)) islands.join(a, b);
+    if (w.is_dynamic(a) && w.is_dynamic(b)) islands.join(a, b);
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -97,7 +97,7 @@ void find_islands(WorldData<Real>& w) {
   w.scratch.island_size.assign(w.bodies.size(), 0);
   w.scratch.island_place.assign(w.bodies.size(), kNone);
   const auto count = [&](int a, int b, int rows) {
-    w.scratch.island_size[islands.find(w.gives_way(a) ? a : b)] += rows;
+    w.scratch.island_size[islands.find(w.is_dynamic(a) ? a : b)] += rows;
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
@@ -145,7 +145,7 @@ void add_rows(DirectIsland<Real>& island) {
 template <class Real>
 void fill_islands(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  const auto root_of = [&](int a, int b) { return s.island_of[w.gives_way(a) ? a : b]; };
+  const auto root_of = [&](int a, int b) { return s.island_of[w.is_dynamic(a) ? a : b]; };
   const auto jointed_at = [&](int root) -> JointedIsland<Real>& {
     const bool is_new = s.island_place[root] == kNone;
     JointedIsland<Real>& island = island_at(w, s.jointed, s.jointed_count, root);

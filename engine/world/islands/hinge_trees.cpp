@@ -27,14 +27,14 @@ void leave_to_sweeps(WorldData<Real>& w) {
   s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
   s.heaviest.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
-    if (!w.gives_way(body)) continue;
+    if (!w.is_dynamic(body)) continue;
     const int set = s.tree_of[body];
     ++s.island_size[set];
     s.lightest[set] = std::min(s.lightest[set], w.bodies[body].mass);
     s.heaviest[set] = std::max(s.heaviest[set], w.bodies[body].mass);
   }
   for (const int body : w.awake) {
-    if (!w.gives_way(body) || s.tree_of[body] != body) continue;
+    if (!w.is_dynamic(body) || s.tree_of[body] != body) continue;
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const int size = s.island_size[body];
     if (alike && size >= tuning::kSweptLinksLeast && size <= tuning::kSweptLinksMost) s.not_a_tree[body] = 1;
@@ -50,10 +50,10 @@ void find_sets(WorldData<Real>& w) {
   bad.assign(w.bodies.size(), 0), grounded.assign(w.bodies.size(), 0);
   // Marks apply to the root of the joined set.
   const auto spoil = [&](int body) {
-    if (w.gives_way(body)) bad[sets.find(body)] = 1;
+    if (w.is_dynamic(body)) bad[sets.find(body)] = 1;
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
-    const bool a = w.gives_way(joint.body_a), b = w.gives_way(joint.body_b);
+    const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
     if (!joint.active || !(a || b)) return;
     const int set_a = a ? sets.find(joint.body_a) : kNone, set_b = b ? sets.find(joint.body_b) : kNone;
     if (a && b) {
@@ -72,7 +72,7 @@ void find_sets(WorldData<Real>& w) {
   });
   w.graph.for_each([&](const ContactConstraint<Real>& c) { spoil(c.body_a), spoil(c.body_b); });
   for (const int body : w.awake)
-    if (w.gives_way(body)) s.tree_of[body] = sets.find(body);
+    if (w.is_dynamic(body)) s.tree_of[body] = sets.find(body);
   if (w.settings.solver != Solver::Direct) leave_to_sweeps(w);
 }
 
@@ -89,7 +89,7 @@ class TreeMaker {
     trees_.firsts.push_back(first_);
     TreeLink link;
     link.body = root;
-    link.moves = w_.gives_way(root);
+    link.moves = w_.is_dynamic(root);
     add(link, nullptr);
     if (link.moves) {
       place_[root] = 0;
@@ -102,7 +102,7 @@ class TreeMaker {
       if (!trees_.links[next].moves) continue;
       for_each_edge(w_.joints, w_.bodies[body].first_joint, [&](int edge, const JointRecord& record) {
         const int other = (edge & 1) == 0 ? record.body_b : record.body_a;
-        if (record.active && w_.gives_way(other) && place_[other] == kNone)
+        if (record.active && w_.is_dynamic(other) && place_[other] == kNone)
           add_child(next - first_, edge / 2, other);
       });
     }
@@ -162,15 +162,15 @@ void make_trees(WorldData<Real>& w) {
   const Scratch<Real>& s = w.scratch;
   TreeMaker<Real> maker(w);
   const auto is_due = [&](int body) {
-    return w.gives_way(body) && !s.not_a_tree[s.tree_of[body]] && !s.trees.holds[body];
+    return w.is_dynamic(body) && !s.not_a_tree[s.tree_of[body]] && !s.trees.holds[body];
   };
   w.joints.for_each([&](int index, const JointRecord& joint) {
     if (!joint.active) return;
-    if (!w.gives_way(joint.body_a) && is_due(joint.body_b)) maker.add_tree(joint.body_a, index);
-    if (!w.gives_way(joint.body_b) && is_due(joint.body_a)) maker.add_tree(joint.body_b, index);
+    if (!w.is_dynamic(joint.body_a) && is_due(joint.body_b)) maker.add_tree(joint.body_a, index);
+    if (!w.is_dynamic(joint.body_b) && is_due(joint.body_a)) maker.add_tree(joint.body_b, index);
   });
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (joint.active && is_due(joint.body_a) && w.gives_way(joint.body_b))
+    if (joint.active && is_due(joint.body_a) && w.is_dynamic(joint.body_b))
       maker.add_tree(joint.body_a, kNone);
   });
 }
@@ -205,12 +205,12 @@ void load_hinges(WorldData<Real>& w, std::span<TreeLink> tree, Vec2<Real>* const
 template <class Real>
 void load_kicks(WorldData<Real>& w) {
   HingeTrees<Real>& trees = w.scratch.trees;
-  std::vector<int>& kick_of = w.scratch.link_place;
+  std::vector<int>& velocity_increment_of = w.scratch.link_place;
   for (std::size_t i = 0; i < w.scratch.kicks.size(); ++i)
-    kick_of[w.scratch.kicks[i].body] = static_cast<int>(i);
+    velocity_increment_of[w.scratch.kicks[i].body] = static_cast<int>(i);
   for (TreeLink& link : trees.links) {
     if (!link.moves) continue;
-    const Kick<Real>& kick = w.scratch.kicks[kick_of[link.body]];
+    const VelocityIncrement<Real>& kick = w.scratch.kicks[velocity_increment_of[link.body]];
     link.kick = kick.velocity.template as<double>();
     link.spin_kick = static_cast<double>(kick.spin);
     link.keep = static_cast<double>(kick.keep), link.keep_spin = static_cast<double>(kick.keep_spin);
@@ -236,8 +236,8 @@ void store(WorldData<Real>& w, std::span<const TreeLink> tree, Vec2<Real>* const
 
 template <class Real>
 void find_hinge_trees(WorldData<Real>& w) {
-  if (!w.ties_changed) return;
-  w.ties_changed = false;
+  if (!w.topology_changed) return;
+  w.topology_changed = false;
   w.scratch.islands_known = false;
   HingeTrees<Real>& trees = w.scratch.trees;
   trees.links.clear(), trees.impulses.clear(), trees.firsts.clear();

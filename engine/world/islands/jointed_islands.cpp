@@ -281,7 +281,7 @@ void solve(JointedIsland<Real>& island, bool hold) {
 
 template <class Real>
 void put_velocity(BodyMotion<Real>& motion, Vec2d velocity, double spin) {
-  if (!gives_way(motion)) return;
+  if (!is_dynamic(motion)) return;
   motion.velocity = velocity.template as<Real>();
   motion.angular_velocity = static_cast<Real>(spin);
 }
@@ -309,7 +309,7 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
   for (const BoundedRows::Shift& s : system.shifts) most = std::max(most, std::abs(s.turn));
   const double share = most > tuning::kLinkTurn ? tuning::kLinkTurn / most : 1;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
-    if (!w.gives_way(island.links[i].body)) continue;
+    if (!w.is_dynamic(island.links[i].body)) continue;
     shift(w, island.links[i].body, share * system.shifts[i].way, share * system.shifts[i].turn);
   }
 }

@@ -75,8 +75,8 @@ double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
   block_first_[count] = static_cast<int>(rows.size());
   for (int block = 0; block < count; ++block) {
     const DirectRow<Real>& row = rows[block_first_[block]];
-    if (gives_way(motion[row.a])) ends_.emplace_back(row.a, block);
-    if (gives_way(motion[row.b])) ends_.emplace_back(row.b, block);
+    if (is_dynamic(motion[row.a])) ends_.emplace_back(row.a, block);
+    if (is_dynamic(motion[row.b])) ends_.emplace_back(row.b, block);
   }
   std::sort(ends_.begin(), ends_.end());
   order_.find(count, ends_);

@@ -64,7 +64,7 @@ struct alignas(16) HingeConstraint {
   std::pair<Vec2<Real>, Real> reaction() const { return {impulse, 0}; }
 
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-    alone = held || !gives_way(bodies.motion[a]) || !gives_way(bodies.motion[b]);
+    alone = held || !is_dynamic(bodies.motion[a]) || !is_dynamic(bodies.motion[b]);
     if (held) return;
     offset = (bodies.position[b] - bodies.position[a]).template as<Real>();
     impulse *= step.warm_start;

@@ -371,7 +371,7 @@ void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Rea
       [bodies, step](auto& joint) { joint.relax(bodies, step); });
 }
 
-// ---- Slots
+// ---- SlotMap
 
 template <class Real>
 const JointKind& JointSet<Real>::definition(int joint) const {

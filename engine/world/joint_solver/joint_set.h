@@ -129,7 +129,8 @@ class JointSet {
   /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `most` about
   /// its common point. Changes poses, not velocities. One iteration; returns true if any joint was turned.
   /// Call between the motion and `relax`. Does not allocate.
-  bool turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack, Real most);
+  bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
+                              Real most);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.

@@ -8,7 +8,8 @@ namespace {
 
 /// Returns the angle, rad, by which to turn the joint so that no limit is exceeded by more than `slack`.
 template <class Real>
-Real turn_back(const JointConstraint<Real, RevoluteRows>& joint, const BodyMotion<Real>* motion, Real slack) {
+Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, const BodyMotion<Real>* motion,
+                            Real slack) {
   const Real angle = static_cast<Real>(joint.angle.start) + (motion[joint.b].turned - motion[joint.a].turned);
   for (int i = 0; i < joint.turn.count; ++i) {
     const SolverRule<Real>& rule = joint.turn.rule[i];
@@ -50,14 +51,14 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
 }  // namespace
 
 template <class Real>
-bool JointSet<Real>::turn_back(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
-                               Real most) {
+bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
+                                            Real slack, Real most) {
   bool any = false;
   auto& lists = std::get<kRevolute>(parts_->store);
   for (const JointRun& run : parts_->runs) {
     if (run.form != kRevolute) continue;
     for (auto& joint : lists[run.colour]) {
-      const Real turn = plumb::turn_back(joint, bodies.motion, slack);
+      const Real turn = plumb::project_angular_limits(joint, bodies.motion, slack);
       if (turn == 0) continue;
       turn_joint(joint, bodies, rotation, std::clamp(turn, -most, most));
       any = true;
@@ -66,7 +67,9 @@ bool JointSet<Real>::turn_back(const SolverBodies<Real>& bodies, Rotation<Real>*
   return any;
 }
 
-template bool JointSet<float>::turn_back(const SolverBodies<float>&, Rotation<float>*, float, float);
-template bool JointSet<double>::turn_back(const SolverBodies<double>&, Rotation<double>*, double, double);
+template bool JointSet<float>::project_angular_limits(const SolverBodies<float>&, Rotation<float>*, float,
+                                                      float);
+template bool JointSet<double>::project_angular_limits(const SolverBodies<double>&, Rotation<double>*, double,
+                                                       double);
 
 }  // namespace plumb

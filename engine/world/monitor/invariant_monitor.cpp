@@ -70,7 +70,7 @@ void InvariantMonitor<Real>::begin_step() {
     const Load<Real> load = w.loads.get(body);
     state.mass = static_cast<double>(record.mass), state.inertia = static_cast<double>(record.inertia);
     if (motion.inverse_inertia == 0) state.inertia = 0;
-    state.weight = state.mass * static_cast<double>(w.uncommon_of(body).gravity_scale) * w.settings.gravity;
+    state.weight = state.mass * static_cast<double>(w.extras_of(body).gravity_scale) * w.settings.gravity;
     state.force = load.force.template as<double>(), state.torque = static_cast<double>(load.torque);
   }
 }
@@ -105,7 +105,7 @@ double InvariantMonitor<Real>::gap_scale(int joint) const {
       [&](const auto& kind) {
         double scale = 0;
         const auto add = [&](int body, Vec2d anchor) {
-          if (!w.gives_way(body)) return;
+          if (!w.is_dynamic(body)) return;
           const Vec2d arm = anchor - w.bodies[body].centre.template as<double>();
           scale = std::max({scale, std::sqrt(length_squared(arm)), static_cast<double>(w.extents[body])});
         };
@@ -161,7 +161,7 @@ bool InvariantMonitor<Real>::is_driven() const {
   const WorldData<Real>& w = world_->data();
   for (const int body : w.awake) {
     const BodyMotion<Real>& motion = w.motion[body];
-    if (!w.gives_way(body) && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0)) return true;
+    if (!w.is_dynamic(body) && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0)) return true;
   }
   for (int joint = 0; joint < w.joints.size(); ++joint) {
     if (!w.joints.used(joint) || !w.joints[joint].active) continue;
@@ -186,7 +186,7 @@ std::optional<Error> InvariantMonitor<Real>::check_energy() {
   int fastest = kNone;
   for (const int body : w.awake) {
     const auto i = static_cast<std::size_t>(body);
-    if (i >= before_.size() || !before_[i].moves || !w.gives_way(body)) continue;
+    if (i >= before_.size() || !before_[i].moves || !w.is_dynamic(body)) continue;
     const State& old = before_[i];
     const BodyMotion<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();

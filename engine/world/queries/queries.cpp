@@ -58,7 +58,7 @@ bool sees(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
 template <class Real>
 double slack_at(const WorldData<Real>& w, double reach) {
   double size = 0;
-  for (const DynamicTree<Real>* tree : {&w.still_tree, &w.moving_tree}) {
+  for (const DynamicTree<Real>* tree : {&w.static_tree, &w.dynamic_tree}) {
     const Aabb<Real> bounds = tree->bounds();
     size = std::max(size, size_of((bounds.upper - bounds.lower).template as<double>()));
   }
@@ -84,8 +84,8 @@ void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const Quer
     going = !sees(w, shape, filter) || visit(shape);
     return going;
   };
-  w.still_tree.query(rounded, filter.mask, visit_leaf);
-  if (going) w.moving_tree.query(rounded, filter.mask, visit_leaf);
+  w.static_tree.query(rounded, filter.mask, visit_leaf);
+  if (going) w.dynamic_tree.query(rounded, filter.mask, visit_leaf);
 }
 
 // Sweeps a box around `start` by `translation`. Calls visit(shape, limit) -> new limit for shapes whose fat
@@ -100,9 +100,9 @@ void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, V
     if (sees(w, shape, filter)) limit = std::min(limit, visit(shape, limit));
     return limit > 0 ? rounded_up<Real>(limit) : Real(0);
   };
-  w.still_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
+  w.static_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
   if (!(limit > 0)) return;
-  w.moving_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
+  w.dynamic_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
 }
 
 // Keeps the first hit: smallest fraction, then smallest shape index.
@@ -362,8 +362,8 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
     return rounded_up<Real>(limit + 2 * slack);
   };
   const Vec2<Real> from = point.as<Real>();
-  w.still_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
-  w.moving_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
+  w.static_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
+  w.dynamic_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
   return best;
 }
 

@@ -129,7 +129,7 @@ void Replay<Real>::compare(std::span<const std::byte> content) {
     BodyDifference difference{.body = {static_cast<std::uint32_t>(body), 0}};
     if (body < world_.data().bodies.size()) {
       difference.body.generation = world_.data().bodies.generation(body);
-      difference.name = world_.data().uncommon_of(body).name;
+      difference.name = world_.data().extras_of(body).name;
     }
     report_.bodies.push_back(difference);
   }

@@ -27,7 +27,7 @@ void copy_state(const WorldData<Real>& from, WorldData<Real>& to) {
     (copy(std::get<kEach>(source), std::get<kEach>(target)), ...);
   }
   (std::make_index_sequence<std::tuple_size_v<decltype(source)>>{});
-  to.ties_changed = true;
+  to.topology_changed = true;
 }
 
 }  // namespace

@@ -59,11 +59,11 @@ class Save {
     out_.put(value);
   }
   template <class T>
-  void operator()(const Slots<T>& slots) {
+  void operator()(const SlotMap<T>& slots) {
     std::apply([&](const auto&... each) { (out_.put(each), ...); }, slots.parts());
   }
   template <class T>
-  void operator()(const UsedList<T>& list) {
+  void operator()(const LazyArray<T>& list) {
     out_.put(std::get<0>(list.parts()));
   }
   template <class Real>
@@ -99,11 +99,11 @@ class Restore {
     in_.get(value, "state");
   }
   template <class T>
-  void operator()(Slots<T>& slots) {
+  void operator()(SlotMap<T>& slots) {
     std::apply([&](auto&... each) { (in_.get(each, "slots"), ...); }, slots.parts());
   }
   template <class T>
-  void operator()(UsedList<T>& list) {
+  void operator()(LazyArray<T>& list) {
     in_.get(std::get<0>(list.parts()), "bodies");
   }
   template <class Real>
@@ -192,21 +192,21 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   std::apply([&](auto&... each) { (read(each), ...); }, state_of(fresh));
   read.finish();
   check_state(fresh);
-  ByteReader::require(fresh.graph.find_bodies([&](int body) { return fresh.gives_way(body); }), "contacts",
+  ByteReader::require(fresh.graph.find_bodies([&](int body) { return fresh.is_dynamic(body); }), "contacts",
                       "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
   // Reserves the free lists now: destroying objects later must not allocate.
   fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
   fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
-  fresh.still_tree.make_room(0), fresh.moving_tree.make_room(0);
+  fresh.static_tree.make_room(0), fresh.dynamic_tree.make_room(0);
   // Nothing throws from here on. The hook and scratch memory stay.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {
     (std::swap(std::get<kEach>(from), std::get<kEach>(to)), ...);
   }
   (std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
-  world.data().ties_changed = true;
+  world.data().topology_changed = true;
 }
 
 #define PLUMB_FOR(Real)                                                 \

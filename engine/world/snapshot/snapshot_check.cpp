@@ -90,7 +90,7 @@ class Check {
                   all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
                   all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
                   all_finite(corners) && all_finite(w_.parked) && all_finite(std::get<0>(w_.loads.parts())) &&
-                  all_finite(std::get<0>(w_.remainders.parts())) && all_finite_uncommon() &&
+                  all_finite(std::get<0>(w_.position_compensation.parts())) && all_finite_uncommon() &&
                   all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
                   all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
@@ -102,7 +102,7 @@ class Check {
 
   bool all_finite_uncommon() const {
     const auto& all = std::get<0>(w_.uncommon.parts());
-    return std::all_of(all.begin(), all.end(), [](const UncommonBody<Real>& each) {
+    return std::all_of(all.begin(), all.end(), [](const BodyExtras<Real>& each) {
       return is_finite(each.gravity_scale) && is_finite(each.linear_damping) &&
              is_finite(each.angular_damping);
     });
@@ -110,7 +110,7 @@ class Check {
 
   // A slot is free and listed once, or in use.
   template <class T>
-  void slots(const Slots<T>& all) const {
+  void slots(const SlotMap<T>& all) const {
     const auto [items, generations, free] = all.parts();
     require(items.size() == generations.size(), "slots", "have no generations");
     Marks marks(all.size());
@@ -129,9 +129,10 @@ class Check {
       const auto& items = std::get<0>(list.parts());
       return items.empty() || is_by_body(items);
     };
-    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) && none_or_by_body(w_.remainders) &&
-                is_by_body(w_.motion) && is_by_body(w_.rotation) && is_by_body(w_.position) &&
-                is_by_body(w_.extents) && is_by_body(w_.enlarged),
+    require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) &&
+                none_or_by_body(w_.position_compensation) && is_by_body(w_.motion) &&
+                is_by_body(w_.rotation) && is_by_body(w_.position) && is_by_body(w_.extents) &&
+                is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
     const std::size_t data = std::get<0>(w_.shape_data.parts()).size();
@@ -205,7 +206,7 @@ class Check {
             "chains", "are not there");
     if (is_out(record)) return require(record.proxy == kNone, "boxes", "are not out with their bodies");
     const DynamicTree<Real>& tree =
-        w_.bodies[record.body].type == BodyType::Static ? w_.still_tree : w_.moving_tree;
+        w_.bodies[record.body].type == BodyType::Static ? w_.static_tree : w_.dynamic_tree;
     require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
   }
 
@@ -218,7 +219,7 @@ class Check {
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
       if (w_.shapes.used(shape) && is_out(w_.shapes[shape])) ++out;
     }
-    require(w_.still_tree.size() + w_.moving_tree.size() + out == w_.shapes.count(), "boxes",
+    require(w_.static_tree.size() + w_.dynamic_tree.size() + out == w_.shapes.count(), "boxes",
             "are not as many as shapes");
   }
 
@@ -262,7 +263,7 @@ class Check {
       require(has_shape(sensor.shape) && w_.forms[sensor.shape].sensor && sensed.mark(sensor.shape),
               "sensors", "are not shapes that sense");
     }
-    for (const int shape : w_.moved_shapes) {
+    for (const int shape : w_.move_buffer) {
       require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
     }
     for (const int joint : w_.breakable) {
@@ -357,7 +358,7 @@ class Check {
                   w_.joint_set.bodies(record.slot) == std::pair{record.body_a, record.body_b},
               "joints", "are not those that are solved");
       require(!record.active || w_.joint_set.dynamic(record.slot) ==
-                                    std::pair{w_.gives_way(record.body_a), w_.gives_way(record.body_b)},
+                                    std::pair{w_.is_dynamic(record.body_a), w_.is_dynamic(record.body_b)},
               "joints", "hold bodies of another type");
       require(!record.active || !lets_go(w_, record), "joints", "hold what is in quarantine");
     }

@@ -29,8 +29,8 @@ PLUMB_MEMBERS(Filter, category, mask, group)
 
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
                    awake_index, first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia,
-                   centre, half_width, still_for, angle)
-PLUMB_REAL_MEMBERS(UncommonBody, name, gravity_scale, linear_damping, angular_damping, mass_centre)
+                   centre, half_width, sleep_time, angle)
+PLUMB_REAL_MEMBERS(BodyExtras, name, gravity_scale, linear_damping, angular_damping, mass_centre)
 PLUMB_REAL_MEMBERS(Load, force, torque)
 PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
 
@@ -43,10 +43,10 @@ PLUMB_MEMBERS(SensorRecord, shape, visitors)
 PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
               pre_solve, hit_events, index)
 PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
-                   separation, now, normal_impulse, expected_impulse, tangent_impulse, mass, inverse_pp,
+                   separation, now, normal_impulse, load_estimate, tangent_impulse, mass, inverse_pp,
                    inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
                    hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
-                   peak_impulse, approach, travel_left, contact, features)
+                   peak_impulse, approach, recycle_budget, contact, features)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               user_data)
 
@@ -64,14 +64,16 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners, shape_data, chains,
-         moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph, parked, joints, joint_set,
-         sensors, breakable, quarantine, events, pending, stepping, profiled, profile, callers, abandoned,
-         reports_hits, ties_changed, scratch, pre_solve, friction_rule, restitution_rule] = w;
+         position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
+         shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near, graph, parked,
+         joints, joint_set, sensors, breakable, quarantine, events, pending, stepping, profiled, profile,
+         callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
+         restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, remainders, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
-                  shape_data, chains, moved_shapes, still_tree, moving_tree, contacts, pairs, near, graph,
-                  parked, joints, joint_set, sensors, breakable, quarantine, events, pending, reports_hits);
+                  position, position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes,
+                  corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near,
+                  graph, parked, joints, joint_set, sensors, breakable, quarantine, events, pending,
+                  reports_hits);
 }
 
 }  // namespace plumb

@@ -16,7 +16,7 @@ void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
   Rotation<Real>* rotation = w.rotation.data();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h, substeps, Integrator::SemiImplicitEuler);
+  prepare_integration(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     if (jointed) w.joint_set.begin_projection(bodies, joints);
@@ -26,7 +26,7 @@ void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
     for (int sweep = 0; sweep < w.settings.iterations; ++sweep) {
       if (jointed) w.joint_set.project(bodies, rotation, joints);
       project_contacts(bodies.motion, rotation, w.graph, contacts, PositionFriction::Coulomb);
-      hold_locks(w);
+      enforce_motion_locks(w);
     }
     restore_bounces(bodies.motion, w.graph, contacts);
   }

@@ -24,7 +24,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h, substeps, Integrator::SemiImplicitEuler);
+  prepare_integration(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     integrate_velocities(w);

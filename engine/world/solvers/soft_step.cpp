@@ -2,12 +2,12 @@
 #include <vector>
 
 #include "engine/core/room.h"
-#include "engine/world/contact_solver/bounce_crowds.h"
+#include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/jointed_islands.h"
-#include "engine/world/solvers/bouncing.h"
+#include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/state/constants.h"
 
@@ -15,30 +15,30 @@ namespace plumb {
 namespace {
 
 // Returns the softness of a contact, as stiff as a substep of `longest` permits. The impulse scale
-// (compliance under load) is reduced to kContactYield of the spring's.
+// (compliance under load) is reduced to kContactComplianceScale of the spring's.
 template <class Real>
 Softness<Real> contact_softness(double frequency_share, double h, double longest) {
   Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
-  soft.impulse_scale *= Real(tuning::kContactYield);
+  soft.impulse_scale *= Real(tuning::kContactComplianceScale);
   soft.mass_scale = 1 - soft.impulse_scale;
   return soft;
 }
 
 // Projects joints that an impact has driven beyond their limits.
 template <class Real>
-void turn_back(WorldData<Real>& w) {
+void project_angular_limits(WorldData<Real>& w) {
   bool any = true;
   for (int sweep = 0; any && sweep < tuning::kLimitSweeps; ++sweep) {
-    any = w.joint_set.turn_back(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
-                                Real(tuning::kLimitTurn));
-    if (any) hold_locks(w);
+    any = w.joint_set.project_angular_limits(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
+                                             Real(tuning::kLimitTurn));
+    if (any) enforce_motion_locks(w);
   }
 }
 
 // Returns true if there was nothing but free flight and articulated bodies.
 template <class Real>
 bool nothing_left(const WorldData<Real>& w) {
-  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+  const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
 }
 
@@ -53,7 +53,7 @@ const std::vector<char>& contacts_apart(WorldData<Real>& w) {
     if (apart.empty()) make_room(apart, w.contacts.size());
     apart[c.contact] = 1;
   };
-  for (const Bounce<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
+  for (const RestitutionContact<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
   for (int i = 0; i < w.scratch.jointed_count; ++i)
     for (const ContactConstraint<Real>* c : w.scratch.jointed[i].contacts) mark(*c);
   return apart;
@@ -64,7 +64,7 @@ const std::vector<char>& contacts_apart(WorldData<Real>& w) {
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Integrator integrator = w.settings.integrator;
-  prepare_kicks(w, h, substeps, integrator);
+  prepare_integration(w, h, substeps, integrator);
   move_hinge_trees(w, h, substeps);
   const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinges;
   if (!jointed && nothing_left(w)) return;
@@ -80,7 +80,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                    {{static_cast<Real>(tuning::kPushShare / h), 1, 0}}},
       .warm_start = warm_start,
       .bounce_threshold = bounce_threshold(w, h * substeps),
-      .push_with_load = Real(tuning::kPushWithLoad)};
+      .load_push_share = Real(tuning::kLoadPushShare)};
   JointStep<Real> joints{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
@@ -90,22 +90,22 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   if (jointed) w.joint_set.prepare(bodies, joints);
   prepare_direct_islands(w);
-  find_bounces(w);
+  collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w));
   bool strikes = false;
   const auto place = [&] {
-    strikes = place_bounces(bodies.motion, w.scratch.bounces, contacts);
+    strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
     if (!strikes) return;
-    resolve_crowds(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.crowds);
-    hold_locks(w);  // impact propagation ignores locks, and displaces bodies
+    propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.impacts);
+    enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
     const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
-    repeat ? repeat_velocities(w) : integrate_velocities(w);
+    repeat ? integrate_and_warm_start(w) : integrate_velocities(w);
     // The last impulses of joints and contacts cancel only in the solve. Classify impacts before warm
     // starting, so that these impulses are not mistaken for an approach.
     note_free_velocities(w);
@@ -120,7 +120,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     passes.solve(bodies.motion, contacts);
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
-    if (jointed) turn_back(w);
+    if (jointed) project_angular_limits(w);
     if (jointed) w.joint_set.relax(bodies, joints);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);

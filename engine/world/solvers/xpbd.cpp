@@ -16,7 +16,7 @@ void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
   Rotation<Real>* rotation = w.rotation.data();
   const bool jointed = w.joint_set.active_count() > 0;
 
-  prepare_kicks(w, h, substeps, Integrator::SemiImplicitEuler);
+  prepare_integration(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     if (jointed) w.joint_set.begin_projection(bodies, joints);
@@ -25,7 +25,7 @@ void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
     integrate_positions(w, step, Integrator::SemiImplicitEuler);
     if (jointed) w.joint_set.project(bodies, rotation, joints);
     project_contacts(bodies.motion, rotation, w.graph, contacts, PositionFriction::Static);
-    hold_locks(w);
+    enforce_motion_locks(w);
     correct_contact_velocities(bodies.motion, w.graph, contacts);
   }
 }

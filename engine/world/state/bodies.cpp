@@ -6,10 +6,10 @@
 #include "engine/core/room.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/mass.h"
 #include "engine/world/state/new_shape.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 namespace {
@@ -22,7 +22,8 @@ void make_place(WorldData<Real>& w, bool has_data) {
   const std::size_t room = static_cast<std::size_t>(size);
   ensure_room(w.motion, room), ensure_room(w.rotation, room), ensure_room(w.position, room);
   ensure_room(w.extents, room), ensure_room(w.enlarged, room), ensure_room(w.awake, room);
-  w.loads.ensure(size, false), w.body_data.ensure(size, has_data), w.remainders.ensure(size, false);
+  w.loads.ensure(size, false), w.body_data.ensure(size, has_data),
+      w.position_compensation.ensure(size, false);
 }
 
 template <class T>
@@ -35,12 +36,12 @@ void clear_place(WorldData<Real>& w, int body) {
   const int size = w.bodies.size();
   make_room(w.motion, size), make_room(w.rotation, size), make_room(w.position, size);
   make_room(w.extents, size), make_room(w.enlarged, size);
-  w.loads.renew(body, size), w.body_data.renew(body, size), w.remainders.renew(body, size);
+  w.loads.renew(body, size), w.body_data.renew(body, size), w.position_compensation.renew(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 
 template <class Real>
-bool is_uncommon(const UncommonBody<Real>& own) {
+bool is_uncommon(const BodyExtras<Real>& own) {
   return !own.name.empty() || own.gravity_scale != 1 || own.linear_damping != 0 || own.angular_damping != 0 ||
          own.mass_centre != Vec2<Real>{};
 }
@@ -51,23 +52,23 @@ void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
   std::size_t shapes = 0;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
   w.tree_of(type).make_room(shapes);
-  ensure_room(w.moved_shapes, w.moved_shapes.size() + shapes);
+  ensure_room(w.move_buffer, w.move_buffer.size() + shapes);
   ensure_room(w.awake, w.awake.size() + 1);
 }
 
 // Tells all joints of a body whether it is dynamic, or none if that throws.
 template <class Real>
-void set_joints_dynamic(WorldData<Real>& w, int body, bool gives_way) {
+void set_joints_dynamic(WorldData<Real>& w, int body, bool is_dynamic) {
   const auto set = [&](const JointRecord& joint, bool to) {
-    w.joint_set.set_dynamic(joint.slot, joint.body_a == body ? to : w.gives_way(joint.body_a),
-                            joint.body_b == body ? to : w.gives_way(joint.body_b));
+    w.joint_set.set_dynamic(joint.slot, joint.body_a == body ? to : w.is_dynamic(joint.body_a),
+                            joint.body_b == body ? to : w.is_dynamic(joint.body_b));
   };
   try {
     for_each_edge(w.joints, w.bodies[body].first_joint,
-                  [&](int, JointRecord& joint) { set(joint, gives_way); });
+                  [&](int, JointRecord& joint) { set(joint, is_dynamic); });
   } catch (...) {
     for_each_edge(w.joints, w.bodies[body].first_joint,
-                  [&](int, JointRecord& joint) { set(joint, w.gives_way(body)); });
+                  [&](int, JointRecord& joint) { set(joint, w.is_dynamic(body)); });
     throw;
   }
 }
@@ -97,9 +98,9 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
   record.lock_x = definition.lock_x, record.lock_y = definition.lock_y;
   record.lock_rotation = definition.lock_rotation;
   record.angle = definition.angle;
-  UncommonBody<Real> own{definition.name, static_cast<Real>(definition.gravity_scale),
-                         static_cast<Real>(definition.linear_damping),
-                         static_cast<Real>(definition.angular_damping)};
+  BodyExtras<Real> own{definition.name, static_cast<Real>(definition.gravity_scale),
+                       static_cast<Real>(definition.linear_damping),
+                       static_cast<Real>(definition.angular_damping)};
   if (definition.mass) own.mass_centre = definition.mass->centre.as<Real>();
   make_place(w, definition.user_data != 0);
   make_room_for<Real>(w, definition.type, made);
@@ -159,7 +160,7 @@ Vec2d origin_of(const WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body) {
+BodyExtras<Real>& make_uncommon(WorldData<Real>& w, int body) {
   int& place = w.bodies[body].uncommon;
   if (place == kNone) place = w.uncommon.add({});
   return w.uncommon[place];
@@ -168,15 +169,15 @@ UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body) {
 template <class Real>
 void set_gravity_scale(WorldData<Real>& w, int body, double scale) {
   const Real wanted = static_cast<Real>(scale);
-  if (w.uncommon_of(body).gravity_scale != wanted) make_uncommon(w, body).gravity_scale = wanted;
+  if (w.extras_of(body).gravity_scale != wanted) make_uncommon(w, body).gravity_scale = wanted;
 }
 
 template <class Real>
 void set_damping(WorldData<Real>& w, int body, double linear, double angular) {
   const Real wanted = static_cast<Real>(linear), wanted_angular = static_cast<Real>(angular);
-  const UncommonBody<Real>& now = w.uncommon_of(body);
+  const BodyExtras<Real>& now = w.extras_of(body);
   if (now.linear_damping == wanted && now.angular_damping == wanted_angular) return;
-  UncommonBody<Real>& own = make_uncommon(w, body);
+  BodyExtras<Real>& own = make_uncommon(w, body);
   own.linear_damping = wanted, own.angular_damping = wanted_angular;
 }
 
@@ -189,8 +190,8 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
   w.rotation[body] = rounded<Real>(rotation_of(angle));
   w.position[body] = origin + (w.rotation[body] * record.centre).template as<double>();
   w.motion[body].moved = {}, w.motion[body].turned = 0;
-  w.remainders.renew(body, w.bodies.size());
-  forget_manifolds(w, body);
+  w.position_compensation.renew(body, w.bodies.size());
+  invalidate_manifolds(w, body);
   for_each_edge(w.joints, record.first_joint,
                 [&](int, JointRecord& joint) { w.joint_set.put_elsewhere(joint.slot); });
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
@@ -218,7 +219,7 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
   if (record.awake) leave_awake(w, body);
   record.type = type;
-  w.remainders.renew(body, w.bodies.size());
+  w.position_compensation.renew(body, w.bodies.size());
   if (type != BodyType::Static) enter_awake(w, body);
   if (type == BodyType::Static) w.motion[body] = {};
   find_mass(w, body);
@@ -229,7 +230,7 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
 #define PLUMB_FOR(Real)                                                                             \
   template int add_body(WorldData<Real>&, const BodyDefinition&, std::span<const ShapeDefinition>); \
   template void remove_body(WorldData<Real>&, int);                                                 \
-  template UncommonBody<Real>& make_uncommon(WorldData<Real>&, int);                                \
+  template BodyExtras<Real>& make_uncommon(WorldData<Real>&, int);                                  \
   template Vec2d origin_of(const WorldData<Real>&, int);                                            \
   template void set_gravity_scale(WorldData<Real>&, int, double);                                   \
   template void set_damping(WorldData<Real>&, int, double, double);                                 \

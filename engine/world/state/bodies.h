@@ -29,7 +29,7 @@ void set_type(WorldData<Real>& w, int body, BodyType type);
 
 /// Returns the body's optional data, and allocates it if there is none yet.
 template <class Real>
-UncommonBody<Real>& make_uncommon(WorldData<Real>& w, int body);
+BodyExtras<Real>& make_uncommon(WorldData<Real>& w, int body);
 
 /// Removes a shape without contacts from the body's list and the trees. The caller updates the mass.
 template <class Real>
@@ -40,7 +40,7 @@ void take_out_chain(WorldData<Real>& w, int chain);
 
 /// Adds the shape to the move buffer, so that the next step looks up its pairs.
 template <class Real>
-void note_moved(WorldData<Real>& w, int shape);
+void add_to_move_buffer(WorldData<Real>& w, int shape);
 /// Emits the end events of a sensor's overlaps, and removes its record.
 template <class Real>
 void end_visits(WorldData<Real>& w, int shape);

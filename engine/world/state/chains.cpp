@@ -1,8 +1,8 @@
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/mass.h"
 #include "engine/world/state/new_shape.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 

@@ -14,7 +14,7 @@ inline constexpr double kContactDampingRatio = 10;
 
 /// Compliance of a contact under load, as a fraction of its spring's; at 1 large heaps oscillate. A heap of
 /// 100 rows collapses at 0.2 (at 0.4 with two substeps); one of 75 with two substeps sways, but stands.
-inline constexpr double kContactYield = 0.35;
+inline constexpr double kContactComplianceScale = 0.35;
 /// Fraction of a lasting load that becomes the load estimate. Contacts are compliant only to the rest, so a
 /// lasting load causes little penetration. At 1 nothing would keep loads from creeping among redundant
 /// supports, and overlaps would grow again.
@@ -93,18 +93,18 @@ inline constexpr double kPushSpeed = 4;
 /// Additional depenetration speed between dynamic bodies that an impact has driven into each other, as a
 /// fraction of a velocity: the one that their contact impulse gives them in a substep. At 0.2 shapes that
 /// start in overlap fly apart a fifth faster.
-inline constexpr double kPushWithLoad = 0.05;
+inline constexpr double kLoadPushShare = 0.05;
 
 /// Constant part of the speculative margin, as a fraction of the smaller shape's extent; the possible
 /// approach in the step is added.
-inline constexpr double kContactReach = 0.02;
+inline constexpr double kSpeculativeMargin = 0.02;
 /// Upper limit of that approach, as a fraction of the smaller extent, because a contact normal is inaccurate
 /// at a distance.
-inline constexpr double kContactReachMost = 0.5;
+inline constexpr double kSpeculativeMarginMost = 0.5;
 
 /// Relative displacement up to which a manifold is recycled, as a fraction of the smaller extent. The error
 /// of separations carried on to first order is of second order in it.
-inline constexpr double kManifoldTravel = 0.002;
+inline constexpr double kRecycleDistance = 0.002;
 
 /// Height of ignored steps in a surface of several shapes, as a fraction of the smaller extent of the shapes
 /// in contact. Gaps may be three times as wide. Below, planks that have settled to a thousandth would act as
@@ -150,7 +150,7 @@ inline constexpr double kImpactTolerance = 1e-3;
 /// Iterations of one time-of-impact search, and extra ones for all searches of a step together. Shapes that
 /// rotate by thousands of radians beside each other need these. A search that runs out of them reports an
 /// impact at the time it has reached: until then the shapes are apart.
-inline constexpr int kImpactIterations = 64, kLongSearches = 4096;
+inline constexpr int kImpactIterations = 64, kToiIterationBudget = 4096;
 
 /// Separation to which bodies are brought that rebound within a step, relative to their sizes and
 /// displacements. The search rounds at some 1e-15 of these: a much smaller value could not tell touching from

@@ -79,8 +79,8 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
   c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
   c.watched = records_impact(contact, c);
-  c.hardness = w.gives_way(contact.body_a) && w.gives_way(contact.body_b) ? ContactHardness::Soft
-                                                                          : ContactHardness::Stiff;
+  c.hardness = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b) ? ContactHardness::Soft
+                                                                            : ContactHardness::Stiff;
 }
 
 template <class Real>
@@ -98,7 +98,7 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
                      ContactConstraint<Real>& c) {
   const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
-  const Real expected[2] = {c.expected_impulse[0], c.expected_impulse[1]};
+  const Real expected[2] = {c.load_estimate[0], c.load_estimate[1]};
   const std::uint16_t features[2] = {c.features[0], c.features[1]};
   const int old_count = c.count;
   c.normal = q * manifold.normal;
@@ -106,13 +106,13 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   Vec2<Real> arms_a[2];
   bool kept = false;
   for (int i = 0; i < 2; ++i) {
-    c.normal_impulse[i] = c.expected_impulse[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    c.normal_impulse[i] = c.load_estimate[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
     c.features[i] = 0;
     if (i >= manifold.count) continue;
     const ContactManifoldPoint<Real>& from = manifold.points[i];
     for (int j = 0; j < old_count; ++j) {
       if (features[j] != from.feature) continue;
-      c.normal_impulse[i] = old[j], c.expected_impulse[i] = expected[j];
+      c.normal_impulse[i] = old[j], c.load_estimate[i] = expected[j];
       kept = true;
     }
     arms_a[i] = q * from.point;
@@ -122,13 +122,13 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
   prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  c.travel_left = contact.pre_solve ? Real(-1) : Real(tuning::kManifoldTravel) * smaller;
+  c.recycle_budget = contact.pre_solve ? Real(-1) : Real(tuning::kRecycleDistance) * smaller;
 }
 
 template <class Real>
 ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact) {
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  const ContactManifold<Real> manifold = manifold_of(w, contact, Real(tuning::kContactReach) * smaller);
+  const ContactManifold<Real> manifold = manifold_of(w, contact, Real(tuning::kSpeculativeMargin) * smaller);
   ContactConstraint<Real> c;
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = kNone;
   mix_materials(w, contact, c);
@@ -137,11 +137,11 @@ ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const Conta
 }
 
 template <class Real>
-bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b) {
+bool may_touch_now(const WorldData<Real>& w, int shape_a, int shape_b) {
   const ContactRecord contact = contact_of(w, shape_a, shape_b);
   const Real smaller = std::min(w.forms[shape_a].extent, w.forms[shape_b].extent);
-  const Real reach = Real(tuning::kContactReach) * smaller;
-  return !boxes_apart(w, shape_a, shape_b, reach) && manifold_of(w, contact, reach).count > 0;
+  const Real reach = Real(tuning::kSpeculativeMargin) * smaller;
+  return !aabbs_apart(w, shape_a, shape_b, reach) && manifold_of(w, contact, reach).count > 0;
 }
 
 #define PLUMB_FOR(Real)                                                                                     \
@@ -151,7 +151,7 @@ bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b) {
   template void prepare_contact(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, \
                                 Rotation<Real>, Vec2<Real>, ContactConstraint<Real>&);                      \
   template ContactConstraint<Real> constraint_between(const WorldData<Real>&, const ContactRecord&);        \
-  template bool meet_now(const WorldData<Real>&, int, int);
+  template bool may_touch_now(const WorldData<Real>&, int, int);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

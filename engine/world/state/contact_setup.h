@@ -39,7 +39,7 @@ Real rounding_between(const WorldData<Real>& w, int body_a, int body_b) {
 /// Returns true if two AABBs are farther apart than `reach`. Far from the origin both are rounded as coarsely
 /// as positions, so a rounding margin is added.
 template <class Real>
-bool boxes_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
+bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
   const Aabb<Real>& box = w.boxes[shape_a];
   const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (size_of(box.lower) + size_of(box.upper));
   return !box.grown(reach + rounding).overlaps(w.boxes[shape_b]);
@@ -73,6 +73,6 @@ ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const Conta
 
 /// Returns true if two shapes touch, or nearly so, at their present poses: a contact would have points.
 template <class Real>
-bool meet_now(const WorldData<Real>& w, int shape_a, int shape_b);
+bool may_touch_now(const WorldData<Real>& w, int shape_a, int shape_b);
 
 }  // namespace plumb

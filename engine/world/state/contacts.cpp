@@ -1,7 +1,7 @@
 #include "engine/world/state/contacts.h"
 
 #include "engine/world/state/contact_setup.h"
-#include "engine/world/state/islands.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 namespace {
@@ -38,8 +38,8 @@ void leave_near(WorldData<Real>& w, int contact) {
 template <class Real>
 void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
   ContactRecord& record = w.contacts[contact];
-  w.ties_changed = true;
-  const auto place = w.graph.add(constraint, w.gives_way(record.body_a), w.gives_way(record.body_b));
+  w.topology_changed = true;
+  const auto place = w.graph.add(constraint, w.is_dynamic(record.body_a), w.is_dynamic(record.body_b));
   record.home = ContactHome::Graph;
   record.colour = static_cast<std::int8_t>(place.colour);
   record.index = place.index;
@@ -47,10 +47,10 @@ void enter_graph(WorldData<Real>& w, int contact, const ContactConstraint<Real>&
 
 template <class Real>
 void leave_graph(WorldData<Real>& w, int contact) {
-  w.ties_changed = true;
+  w.topology_changed = true;
   const ContactRecord& record = w.contacts[contact];
   const int follower =
-      w.graph.remove({record.colour, record.index}, w.gives_way(record.body_a), w.gives_way(record.body_b));
+      w.graph.remove({record.colour, record.index}, w.is_dynamic(record.body_a), w.is_dynamic(record.body_b));
   if (follower != -1) w.contacts[follower].index = record.index;
 }
 
@@ -74,7 +74,7 @@ bool joined_without_collision(const WorldData<Real>& w, int body_a, int body_b) 
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
-  if (a.body == b.body || (!w.gives_way(a.body) && !w.gives_way(b.body))) return false;
+  if (a.body == b.body || (!w.is_dynamic(a.body) && !w.is_dynamic(b.body))) return false;
   const ShapeForm<Real>&form_a = w.forms[shape_a], &form_b = w.forms[shape_b];
   if (form_a.sensor || form_b.sensor || (form_a.chain && form_b.chain)) return false;
   return may_touch(a.filter, b.filter) && !joined_without_collision(w, a.body, b.body);
@@ -206,10 +206,10 @@ void set_touching(WorldData<Real>& w, int contact, bool touching) {
 }
 
 template <class Real>
-void forget_manifolds(WorldData<Real>& w, int body) {
+void invalidate_manifolds(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, ContactRecord& contact) {
     if (contact.home == ContactHome::Graph || contact.home == ContactHome::Parked) {
-      constraint_of(w, contact).travel_left = -1;
+      constraint_of(w, contact).recycle_budget = -1;
     }
   });
 }
@@ -240,10 +240,10 @@ template <class Real>
 void wake_touched(WorldData<Real>& w, int shape) {
   const ShapeRecord<Real>& record = w.shapes[shape];
   if (record.proxy == kNone || w.bodies[record.body].type != BodyType::Static) return;
-  const Aabb<Real>& box = w.still_tree.box(record.proxy);
-  w.moving_tree.query(box, seen_by(record.filter), [&](int other, int) {
+  const Aabb<Real>& box = w.static_tree.box(record.proxy);
+  w.dynamic_tree.query(box, seen_by(record.filter), [&](int other, int) {
     const int body = w.shapes[other].body;
-    if (!w.bodies[body].awake && may_collide(w, shape, other) && meet_now(w, shape, other))
+    if (!w.bodies[body].awake && may_collide(w, shape, other) && may_touch_now(w, shape, other))
       wake_body(w, body);
     return true;
   });
@@ -260,7 +260,7 @@ void wake_touched(WorldData<Real>& w, int shape) {
   template void unpark_contact(WorldData<Real>&, int);                                     \
   template ContactConstraint<Real>& constraint_of(WorldData<Real>&, const ContactRecord&); \
   template void set_touching(WorldData<Real>&, int, bool);                                 \
-  template void forget_manifolds(WorldData<Real>&, int);                                   \
+  template void invalidate_manifolds(WorldData<Real>&, int);                               \
   template void destroy_contacts_of(WorldData<Real>&, int, int);                           \
   template void destroy_forbidden_contacts(WorldData<Real>&, int);                         \
   template void wake_touched(WorldData<Real>&, int);

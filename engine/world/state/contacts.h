@@ -50,7 +50,7 @@ void set_touching(WorldData<Real>& w, int contact, bool touching);
 
 /// Invalidates the manifolds of a body that was teleported.
 template <class Real>
-void forget_manifolds(WorldData<Real>& w, int body);
+void invalidate_manifolds(WorldData<Real>& w, int body);
 
 /// Destroys all contacts of a body, or of one of its shapes, and wakes sleeping bodies that touched it.
 template <class Real>

@@ -1,8 +1,8 @@
 #include "engine/core/room.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 template <class Real>
 void take_out_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
-  w.ties_changed = true;
+  w.topology_changed = true;
   w.joint_set.remove(record.slot);  // the only call that may run out of memory
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
@@ -38,9 +38,9 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   ensure_room(w.breakable, w.breakable.size() + (breaks ? 1 : 0));
   if (!definition.collide) make_room_for_ends(w, body_a, body_b);
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
-                                   w.bodies[body_b].centre, w.gives_way(body_a), w.gives_way(body_b));
+                                   w.bodies[body_b].centre, w.is_dynamic(body_a), w.is_dynamic(body_b));
   w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
-  w.ties_changed = true;
+  w.topology_changed = true;
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;
   record.slot = slot;
@@ -79,7 +79,7 @@ void remove_joint(WorldData<Real>& w, int joint) {
   // Shapes that the joint kept from colliding need pairs again.
   const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    note_moved(w, shape);
+    add_to_move_buffer(w, shape);
   }
 }
 

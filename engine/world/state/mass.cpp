@@ -67,14 +67,14 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<R
   BodyRecord<Real>& record = w.bodies[body];
   BodyMotion<Real>& motion = w.motion[body];
   recentre(w, body, frame);
-  w.ties_changed = true;
+  w.topology_changed = true;
   record.mass = held<Real>(mass.mass), record.inertia = held<Real>(mass.inertia);
   const bool dynamic = own_type(w, body) == BodyType::Dynamic;
   motion.inverse_mass = dynamic ? held<Real>(1 / mass.mass) : Real(0);
   motion.inverse_inertia =
       dynamic && !record.lock_rotation && mass.inertia > 0 ? held<Real>(1 / mass.inertia) : Real(0);
   update_extents(w, body);
-  forget_manifolds(w, body);
+  invalidate_manifolds(w, body);
 }
 
 template <class Real>
@@ -109,7 +109,7 @@ template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.mass_given)
-    return {static_cast<double>(record.mass), w.uncommon_of(body).mass_centre.template as<double>(),
+    return {static_cast<double>(record.mass), w.extras_of(body).mass_centre.template as<double>(),
             static_cast<double>(record.inertia)};
   double mass = 0, inertia = 0;
   Vec2d moment{};
@@ -144,7 +144,7 @@ void find_mass(WorldData<Real>& w, int body) {
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   const Vec2<Real> centre = mass.centre.as<Real>();
-  if (w.uncommon_of(body).mass_centre != centre) make_uncommon(w, body).mass_centre = centre;
+  if (w.extras_of(body).mass_centre != centre) make_uncommon(w, body).mass_centre = centre;
   apply_mass(w, body, mass, frame_for(w, body, mass));
   w.bodies[body].mass_given = true;
 }

@@ -22,7 +22,7 @@ void naming(Subject&& subject, Check&& check) {
 /// Returns "body 'ball'", or "body 3" by its handle's index if it has no name.
 template <class Real>
 std::string body_subject(const WorldData<Real>& w, int body) {
-  return body_subject(static_cast<std::size_t>(body), w.uncommon_of(body).name);
+  return body_subject(static_cast<std::size_t>(body), w.extras_of(body).name);
 }
 
 template <class Real, class Check>

@@ -11,8 +11,8 @@
 #include "engine/scene/error.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 
 namespace plumb {
@@ -51,7 +51,7 @@ template <class Real>
 void hold_again(WorldData<Real>& w, JointRecord& joint) {
   if (lets_go(w, joint)) return;  // still off because of the other body
   ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
-  w.joint_set.set_dynamic(joint.slot, w.gives_way(joint.body_a), w.gives_way(joint.body_b));
+  w.joint_set.set_dynamic(joint.slot, w.is_dynamic(joint.body_a), w.is_dynamic(joint.body_b));
   w.joint_set.forget(joint.slot);
   wake_body(w, joint.body_a), wake_body(w, joint.body_b);
   if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
@@ -85,7 +85,7 @@ void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   motion.velocity = sound.velocity, motion.angular_velocity = sound.angular_velocity;
   motion.moved = {}, motion.turned = 0;
   place_rotation(w, body);
-  w.bodies[body].still_for = 0;
+  w.bodies[body].sleep_time = 0;
   w.loads.renew(body, w.bodies.size());
   w.enlarged[body] = 0;
 }
@@ -118,12 +118,12 @@ void forget_impulses(WorldData<Real>& w, int body) {
     if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
     for (int i = 0; i < 2; ++i) {
-      c.normal_impulse[i] = c.expected_impulse[i] = c.peak_impulse[i] = c.approach[i] = 0;
+      c.normal_impulse[i] = c.load_estimate[i] = c.peak_impulse[i] = c.approach[i] = 0;
       c.now[i] = c.separation[i];
     }
     c.tangent_impulse = c.rolling_impulse = 0;
   });
-  forget_manifolds(w, body);
+  invalidate_manifolds(w, body);
   for_each_edge(w.joints, w.bodies[body].first_joint,
                 [&](int, const JointRecord& joint) { w.joint_set.forget(joint.slot); });
 }
@@ -139,7 +139,7 @@ void move_on(WorldData<Real>& w, int body, double dt) {
   place_rotation(w, body);
   const Real turned = std::abs(motion.turned) * w.extents[body];
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    refresh_box(w, shape, t, turned);
+    update_proxy(w, shape, t, turned);
 }
 
 // A body with an invalid motion.
@@ -153,7 +153,7 @@ struct Fault {
 
 // Returns the causes of a failure that a constraint passed on: the fastest body, or all that were runaway
 // before.
-std::vector<Fault> culprits_of(const std::vector<Fault>& faults) {
+std::vector<Fault> sources_of(const std::vector<Fault>& faults) {
   constexpr double kRunaway = 1e-3 * kLargestNumber;
   std::vector<Fault> culprits;
   const Fault* fastest = nullptr;
@@ -197,7 +197,7 @@ template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value) {
   if (w.bodies[body].quarantined) return;
   QuarantineEvent why{{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
-                      w.uncommon_of(body).name,
+                      w.extras_of(body).name,
                       field,
                       one_nan(value),
                       w.steps + 1};
@@ -217,7 +217,7 @@ void quarantine_body(WorldData<Real>& w, int body, BadField field, double value)
   w.motion[body].moved = {}, w.motion[body].turned = 0;
   w.loads.renew(body, w.bodies.size());
   w.enlarged[body] = 0;
-  w.ties_changed = true;
+  w.topology_changed = true;
   // Between two steps, a body that is released and pushed beyond the limits again is reported once.
   std::vector<QuarantineEvent>& told = w.log().quarantined;
   if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
@@ -230,7 +230,7 @@ void release_body(WorldData<Real>& w, int body) {
   std::size_t shapes = 0;
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
   w.tree_of(own_type(w, body)).make_room(shapes);
-  ensure_room(w.moved_shapes, w.moved_shapes.size() + shapes);
+  ensure_room(w.move_buffer, w.move_buffer.size() + shapes);
   ensure_room(w.awake, w.awake.size() + 1);
   record.type = own_type(w, body);
   record.quarantined = false;
@@ -255,7 +255,7 @@ void push_body(WorldData<Real>& w, int body, Vec2d impulse, double angular_impul
 
 template <class Real>
 void quarantine_overloaded(WorldData<Real>& w, double dt) {
-  std::vector<int>& bad = w.scratch.bad_bodies;
+  std::vector<int>& bad = w.scratch.nonfinite_bodies;
   bad.clear();
   const auto gain = [&](int body, const Load<Real>& load) -> std::pair<Vec2d, double> {
     const BodyMotion<Real>& motion = w.motion[body];
@@ -282,12 +282,12 @@ void quarantine_overloaded(WorldData<Real>& w, double dt) {
 }
 
 template <class Real>
-void quarantine_lost(WorldData<Real>& w, double dt) {
-  const std::vector<Kick<Real>>& kicks = w.scratch.kicks;
+void quarantine_diverged(WorldData<Real>& w, double dt) {
+  const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   std::vector<Fault> faults;
   bool shared = false;
   std::size_t kick = 0;  // kicks and bad bodies are both in the order of `awake`
-  for (const int body : w.scratch.bad_bodies) {
+  for (const int body : w.scratch.nonfinite_bodies) {
     const int place = w.bodies[body].awake_index;
     while (kick < kicks.size() && w.bodies[kicks[kick].body].awake_index < place) ++kick;
     const bool held = kick < kicks.size() && kicks[kick].body == body;
@@ -307,8 +307,8 @@ void quarantine_lost(WorldData<Real>& w, double dt) {
     faults.push_back({body, field, value, speed, own});
   }
   if (shared) mend_static_bodies(w);
-  w.ties_changed = true;
-  for (const Fault& each : culprits_of(faults)) quarantine_body(w, each.body, each.field, each.value);
+  w.topology_changed = true;
+  for (const Fault& each : sources_of(faults)) quarantine_body(w, each.body, each.field, each.value);
 }
 
 #define PLUMB_FOR(Real)                                                   \
@@ -319,7 +319,7 @@ void quarantine_lost(WorldData<Real>& w, double dt) {
   template void quarantine_body(WorldData<Real>&, int, BadField, double); \
   template void release_body(WorldData<Real>&, int);                      \
   template void quarantine_overloaded(WorldData<Real>&, double);          \
-  template void quarantine_lost(WorldData<Real>&, double);
+  template void quarantine_diverged(WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

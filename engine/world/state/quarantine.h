@@ -49,11 +49,11 @@ bool is_finite_motion(const BodyMotion<Real>& motion) {
 template <class Real>
 bool is_sound_motion(const BodyMotion<Real>& motion);
 
-/// Handles, after a step's solver, the bodies in `scratch.bad_bodies`, whose motion is invalid and was not
-/// applied. Bodies in free flight, or too fast, are quarantined. Of bodies with a common failure (a
+/// Handles, after a step's solver, the bodies in `scratch.nonfinite_bodies`, whose motion is invalid and was
+/// not applied. Bodies in free flight, or too fast, are quarantined. Of bodies with a common failure (a
 /// constraint passes it on), the fastest are quarantined. The others stay in place for this step, lose their
 /// impulses, and continue with the velocity before it.
 template <class Real>
-void quarantine_lost(WorldData<Real>& w, double dt);
+void quarantine_diverged(WorldData<Real>& w, double dt);
 
 }  // namespace plumb

@@ -119,7 +119,7 @@ Pose<Real> pose_in(const WorldData<Real>& w, int body, int frame) {
 // neither is dynamic.
 template <class Real>
 bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbour) {
-  return neighbour == side.body || (!w.gives_way(neighbour) && !w.gives_way(side.body));
+  return neighbour == side.body || (!w.is_dynamic(neighbour) && !w.is_dynamic(side.body));
 }
 
 // Tests a neighbour; of several faces it keeps the one that the other shape is farthest in front of.
@@ -142,8 +142,8 @@ void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
 // constraints.
 template <class Real>
 int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
-  if (!w.gives_way(contact.body_a)) return contact.body_b;
-  if (!w.gives_way(contact.body_b)) return contact.body_a;
+  if (!w.is_dynamic(contact.body_a)) return contact.body_b;
+  if (!w.is_dynamic(contact.body_b)) return contact.body_a;
   return w.bodies[contact.body_b].constraints < w.bodies[contact.body_a].constraints ? contact.body_b
                                                                                      : contact.body_a;
 }
@@ -194,7 +194,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     const int shape = w.bodies[body].first_shape;
     return shape == kNone || w.shapes[shape].next == kNone;
   };
-  if (w.gives_way(contact.body_a) && w.gives_way(contact.body_b) && is_single(contact.body_a) &&
+  if (w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b) && is_single(contact.body_a) &&
       is_single(contact.body_b))
     return manifold;
   const int asked = body_to_ask(w, contact);
@@ -234,10 +234,10 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   if (!looked) return manifold;
   if (sides[0].answer.kind == Kind::Hidden || sides[1].answer.kind == Kind::Hidden) return {};
   // Static and kinematic bodies first.
-  const int order = !w.gives_way(contact.body_a) || w.gives_way(contact.body_b) ? 0 : 1;
+  const int order = !w.is_dynamic(contact.body_a) || w.is_dynamic(contact.body_b) ? 0 : 1;
   for (const int i : {order, 1 - order}) {
     if (sides[i].answer.kind != Kind::Face) continue;
-    if (w.gives_way(sides[i].body) && !slides_along(w, contact, sides[i])) continue;
+    if (w.is_dynamic(sides[i].body) && !slides_along(w, contact, sides[i])) continue;
     const ContactManifold<Real> found = on_face(w, contact, sides[i], b_in_a, reach);
     Real deepest = 0;
     for (int k = 0; k < found.count; ++k) deepest = std::min(deepest, found.points[k].separation);

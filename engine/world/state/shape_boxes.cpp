@@ -8,13 +8,13 @@
 namespace plumb {
 
 template <class Real>
-Aabb<Real> box_of(const WorldData<Real>& w, int shape) {
+Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape) {
   const int body = w.shapes[shape].body;
   return convex_bounds(w.convex(shape), Pose<Real>{w.position[body].template as<Real>(), w.rotation[body]});
 }
 
 template <class Real>
-Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
+Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   const int body = w.shapes[shape].body;
   Aabb<Real> box = w.boxes[shape];
   // The margin covers the rounding of positions far from the origin.
@@ -28,14 +28,14 @@ Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt) {
 }
 
 template <class Real>
-bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned) {
-  return refresh_box_in(w, shape, dt, turned, w.tree_of(w.bodies[w.shapes[shape].body].type));
+bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned) {
+  return update_proxy_in(w, shape, dt, turned, w.tree_of(w.bodies[w.shapes[shape].body].type));
 }
 
-#define PLUMB_FOR(Real)                                              \
-  template Aabb<Real> box_of(const WorldData<Real>&, int);           \
-  template Aabb<Real> stored_box(const WorldData<Real>&, int, Real); \
-  template bool refresh_box(WorldData<Real>&, int, Real, Real);
+#define PLUMB_FOR(Real)                                            \
+  template Aabb<Real> tight_aabb(const WorldData<Real>&, int);     \
+  template Aabb<Real> fat_aabb(const WorldData<Real>&, int, Real); \
+  template bool update_proxy(WorldData<Real>&, int, Real, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

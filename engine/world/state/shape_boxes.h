@@ -10,16 +10,16 @@ namespace plumb {
 
 /// Returns the tight AABB of a shape at its body's present pose.
 template <class Real>
-Aabb<Real> box_of(const WorldData<Real>& w, int shape);
+Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape);
 
 /// Returns its fat AABB: with a margin and the predicted motion of the next steps.
 template <class Real>
-Aabb<Real> stored_box(const WorldData<Real>& w, int shape, Real dt);
+Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt);
 
 /// Updates a shape's AABBs at its body's present pose, after a rotation that moved no point of it by more
 /// than `turned`, m. Returns true if its fat AABB contained the whole motion.
 template <class Real>
-bool refresh_box(WorldData<Real>& w, int shape, Real dt, Real turned);
+bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned);
 
 /// Returns the AABB swept by a displacement `way`.
 template <class Real>
@@ -29,13 +29,13 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
-/// Stores the fat AABB of a shape in a tree (or its LateEnlarging), and adds it to the move buffer.
+/// Stores the fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds it to the move buffer.
 template <class Real, class Tree>
-void store_box(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
+void enlarge_proxy(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (!record.moved) append(w.moved_shapes, shape);
+  if (!record.moved) append(w.move_buffer, shape);
   record.moved = true;
-  tree.enlarge(record.proxy, stored_box(w, shape, dt));
+  tree.enlarge(record.proxy, fat_aabb(w, shape, dt));
   w.enlarged[record.body] = 1;
 }
 
@@ -49,16 +49,16 @@ Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) 
   return merged(box, {box.lower + ahead, box.upper + ahead}).grown(turned);
 }
 
-/// Does the same as `refresh_box` in one of the trees, or its LateEnlarging.
+/// Does the same as `update_proxy` in one of the trees, or its PrefetchedEnlarging.
 template <class Real, class Tree>
-bool refresh_box_in(WorldData<Real>& w, int shape, Real dt, Real turned, Tree& tree) {
+bool update_proxy_in(WorldData<Real>& w, int shape, Real dt, Real turned, Tree& tree) {
   if (w.shapes[shape].proxy == kNone) return true;
   const Aabb<Real> before = w.boxes[shape];
-  w.boxes[shape] = box_of(w, shape);
+  w.boxes[shape] = tight_aabb(w, shape);
   const ShapeRecord<Real>& record = w.shapes[shape];
   const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
   const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
-  if (!stored.contains(box_ahead(w, shape, dt, turned))) store_box(w, shape, dt, tree);
+  if (!stored.contains(box_ahead(w, shape, dt, turned))) enlarge_proxy(w, shape, dt, tree);
   return covered;
 }
 

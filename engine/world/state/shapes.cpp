@@ -8,10 +8,10 @@
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/mass.h"
 #include "engine/world/state/new_shape.h"
 #include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 namespace {
@@ -36,8 +36,8 @@ struct MakeOutline {
 // Removes duplicates and stale entries, left by shapes destroyed since the last step, from the move buffer.
 template <class Real>
 void tidy_moved_shapes(WorldData<Real>& w) {
-  std::erase_if(w.moved_shapes, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
-  for (const int shape : w.moved_shapes) w.shapes[shape].moved = true;
+  std::erase_if(w.move_buffer, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
+  for (const int shape : w.move_buffer) w.shapes[shape].moved = true;
 }
 
 template <class Real>
@@ -120,8 +120,8 @@ void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<R
   w.corners.make_room_for(runs);
   ensure_room(w.sensors, w.sensors.size() + sensors);
   w.tree_of(type).make_room(more);
-  if (w.moved_shapes.size() > 2 * all) tidy_moved_shapes(w);
-  ensure_room(w.moved_shapes, w.moved_shapes.size() + more);
+  if (w.move_buffer.size() > 2 * all) tidy_moved_shapes(w);
+  ensure_room(w.move_buffer, w.move_buffer.size() + more);
 }
 
 template <class Real>
@@ -157,22 +157,22 @@ int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
 }
 
 template <class Real>
-void note_moved(WorldData<Real>& w, int shape) {
+void add_to_move_buffer(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   if (record.moved) return;
-  if (w.moved_shapes.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) tidy_moved_shapes(w);
-  append(w.moved_shapes, shape);
+  if (w.move_buffer.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) tidy_moved_shapes(w);
+  append(w.move_buffer, shape);
   record.moved = true;
 }
 
 template <class Real>
 void enter_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  w.boxes[shape] = box_of(w, shape);
+  w.boxes[shape] = tight_aabb(w, shape);
   if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
-                     .insert(stored_box(w, shape, Real(0)), record.filter.category, shape);
-  note_moved(w, shape);
+                     .insert(fat_aabb(w, shape, Real(0)), record.filter.category, shape);
+  add_to_move_buffer(w, shape);
 }
 
 template <class Real>
@@ -221,7 +221,7 @@ void remove_shape(WorldData<Real>& w, int shape) {
 template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
   w.tree_of(w.bodies[w.shapes[shape].body].type).make_room(1);
-  ensure_room(w.moved_shapes, w.moved_shapes.size() + 1);
+  ensure_room(w.move_buffer, w.move_buffer.size() + 1);
   std::size_t contacts = 0;
   for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
   ensure_room(w.log().end, w.log().end.size() + contacts);
@@ -262,7 +262,7 @@ void set_material(WorldData<Real>& w, int shape, const Material& material) {
   template NewShape<Real> prepare_segment(const ChainDefinition&, int);                     \
   template void make_room_for(WorldData<Real>&, BodyType, std::span<const NewShape<Real>>); \
   template int insert_shape(WorldData<Real>&, int, const NewShape<Real>&);                  \
-  template void note_moved(WorldData<Real>&, int);                                          \
+  template void add_to_move_buffer(WorldData<Real>&, int);                                  \
   template void enter_tree(WorldData<Real>&, int);                                          \
   template void leave_tree(WorldData<Real>&, int);                                          \
   template void take_out_shape(WorldData<Real>&, int);                                      \

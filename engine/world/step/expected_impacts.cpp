@@ -36,7 +36,7 @@ bool flies_freely(const WorldData<Real>& w, int body) {
 // Adds a dynamic body to a list, unless it is in there.
 template <class Real>
 void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& noted, int body) {
-  if (!w.gives_way(body)) return;
+  if (!w.is_dynamic(body)) return;
   if (noted.size() < w.motion.size()) noted.resize(w.motion.size());
   if (noted[body]) return;
   noted[body] = 1;
@@ -48,11 +48,11 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
 template <class Real>
 void leave_crowds(WorldData<Real>& w) {
   std::vector<char>& met = w.scratch.expecting;
-  const auto gives_way = [&](const ContactConstraint<Real>& c) {
-    return w.gives_way(c.body_a) && w.gives_way(c.body_b);
+  const auto is_dynamic = [&](const ContactConstraint<Real>& c) {
+    return w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
   };
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
-    if (!gives_way(impact.constraint)) continue;
+    if (!is_dynamic(impact.constraint)) continue;
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
       if (met.size() > static_cast<std::size_t>(body) && met[body]) {
         note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
@@ -69,7 +69,7 @@ void leave_crowds(WorldData<Real>& w) {
 
 template <class Real>
 bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  const Real near = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
   const Real rounding = rounding_between(w, c.body_a, c.body_b);
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
@@ -87,7 +87,7 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
+bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
                  const ContactConstraint<Real>& c, Real dt) {
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;
@@ -136,12 +136,12 @@ void decide_expected_impacts(WorldData<Real>& w) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                           \
-  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                    \
-  template void clear_expected_impacts(WorldData<Real>&);                                         \
-  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const Encounter<Real>&, \
-                            const ContactConstraint<Real>&, Real);                                \
-  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                   \
+#define PLUMB_FOR(Real)                                                                                    \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                             \
+  template void clear_expected_impacts(WorldData<Real>&);                                                  \
+  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
+                            const ContactConstraint<Real>&, Real);                                         \
+  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                            \
   template void decide_expected_impacts(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

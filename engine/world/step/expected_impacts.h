@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/world/step/encounter.h"
+#include "engine/world/step/speculative_contact.h"
 #include "engine/world/world_data.h"
 
 namespace plumb {
@@ -16,7 +16,7 @@ void clear_expected_impacts(WorldData<Real>& w);
 /// Returns true if a contact's speculative contact `at` will bounce: it closes fast enough, has restitution,
 /// and no pre-solve hook. `c` is the constraint made from `at`.
 template <class Real>
-bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
+bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
                  const ContactConstraint<Real>& c, Real dt);
 
 /// Marks the bodies of a contact that will press in this step: they are not in free flight.

@@ -8,11 +8,11 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/seams.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/step/contact_reading.h"
-#include "engine/world/step/encounter.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/speculative_contact.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -21,15 +21,17 @@ namespace {
 // Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in the
 // step.
 template <class Real>
-Real reach_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b, Real dt) {
+Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b,
+                        Real dt) {
   const Real smaller = std::min(extent_a, extent_b);
   const Real closing = dt * (size_of(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
                              std::abs(b.angular_velocity) * extent_b);
-  return Real(tuning::kContactReach) * smaller + std::min(closing, Real(tuning::kContactReachMost) * smaller);
+  return Real(tuning::kSpeculativeMargin) * smaller +
+         std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
 }
 
 template <class Real>
-bool stored_boxes_apart(WorldData<Real>& w, const ContactRecord& contact) {
+bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
   const auto stored = [&](int shape, int body) -> const Aabb<Real>& {
     return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
   };
@@ -38,8 +40,8 @@ bool stored_boxes_apart(WorldData<Real>& w, const ContactRecord& contact) {
 
 // Builds a speculative constraint at the predicted impact; separations are the present ones.
 template <class Real>
-void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const Encounter<Real>& at,
-                 ContactConstraint<Real>& c) {
+void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c) {
   prepare_contact(w, contact, at.manifold, at.rotation, at.between, c);
   const Real closed = dot(c.normal, at.closed);
   for (int i = 0; i < c.count; ++i)
@@ -49,11 +51,11 @@ void build_ahead(const WorldData<Real>& w, const ContactRecord& contact, const E
 // Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
 // that.
 template <class Real>
-bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
+bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Vec2<Real> shift = b.moved - a.moved;
-  c.travel_left -= size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
-  if (c.travel_left < 0) return false;
+  c.recycle_budget -= size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
+  if (c.recycle_budget < 0) return false;
   const Real closed = dot(c.normal, shift);
   for (int i = 0; i < c.count; ++i) {
     c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
@@ -63,19 +65,19 @@ bool carry_on(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_
 
 // Updates the load estimate: most of a load, and all of it if the load pressed the shapes into each other.
 template <class Real>
-void expect_loads(ContactConstraint<Real>& c) {
+void update_load_estimate(ContactConstraint<Real>& c) {
   constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
   constexpr Real kRise = Real((1 - tuning::kExpectedShare) * tuning::kPushSpeed / tuning::kExpectedOverlap);
   const Real rise = kRise / c.push_speed;
   for (int i = 0; i < 2; ++i) {
     const Real share = std::min(kShare + rise * std::max(-c.separation[i], Real(0)), Real(1));
-    c.expected_impulse[i] += kRate * (share * c.normal_impulse[i] - c.expected_impulse[i]);
+    c.load_estimate[i] += kRate * (share * c.normal_impulse[i] - c.load_estimate[i]);
   }
 }
 
 template <class Real>
 void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
-  expect_loads(c);
+  update_load_estimate(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
   if (!c.watched) return;
   c.peak_impulse[0] = c.peak_impulse[1] = 0;
@@ -85,14 +87,14 @@ void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
   // A single point with a fast approach may belong to two discs, whose normal will rotate.
-  const Real travel = c.push_speed * Real(tuning::kManifoldTravel / tuning::kPushSpeed);
+  const Real travel = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
   if (c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel))
     append(w.scratch.bouncing, c.contact);
 }
 
 // Updates the touching state that events report.
 template <class Real>
-void note_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching) {
+void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touching) {
   const ContactRecord& contact = w.contacts[c.contact];
   set_touching(w, c.contact, touching);
   c.touching = touching;
@@ -113,8 +115,9 @@ bool touches(const ContactConstraint<Real>& c) {
 template <class Real>
 ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Real reach = reach_of(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  if (boxes_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
+  const Real reach =
+      speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+  if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
   return manifold_of(w, contact, reach);
 }
 
@@ -139,10 +142,10 @@ void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
 
 // Does the same for a predicted impact; bounces in free flight are decided later.
 template <class Real>
-void begin_ahead(WorldData<Real>& w, int id, const Encounter<Real>& at, Real dt) {
+void begin_speculative_contact(WorldData<Real>& w, int id, const SpeculativeContact<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  build_ahead(w, contact, at, c);
+  prepare_speculative_contact(w, contact, at, c);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
   if (will_bounce(w, contact, at, c, dt)) {
@@ -159,7 +162,7 @@ void begin_ahead(WorldData<Real>& w, int id, const Encounter<Real>& at, Real dt)
 // ahead: they are scattered in memory. Always inlined, because GCC 12 drops calls of a function that only
 // prefetches.
 template <class Real>
-[[gnu::always_inline]] inline void ask_for_near(const WorldData<Real>& w, std::size_t i) {
+[[gnu::always_inline]] inline void prefetch_near(const WorldData<Real>& w, std::size_t i) {
   constexpr std::size_t kRecords = 16, kShapes = 8;
   if (i + kRecords < w.near.size()) __builtin_prefetch(&w.contacts[w.near[i + kRecords]]);
   if (i + kShapes >= w.near.size()) return;
@@ -173,19 +176,19 @@ template <class Real>
 // Updates contacts without points: starts those that get points, and ends those whose fat AABBs have
 // separated.
 template <class Real>
-void look_at_near(WorldData<Real>& w, Real dt, Real h) {
+void update_nontouching_contacts(WorldData<Real>& w, Real dt, Real h) {
   for (std::size_t i = 0; i < w.near.size(); ++i) {
-    ask_for_near(w, i);
+    prefetch_near(w, i);
     const int id = w.near[i];
     const ContactRecord& contact = w.contacts[id];
-    if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && stored_boxes_apart(w, contact)) {
+    if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) {
       w.scratch.lost_contacts.push_back(id);
       continue;
     }
     const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-    const Encounter<Real> at = find_encounter(w, contact, manifold, dt, h);
+    const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
     if (at.outlook == Outlook::Meets) {
-      begin_ahead(w, id, at, dt);
+      begin_speculative_contact(w, id, at, dt);
     } else if (manifold.count > 0 && at.outlook != Outlook::Misses) {
       begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
     }
@@ -196,9 +199,9 @@ void look_at_near(WorldData<Real>& w, Real dt, Real h) {
 template <class Real>
 bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, ContactConstraint<Real>& c) {
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-  const Encounter<Real> at = find_encounter(w, contact, manifold, dt, h);
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
-    build_ahead(w, contact, at, c);
+    prepare_speculative_contact(w, contact, at, c);
     if (will_bounce(w, contact, at, c, dt)) {
       append(w.scratch.expected_impacts, ExpectedImpact<Real>{.constraint = c, .in_graph = true});
     } else {
@@ -212,16 +215,16 @@ bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, Co
 
 // Recycles the manifold of a contact with points, or rebuilds it if its bodies have moved too much.
 template <class Real>
-void look_at_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt, Real h) {
+void update_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt, Real h) {
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   if (touches(c) != c.touching) w.scratch.touch_changes.push_back(c.contact);
   if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
-    if (stored_boxes_apart(w, w.contacts[c.contact])) {
+    if (fat_aabbs_apart(w, w.contacts[c.contact])) {
       w.scratch.lost_contacts.push_back(c.contact);
       return;
     }
   }
-  if (!carry_on(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
+  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
     const ContactRecord& contact = w.contacts[c.contact];
     if (!renew(w, contact, dt, h, c) || is_waived(w, contact, c)) {
       w.scratch.ended_contacts.push_back(c.contact);
@@ -260,12 +263,12 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
   scratch.begun_contacts.clear(), scratch.bouncing.clear();
   clear_expected_impacts(w);
-  look_at_near(w, dt, h);
-  w.graph.for_each([&](ContactConstraint<Real>& c) { look_at_constraint(w, c, dt, h); });
+  update_nontouching_contacts(w, dt, h);
+  w.graph.for_each([&](ContactConstraint<Real>& c) { update_constraint(w, c, dt, h); });
   settle_expected_impacts(w, dt);
   for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
-    note_touching(w, c, !c.touching);
+    update_touching(w, c, !c.touching);
   }
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
@@ -273,7 +276,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
     const int id = c.contact;
     const bool touching = touches(c);
     begin_contact(w, id, c);
-    if (touching) note_touching(w, constraint_of(w, w.contacts[id]), true);
+    if (touching) update_touching(w, constraint_of(w, w.contacts[id]), true);
   });
 }
 

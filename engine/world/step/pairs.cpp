@@ -8,12 +8,12 @@ namespace {
 // Returns true if most moved shapes have no contact. Estimated from at most 512 samples, because checking a
 // million bodies would cause a cache miss for each.
 template <class Real>
-bool mostly_alone(const WorldData<Real>& w) {
+bool is_mostly_apart(const WorldData<Real>& w) {
   constexpr std::size_t kSample = 512;
-  const std::size_t stride = w.moved_shapes.size() / kSample + 1;
+  const std::size_t stride = w.move_buffer.size() / kSample + 1;
   int looked = 0, alone = 0;
-  for (std::size_t i = 0; i < w.moved_shapes.size(); i += stride, ++looked) {
-    const ShapeRecord<Real>& record = w.shapes[w.moved_shapes[i]];
+  for (std::size_t i = 0; i < w.move_buffer.size(); i += stride, ++looked) {
+    const ShapeRecord<Real>& record = w.shapes[w.move_buffer[i]];
     alone += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
   }
   return 8 * alone >= 7 * looked;
@@ -22,12 +22,12 @@ bool mostly_alone(const WorldData<Real>& w) {
 // If most moved shapes had no contact, finds in one self-overlap pass which proxies of the dynamic tree
 // overlap any other; this saves their queries. Returns false if the pass was skipped.
 template <class Real>
-bool mark_meetings(WorldData<Real>& w) {
-  const int moved = static_cast<int>(w.moved_shapes.size()), all = w.moving_tree.size();
+bool mark_self_overlaps(WorldData<Real>& w) {
+  const int moved = static_cast<int>(w.move_buffer.size()), all = w.dynamic_tree.size();
   if (all < tuning::kScreenedMoves) return false;
-  w.scratch.meets.resize(static_cast<std::size_t>(w.moving_tree.proxies()));
+  w.scratch.meets.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
   if (moved < tuning::kScreenedMoves || moved * tuning::kScreenedShare < all) return false;
-  return mostly_alone(w) && w.moving_tree.mark_meetings(w.scratch.meets, 4 * moved);
+  return is_mostly_apart(w) && w.dynamic_tree.mark_self_overlaps(w.scratch.meets, 4 * moved);
 }
 
 // Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
@@ -36,8 +36,7 @@ constexpr std::size_t kAhead = 8, kShapesAhead = 32;
 
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_moved(const WorldData<Real>& w, std::size_t i) {
-  if (i + kShapesAhead < w.moved_shapes.size())
-    __builtin_prefetch(&w.shapes[w.moved_shapes[i + kShapesAhead]]);
+  if (i + kShapesAhead < w.move_buffer.size()) __builtin_prefetch(&w.shapes[w.move_buffer[i + kShapesAhead]]);
 }
 
 }  // namespace
@@ -46,11 +45,11 @@ template <class Real>
 void find_pairs(WorldData<Real>& w) {
   std::vector<std::pair<int, int>>& found = w.scratch.found_pairs;
   found.clear();
-  const bool marked = mark_meetings(w);
-  const bool grounds = w.still_tree.size() > 0;
-  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
+  const bool marked = mark_self_overlaps(w);
+  const bool grounds = w.static_tree.size() > 0;
+  for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
     ask_for_moved(w, i);
-    const int shape = w.moved_shapes[i];
+    const int shape = w.move_buffer[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone) continue;  // destroyed meanwhile
     // Without static shapes every proxy is in the dynamic tree, so one without an overlap can be skipped
@@ -66,8 +65,8 @@ void find_pairs(WorldData<Real>& w) {
     const std::uint32_t mask = seen_by(record.filter);
     if (mask == 0) continue;
     if (type == BodyType::Static || !marked || w.scratch.meets[record.proxy] != 0)
-      w.moving_tree.query(box, mask, visit);
-    if (type == BodyType::Dynamic) w.still_tree.query(box, mask, visit);
+      w.dynamic_tree.query(box, mask, visit);
+    if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (i + kAhead < found.size()) w.pairs.ask_for(found[i + kAhead].first, found[i + kAhead].second);
@@ -75,11 +74,11 @@ void find_pairs(WorldData<Real>& w) {
     if (!w.pairs.contains(a, b) && may_collide(w, a, b)) create_contact(w, a, b);
   }
   // Clear the flags last: if memory runs out above, these pairs are searched again.
-  for (std::size_t i = 0; i < w.moved_shapes.size(); ++i) {
+  for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
     ask_for_moved(w, i);
-    w.shapes[w.moved_shapes[i]].moved = false;
+    w.shapes[w.move_buffer[i]].moved = false;
   }
-  w.moved_shapes.clear();
+  w.move_buffer.clear();
 }
 
 template void find_pairs(WorldData<float>&);

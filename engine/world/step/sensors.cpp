@@ -42,9 +42,9 @@ void update_sensors(WorldData<Real>& w) {
       return true;
     };
     const bool senses = !w.bodies[body].quarantined;
-    if (senses) w.moving_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
+    if (senses) w.dynamic_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     if (senses && w.bodies[body].type != BodyType::Static) {
-      w.still_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
+      w.static_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);
     // Reserve first, so that events and visitors stay consistent if memory runs out.

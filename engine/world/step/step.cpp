@@ -8,10 +8,10 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/bodies.h"
-#include "engine/world/state/islands.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/sleeping.h"
 
 namespace plumb {
 namespace {
@@ -43,10 +43,10 @@ struct Stepping {
 // shapes.
 template <class Real>
 void make_good(WorldData<Real>& w) {
-  w.ties_changed = true;  // islands and articulated bodies are found again
+  w.topology_changed = true;  // islands and articulated bodies are found again
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     c.hardness =
-        w.gives_way(c.body_a) && w.gives_way(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
+        w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
   });
   for (const int body : w.awake) {
     const Rotation<double> q = rotation_of(w.bodies[body].angle);
@@ -61,12 +61,12 @@ void make_good(WorldData<Real>& w) {
     }
     for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
       const int proxy = w.shapes[shape].proxy;
-      w.boxes[shape] = box_of(w, shape);
-      if (proxy == kNone || w.moving_tree.box(proxy).contains(w.boxes[shape])) continue;
-      w.moving_tree.enlarge(proxy, stored_box(w, shape, Real(0)));
+      w.boxes[shape] = tight_aabb(w, shape);
+      if (proxy == kNone || w.dynamic_tree.box(proxy).contains(w.boxes[shape])) continue;
+      w.dynamic_tree.enlarge(proxy, fat_aabb(w, shape, Real(0)));
       w.enlarged[body] = 1;
       try {
-        note_moved(w, shape);
+        add_to_move_buffer(w, shape);
       } catch (const std::bad_alloc&) {
         // It is added when it next leaves its fat AABB.
       }
@@ -127,8 +127,8 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   try {
     solve_motion(w, h, substeps), clock.end(WorldStage::Solver);
     report_impacts(w), clock.end(WorldStage::Events);
-    finish_motion(w, static_cast<Real>(dt)), clock.end(WorldStage::Finalize);
-    stop_at_impacts(w, static_cast<Real>(dt)), clock.end(WorldStage::Continuous);
+    finalize_bodies(w, static_cast<Real>(dt)), clock.end(WorldStage::Finalize);
+    solve_continuous(w, static_cast<Real>(dt)), clock.end(WorldStage::Continuous);
   } catch (...) {
     make_good(w);
     throw;

@@ -25,11 +25,11 @@ void solve_motion(WorldData<Real>& w, double h, int substeps);
 /// Applies the solver's motion to the bodies and updates their AABBs. Quarantines bodies with an invalid
 /// motion.
 template <class Real>
-void finish_motion(WorldData<Real>& w, Real dt);
+void finalize_bodies(WorldData<Real>& w, Real dt);
 
 /// Moves fast bodies back to their first time of impact.
 template <class Real>
-void stop_at_impacts(WorldData<Real>& w, Real dt);
+void solve_continuous(WorldData<Real>& w, Real dt);
 
 /// Updates sensor overlaps and emits begin and end events.
 template <class Real>

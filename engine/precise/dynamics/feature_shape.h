@@ -12,7 +12,7 @@ namespace plumb::precise {
 
 /// A shape for contacts: the convex hull of its corners (counter-clockwise, in the body's frame), rounded by
 /// a radius. One corner is a disc, two are a capsule; edge i leads from corner i to the next.
-struct Outline {
+struct FeatureShape {
   std::size_t body = 0;
   std::vector<Corner<double>> corners;
   double radius = 0;  ///< m
@@ -36,7 +36,7 @@ struct Outline {
 };
 
 /// Returns one outline, or one per segment of a chain.
-std::vector<Outline> outlines_of(std::size_t body, const Shape& shape);
+std::vector<FeatureShape> outlines_of(std::size_t body, const Shape& shape);
 
 /// Parts of two outlines that touch, or are closest.
 struct Feature {
@@ -58,14 +58,14 @@ struct Gap {
   double along = 0;   ///< m, of the corner along the edge from its start
   double length = 0;  ///< m, of the edge; 0 without one
 };
-Gap gap_of(const Feature& feature, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+Gap gap_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
            const Pose<double>& pose_b);
 
 /// Returns true if chains allow a feature with this gap to push. Chains are touched from the front; at a
 /// vertex that bends to the back, along the normals between those of its two segments, as part of the first.
 /// `near`: gaps below count as touching, m; much deeper overlaps came from the back.
-bool admits(const Feature& feature, const Gap& gap, const Outline& a, const Pose<double>& pose_a,
-            const Outline& b, const Pose<double>& pose_b, double near);
+bool admits(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
+            const FeatureShape& b, const Pose<double>& pose_b, double near);
 
 /// Rates and accelerations of gap and slip as rows of the bodies' motions. `normal`: gap' = J v, gap'' = J a
 /// + bias. `tangent`: slip = J v, slip' = J a + bias, the velocity of b relative to a at the point of contact
@@ -73,8 +73,8 @@ bool admits(const Feature& feature, const Gap& gap, const Outline& a, const Pose
 struct ContactRows {
   Row<double> normal, tangent;
 };
-ContactRows rows_of(const Feature& feature, const Outline& a, const Pose<double>& pose_a,
-                    const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
+ContactRows rows_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a,
+                    const Twist<double>& twist_a, const FeatureShape& b, const Pose<double>& pose_b,
                     const Twist<double>& twist_b);
 
 /// A direction along which two outlines are separated by at least `distance` (negative: the least overlap of
@@ -85,14 +85,14 @@ struct Separation {
   Feature feature{};
   Vec2d normal{};
 };
-Separation separation(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                       const Pose<double>& pose_b);
 
 /// Returns the one or two features at which outlines with a separation of at most `near` touch; two if edges
 /// lie on each other. Among edges whose normals separate equally well, to within `near`, those with the
 /// fastest opening gap are taken; with zero velocities the first of them.
-std::vector<Feature> touching_features(const Outline& a, const Pose<double>& pose_a,
-                                       const Twist<double>& twist_a, const Outline& b,
+std::vector<Feature> touching_features(const FeatureShape& a, const Pose<double>& pose_a,
+                                       const Twist<double>& twist_a, const FeatureShape& b,
                                        const Pose<double>& pose_b, const Twist<double>& twist_b, double near);
 
 /// Distances (m) of a feature from the transitions to other features: zero at the transition.
@@ -105,7 +105,7 @@ struct Limits {
 
   void add(double distance, bool gap) { value[count] = distance, comes_down[count] = gap, ++count; }
 };
-Limits limits_of(const Feature& feature, const Outline& a, const Pose<double>& pose_a, const Outline& b,
-                 const Pose<double>& pose_b);
+Limits limits_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a,
+                 const FeatureShape& b, const Pose<double>& pose_b);
 
 }  // namespace plumb::precise

@@ -1,4 +1,4 @@
-#include "engine/precise/event_search/search.h"
+#include "engine/precise/event_search/conservative_advancement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 struct View {
-  const Outline &a, &b;
-  StepPaths::Placed at_a, at_b;
+  const FeatureShape &a, &b;
+  StepMotionBounds::Placed at_a, at_b;
 };
 
 struct CornerMotion {
   Vec2d position, velocity;
 };
-CornerMotion corner_motion(const Outline& o, int corner, const StepPaths::Placed& at) {
+CornerMotion corner_motion(const FeatureShape& o, int corner, const StepMotionBounds::Placed& at) {
   const Vec2d arm = at.pose.rotation * o.corners[corner].point;
   return {at.pose.position + arm, at.twist.velocity + cross(at.twist.angular_velocity, arm)};
 }
@@ -30,11 +30,11 @@ CornerMotion corner_motion(const Outline& o, int corner, const StepPaths::Placed
 /// Time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p). With the
 /// corner's motion relative to the edge's body, r from its centre,
 ///   f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
-double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, double left) {
-  const Outline &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
-  const StepPaths::Placed &at_e = of_a ? v.at_a : v.at_b, &at_c = of_a ? v.at_b : v.at_a;
-  const StepPaths::Turning turn_e = paths.turning(e.body), turn_c = paths.turning(c.body);
-  const StepPaths::Relative relative = paths.relative(c.body, e.body);
+double edge_lasts(const View& v, const StepMotionBounds& paths, bool of_a, int edge, double left) {
+  const FeatureShape &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
+  const StepMotionBounds::Placed &at_e = of_a ? v.at_a : v.at_b, &at_c = of_a ? v.at_b : v.at_a;
+  const StepMotionBounds::Turning turn_e = paths.turning(e.body), turn_c = paths.turning(c.body);
+  const StepMotionBounds::Relative relative = paths.relative(c.body, e.body);
   const double speed = relative.speed + turn_c.speed * c.reach;
   const double acceleration =
       relative.acceleration + (turn_c.acceleration + turn_c.speed * turn_c.speed) * c.reach;
@@ -56,9 +56,9 @@ double edge_lasts(const View& v, const StepPaths& paths, bool of_a, int edge, do
 }
 
 /// The same along a fixed direction, for every corner of b over every corner of a.
-double direction_lasts(const View& v, const StepPaths& paths, Vec2d n) {
-  const auto swing = [&](const Outline& o) {
-    const StepPaths::Turning turn = paths.turning(o.body);
+double direction_lasts(const View& v, const StepMotionBounds& paths, Vec2d n) {
+  const auto swing = [&](const FeatureShape& o) {
+    const StepMotionBounds::Turning turn = paths.turning(o.body);
     return (turn.acceleration + turn.speed * turn.speed) * o.reach;
   };
   const double fall = paths.relative(v.a.body, v.b.body).acceleration + swing(v.a) + swing(v.b);
@@ -83,14 +83,14 @@ double lasts(double f, double rate, double most_fall) {
   return rate > 0 ? (rate + root) / most_fall : 2 * f / (root - rate);
 }
 
-double ContactSearch::distance(const OutlinePair& pair, double time) const {
-  const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];
+double ConservativeAdvancement::distance(const OutlinePair& pair, double time) const {
+  const FeatureShape &a = outlines_[pair.a], &b = outlines_[pair.b];
   return separation(a, paths_.at(a.body, time).pose, b, paths_.at(b.body, time).pose).distance;
 }
 
-std::optional<double> ContactSearch::first(const OutlinePair& pair, double from, double until,
-                                           double near) const {
-  const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];
+std::optional<double> ConservativeAdvancement::first(const OutlinePair& pair, double from, double until,
+                                                     double near) const {
+  const FeatureShape &a = outlines_[pair.a], &b = outlines_[pair.b];
   double time = from;
   for (long i = 0;; ++i) {
     const View view{a, b, paths_.at(a.body, time), paths_.at(b.body, time)};
@@ -116,8 +116,8 @@ std::optional<double> ContactSearch::first(const OutlinePair& pair, double from,
   }
 }
 
-ContactSearch::Departure ContactSearch::departure(const OutlinePair& pair, double until, double near,
-                                                  Overlap overlap) const {
+ConservativeAdvancement::Departure ConservativeAdvancement::departure(const OutlinePair& pair, double until,
+                                                                      double near, Overlap overlap) const {
   constexpr int kSamples = 14;
   Departure found;
   const double start = paths_.start(), h = until - start;

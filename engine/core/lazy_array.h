@@ -9,7 +9,7 @@ namespace plumb {
 
 /// A list of optional values, all T{} and without memory until one is used.
 template <class T>
-class UsedList {
+class LazyArray {
  public:
   bool used() const { return !items_.empty(); }
   /// Returns the value, T{} if the list is not used.

@@ -9,19 +9,19 @@ namespace plumb {
 /// Software prefetch for loops over the awake bodies, which read a dozen arrays. A million bodies fit into no
 /// cache, and hardware prefetchers stop at page boundaries. So this prefetches some bodies ahead.
 template <class Real>
-class AwakeAhead {
+class PrefetchAwakeBodies {
  public:
-  explicit AwakeAhead(const WorldData<Real>& w)
+  explicit PrefetchAwakeBodies(const WorldData<Real>& w)
       : w_(w), end_(w.awake.size() > kCached ? w.awake.size() : 0) {}
 
   // GCC 12 removes calls of a function that only prefetches, unless they are inlined first.
-  [[gnu::always_inline]] void ask_for_motion(std::size_t place) const {
+  [[gnu::always_inline]] void prefetch_motion(std::size_t place) const {
     if (place + kBodies >= end_) return;
     const int body = w_.awake[place + kBodies];
     __builtin_prefetch(&w_.bodies[body]), __builtin_prefetch(&w_.motion[body]);
   }
   /// Prefetches pose and first shape of a body whose motion was prefetched before.
-  [[gnu::always_inline]] void ask_for_place(std::size_t place) const {
+  [[gnu::always_inline]] void prefetch_place(std::size_t place) const {
     if (place + kShapes >= end_) return;
     const int body = w_.awake[place + kShapes], shape = w_.bodies[body].first_shape;
     __builtin_prefetch(&w_.position[body]), __builtin_prefetch(&w_.rotation[body]);

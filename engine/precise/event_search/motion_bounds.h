@@ -8,19 +8,19 @@
 #include "engine/geometry/aabb.h"
 #include "engine/integrate/bernstein.h"
 #include "engine/math/pose.h"
+#include "engine/precise/dynamics/feature_shape.h"
 #include "engine/precise/dynamics/flight.h"
-#include "engine/precise/dynamics/outline.h"
 #include "engine/precise/integration/smooth.h"
 
 namespace plumb::precise {
 
 /// Motion of all bodies during one step, with bounds that hold throughout.
-class StepPaths {
+class StepMotionBounds {
  public:
-  StepPaths(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
+  StepMotionBounds(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
 
   /// Takes the last step of `motion`; valid until its next one.
-  void take(SmoothMotion& motion);
+  void take(EventFreeIntegrator& motion);
 
   double start() const { return start_; }
   double end() const { return end_; }
@@ -53,7 +53,7 @@ class StepPaths {
   Relative relative_of(int a, int b) const;
 
   /// Returns a box that contains the outline during the step.
-  Aabb<double> swept(const Outline& outline) const;
+  Aabb<double> swept(const FeatureShape& outline) const;
 
  private:
   static constexpr std::size_t kControls = StepPolynomial::kMostTerms + 1;
@@ -64,14 +64,14 @@ class StepPaths {
   };
 
   Relative bounds(const Path& p, const Path& q) const;
-  void follow_integrated(std::size_t body, int slot, SmoothMotion& motion);
+  void follow_integrated(std::size_t body, int slot, EventFreeIntegrator& motion);
   void follow_parabola(std::size_t body, const BodyState& from, const BodyState& to);
 
   const Flight& flight_;
   std::vector<int> slot_;  // by body: among the integrated ones, or -1
   std::vector<Path> paths_;
   std::vector<Turning> turning_;
-  SmoothMotion* motion_ = nullptr;
+  EventFreeIntegrator* motion_ = nullptr;
   double start_ = 0, end_ = 0;
 };
 

@@ -25,13 +25,13 @@ bool pass_fast(const WorldData<Real>& w, int a, int b) {
 template <class Real>
 bool may_block(const WorldData<Real>& w, int body, int other) {
   if (pass_fast(w, body, other)) return true;
-  const Flight* met = flight_in(w, other);
+  const SweptBody* met = flight_in(w, other);
   return met != nullptr && met->changed;
 }
 
 /// Returns an AABB of the body's motion until the step's end.
 template <class Real>
-Aabb<Real> way_of(const WorldData<Real>& w, const Flight& flight) {
+Aabb<Real> way_of(const WorldData<Real>& w, const SweptBody& flight) {
   const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
                    end = flight.straight_at(1).template as<Real>();
   const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
@@ -64,7 +64,7 @@ const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int 
 
 /// Replaces the first impact by a pair's impact if that is earlier.
 template <class Real>
-void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, Meeting& first) {
+void push_toi_event(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, ToiEvent& first) {
   const double fraction = fraction_of_impact(w, way, pair);
   if (fraction < first.fraction)
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
@@ -72,30 +72,30 @@ void note_meeting(const WorldData<Real>& w, const Way& way, const SweptPair<Real
 
 /// Finds the first impact of a body whose obstacles all have a contact with it.
 template <class Real>
-void meet_pairs(const WorldData<Real>& w, const Way& way, Meeting& first) {
+void meet_pairs(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
   const int body = way.flight.body;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
     if (!way.flight.expected && !may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    note_meeting(w, way, {shape, other, constraint_in(w, contact)}, first);
+    push_toi_event(w, way, {shape, other, constraint_in(w, contact)}, first);
   });
 }
 
 /// Returns true if the same body pushes both along.
 template <class Real>
-bool go_together(const WorldData<Real>& w, const Flight& flight, int other) {
+bool go_together(const WorldData<Real>& w, const SweptBody& flight, int other) {
   if (flight.carrier == kNone) return false;
   if (flight.carrier == other) return true;
-  const Flight* met = flight_in(w, other);
+  const SweptBody* met = flight_in(w, other);
   return met != nullptr && met->carrier == flight.carrier;
 }
 
 /// Finds the first impact by queries of the trees: after an impact the solver has no contacts along the new
 /// trajectory.
 template <class Real>
-void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
+void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
   const int body = way.flight.body;
   const bool as_solved = !way.flight.changed;
   const bool in_contact = as_solved || (way.flight.lifts > 0 && way.flight.impacts == 0);
@@ -107,28 +107,29 @@ void meet_all(const WorldData<Real>& w, const Way& way, Meeting& first) {
       const int other_body = w.shapes[other].body;
       if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
-      note_meeting(w, way, {shape, other, in_contact ? constraint_between(w, shape, other) : nullptr}, first);
+      push_toi_event(w, way, {shape, other, in_contact ? constraint_between(w, shape, other) : nullptr},
+                     first);
       return true;
     };
-    w.still_tree.query(swept, mask, visit);
-    w.moving_tree.query(swept, mask, visit);
+    w.static_tree.query(swept, mask, visit);
+    w.dynamic_tree.query(swept, mask, visit);
   }
 }
 
 /// Stores the current version of the other body's trajectory.
 template <class Real>
-Meeting as_it_is(const WorldData<Real>& w, Meeting found) {
+ToiEvent as_it_is(const WorldData<Real>& w, ToiEvent found) {
   if (found.other == kNone) return found;
-  if (const Flight* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
+  if (const SweptBody* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
   return found;
 }
 
 /// Returns the first impact of a flight from a fraction of the step on.
 template <class Real>
-Meeting first_meeting(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
-  const Flight& flight = w.scratch.flights[place];
-  Meeting first{.flight = place, .version = flight.version};
-  if (!w.gives_way(flight.body)) return first;
+ToiEvent first_toi_event(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
+  const SweptBody& flight = w.scratch.swept_bodies[place];
+  ToiEvent first{.flight = place, .version = flight.version};
+  if (!w.is_dynamic(flight.body)) return first;
   const Way way(flight, from, search);
   if (flight.covered && !flight.changed) {
     meet_pairs(w, way, first);

@@ -1,4 +1,4 @@
-#include "engine/world/contact_solver/bounce_crowds.h"
+#include "engine/world/contact_solver/impact_propagation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,15 +47,15 @@ Real nearest_point(const ContactConstraint<Real>& c) {
 }
 
 template <class Real>
-bool is_struck(const Bounce<Real>& bounce) {
+bool is_struck(const RestitutionContact<Real>& bounce) {
   return bounce.strikes[0] || bounce.strikes[1];
 }
 
 // Returns the fastest approach of a point that has an impact, m/s.
 template <class Real>
-Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<Bounce<Real>>& bounces) {
+Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces) {
   Real fastest = 0;
-  for (const Bounce<Real>& bounce : bounces) {
+  for (const RestitutionContact<Real>& bounce : bounces) {
     for (int i = 0; i < bounce.contact->count; ++i) {
       if (bounce.strikes[i]) fastest = std::max(fastest, -velocity_along_normal(motion, *bounce.contact, i));
     }
@@ -64,24 +64,24 @@ Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<Bounce<Rea
 }
 
 template <class Real>
-void clear_room(const std::vector<Bounce<Real>>& bounces, CrowdRoom<Real>& room) {
+void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScratch<Real>& room) {
   int bodies = 0;
-  for (const Bounce<Real>& bounce : bounces)
+  for (const RestitutionContact<Real>& bounce : bounces)
     bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
   if (static_cast<int>(room.reached.size()) < bodies) {
     room.reached.resize(bodies);
     room.earliest.resize(bodies), room.last.resize(bodies);
   }
-  for (const Bounce<Real>& bounce : bounces) {
+  for (const RestitutionContact<Real>& bounce : bounces) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b})
       room.reached[body] = 0, room.last[body] = 0;
   }
-  room.crowd.clear();
+  room.cluster.clear();
 }
 
 // Marks the contact's bodies as reachable by impact propagation. Returns true if one was not marked before.
 template <class Real>
-bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, CrowdRoom<Real>& room) {
+bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, ImpactScratch<Real>& room) {
   bool more = false;
   for (const int body : {c.body_a, c.body_b}) {
     if (!has_mass(motion[body]) || room.reached[body]) continue;
@@ -93,38 +93,38 @@ bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Cro
 
 // Collects the contacts with impacts and all contacts to which these may propagate.
 template <class Real>
-void find_crowd(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces, Real within,
-                CrowdRoom<Real>& room) {
+void find_crowd(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real within,
+                ImpactScratch<Real>& room) {
   clear_room(bounces, room);
-  const auto is_near = [&](const Bounce<Real>& bounce) {
+  const auto is_near = [&](const RestitutionContact<Real>& bounce) {
     return is_struck(bounce) || nearest_point(*bounce.contact) <= within;
   };
   bool more = false;
-  for (const Bounce<Real>& bounce : bounces)
+  for (const RestitutionContact<Real>& bounce : bounces)
     if (is_struck(bounce)) more = reach(motion, *bounce.contact, room) || more;
-  const auto is_reached = [&](const Bounce<Real>& bounce) {
+  const auto is_reached = [&](const RestitutionContact<Real>& bounce) {
     return is_near(bounce) && (room.reached[bounce.contact->body_a] || room.reached[bounce.contact->body_b]);
   };
   if (!more) return;
   while (more) {
     more = false;
-    for (const Bounce<Real>& bounce : bounces) {
+    for (const RestitutionContact<Real>& bounce : bounces) {
       if (is_reached(bounce)) more = reach(motion, *bounce.contact, room) || more;
     }
   }
-  for (Bounce<Real>& bounce : bounces) {
-    if (is_reached(bounce)) room.crowd.push_back(&bounce);
+  for (RestitutionContact<Real>& bounce : bounces) {
+    if (is_reached(bounce)) room.cluster.push_back(&bounce);
   }
 }
 
 // Finds the points of the next impacts: for each body those of its earliest one.
 template <class Real>
-void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<Real>& room) {
+void find_struck(const BodyMotion<Real>* motion, Real least, Real h, ImpactScratch<Real>& room) {
   room.struck.clear();
-  for (const Bounce<Real>* bounce : room.crowd) {
+  for (const RestitutionContact<Real>* bounce : room.cluster) {
     room.earliest[bounce->contact->body_a] = room.earliest[bounce->contact->body_b] = 2 * h;
   }
-  for (Bounce<Real>* bounce : room.crowd) {
+  for (RestitutionContact<Real>* bounce : room.cluster) {
     ContactConstraint<Real>& c = *bounce->contact;
     const Real start = std::max(room.last[c.body_a], room.last[c.body_b]);
     face(motion, *bounce, h, std::min(start, h));
@@ -133,7 +133,7 @@ void find_struck(const BodyMotion<Real>* motion, Real least, Real h, CrowdRoom<R
       const Real s = std::max(separation_of(motion, c, i), Real(0));
       if (!(closing > least) || s > closing * h) continue;
       const Real time = std::max(s / closing, start);
-      // A point without an earlier impact bounces as `place_bounces` set it, with the effect of gravity
+      // A point without an earlier impact bounces as `schedule_impacts` set it, with the effect of gravity
       // before and after.
       const bool placed = start == 0 && bounce->strikes[i];
       const Real wanted = placed ? bounce->speed[i] : c.restitution * closing;
@@ -183,7 +183,7 @@ void exchange(BodyMotion<Real>* motion, std::vector<StruckPoint<Real>>& struck, 
 // time of impact on, not over the whole substep.
 template <class Real>
 void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
-                   CrowdRoom<Real>& room) {
+                   ImpactScratch<Real>& room) {
   ContactConstraint<Real>& c = *at.bounce->contact;
   BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
   const Vec2<Real> t{c.normal.y, -c.normal.x};
@@ -211,7 +211,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
 
 // Returns true if a next impact comes after the last impacts of its bodies.
 template <class Real>
-bool time_passes(const CrowdRoom<Real>& room) {
+bool time_passes(const ImpactScratch<Real>& room) {
   return std::any_of(room.struck.begin(), room.struck.end(), [&](const StruckPoint<Real>& at) {
     const ContactConstraint<Real>& c = *at.bounce->contact;
     return at.time > std::max(room.last[c.body_a], room.last[c.body_b]);
@@ -221,13 +221,14 @@ bool time_passes(const CrowdRoom<Real>& room) {
 }  // namespace
 
 template <class Real>
-int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
-                   const ContactStep<Real>& step, CrowdRoom<Real>& room) {
+int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
+                      std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
+                      ImpactScratch<Real>& room) {
   const Real fastest = fastest_strike(motion, bounces);
   find_crowd(motion, bounces, 2 * step.h * fastest, room);
-  if (room.crowd.empty()) return 0;
+  if (room.cluster.empty()) return 0;
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
-  const int size = static_cast<int>(room.crowd.size());
+  const int size = static_cast<int>(room.cluster.size());
   const int rounds = std::max(kLooks / size, 8);
   int at_one_time = kAtOneTime + kAtOneTimeEach * size;
   int round = 0;
@@ -238,7 +239,7 @@ int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vect
     exchange(motion, room.struck, fastest);
     for (const StruckPoint<Real>& at : room.struck) finish_impact(motion, rotation, at, room);
   }
-  for (Bounce<Real>* bounce : room.crowd) {
+  for (RestitutionContact<Real>* bounce : room.cluster) {
     ContactConstraint<Real>& c = *bounce->contact;
     // The remaining approaches are too slow or do not touch within this substep.
     bounce->closes = false;
@@ -255,9 +256,9 @@ int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vect
   return round;
 }
 
-#define PLUMB_FOR(Real)                                                                       \
-  template int resolve_crowds(BodyMotion<Real>*, Rotation<Real>*, std::vector<Bounce<Real>>&, \
-                              const ContactStep<Real>&, CrowdRoom<Real>&);
+#define PLUMB_FOR(Real)                                                                                      \
+  template int propagate_impacts(BodyMotion<Real>*, Rotation<Real>*, std::vector<RestitutionContact<Real>>&, \
+                                 const ContactStep<Real>&, ImpactScratch<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -2,11 +2,11 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/collision/broad_phase/late_enlarging.h"
+#include "engine/collision/broad_phase/prefetched_enlarging.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
-#include "engine/world/state/awake_ahead.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/prefetch_awake_bodies.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/step/step.h"
@@ -18,30 +18,30 @@ namespace {
 constexpr int kRefresh = 256;
 
 template <class Real>
-void time_stillness(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent, Real dt) {
+void update_sleep_timer(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent, Real dt) {
   const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
   const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
   const bool is_still = record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
-  record.still_for = is_still ? record.still_for + dt : Real(0);
+  record.sleep_time = is_still ? record.sleep_time + dt : Real(0);
 }
 
 // Returns the Kahan compensation of positions (Kahan, 1965), in double only: 1e7 m from the origin, 600 steps
 // would otherwise lose 1e-6 m. In float the steps themselves are coarser than that.
 template <class Real>
-Vec2d* remainders_of(WorldData<Real>& w) {
+Vec2d* position_compensation_of(WorldData<Real>& w) {
   if (!std::is_same_v<Real, double> || w.bodies.size() == 0) return nullptr;
-  w.remainders.at(0, w.bodies.size());
-  return w.remainders.data();
+  w.position_compensation.at(0, w.bodies.size());
+  return w.position_compensation.data();
 }
 
 // Moves a body by the displacement and rotation that the solver found.
 template <class Real>
 void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
-               [[maybe_unused]] Vec2d* remainders) {
+               [[maybe_unused]] Vec2d* position_compensation) {
   if constexpr (std::is_same_v<Real, double>) {
-    const Vec2d way = motion.moved + remainders[body], before = w.position[body];
+    const Vec2d way = motion.moved + position_compensation[body], before = w.position[body];
     w.position[body] = before + way;
-    remainders[body] = way - (w.position[body] - before);
+    position_compensation[body] = way - (w.position[body] - before);
   } else {
     w.position[body] += motion.moved.template as<double>();
   }
@@ -60,17 +60,17 @@ void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const Bod
 }  // namespace
 
 template <class Real>
-void finish_motion(WorldData<Real>& w, Real dt) {
-  w.scratch.fast_bodies.clear(), w.scratch.bad_bodies.clear();
+void finalize_bodies(WorldData<Real>& w, Real dt) {
+  w.scratch.fast_bodies.clear(), w.scratch.nonfinite_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
-  Vec2d* const remainders = remainders_of(w);
+  Vec2d* const position_compensation = position_compensation_of(w);
   const bool sleeping = w.settings.sleeping, expects = !w.scratch.expecting_bodies.empty();
   // Awake bodies are never static, so all their proxies are in the dynamic tree.
-  LateEnlarging<Real> moving(w.moving_tree);
-  const AwakeAhead<Real> ahead(w);
+  PrefetchedEnlarging<Real> moving(w.dynamic_tree);
+  const PrefetchAwakeBodies<Real> ahead(w);
   const std::size_t count = w.awake.size();
   for (std::size_t place = 0; place < count; ++place) {
-    ahead.ask_for_motion(place), ahead.ask_for_place(place);
+    ahead.prefetch_motion(place), ahead.prefetch_place(place);
     const int body = w.awake[place];
     BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
@@ -80,22 +80,22 @@ void finish_motion(WorldData<Real>& w, Real dt) {
     const bool expected = expects && w.scratch.expecting[body];
     const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
     if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
-      w.scratch.bad_bodies.push_back(body);
+      w.scratch.nonfinite_bodies.push_back(body);
       continue;
     }
-    move_body(w, body, record, motion, remainders);
+    move_body(w, body, record, motion, position_compensation);
     if (loads != nullptr) loads[body] = {};
     if (sleeping) {
-      time_stillness(record, motion, extent, dt);
-    } else if (record.still_for != 0) {
-      record.still_for = 0;
+      update_sleep_timer(record, motion, extent, dt);
+    } else if (record.sleep_time != 0) {
+      record.sleep_time = 0;
     }
     w.enlarged[body] = 0;
     if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
     if (fast) {
       bool covered = true;
       for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-        covered = refresh_box_in(w, shape, dt, turned, moving) && covered;
+        covered = update_proxy_in(w, shape, dt, turned, moving) && covered;
       }
       // A body that stays within its fat AABBs and has no contact meets nothing.
       const bool alone = covered && record.first_contact == kNone;
@@ -108,17 +108,17 @@ void finish_motion(WorldData<Real>& w, Real dt) {
         const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
         w.boxes[shape] = box;
         // One step ahead, so that a pair is known in the step in which it meets.
-        if (!w.moving_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
-          store_box(w, shape, dt, moving);
+        if (!w.dynamic_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
+          enlarge_proxy(w, shape, dt, moving);
       }
     }
   }
   moving.finish();
-  if (!w.scratch.bad_bodies.empty()) quarantine_lost(w, static_cast<double>(dt));
-  w.moving_tree.rebuild();
+  if (!w.scratch.nonfinite_bodies.empty()) quarantine_diverged(w, static_cast<double>(dt));
+  w.dynamic_tree.rebuild();
 }
 
-template void finish_motion(WorldData<float>&, float);
-template void finish_motion(WorldData<double>&, double);
+template void finalize_bodies(WorldData<float>&, float);
+template void finalize_bodies(WorldData<double>&, double);
 
 }  // namespace plumb

@@ -14,7 +14,7 @@ namespace plumb {
 /// Items in slots with stable indices. A free slot is reused, the last freed first, with the next generation.
 /// An odd generation is in use.
 template <class T>
-class Slots {
+class SlotMap {
  public:
   /// Reserves memory for `more` items, so that adding them, and removing any, does not allocate.
   void make_room(std::size_t more) {

@@ -16,7 +16,7 @@ enum class Outlook : std::uint8_t {
 
 /// Speculative contact at the time of impact, set for Outlook::Meets.
 template <class Real>
-struct Encounter {
+struct SpeculativeContact {
   Outlook outlook = Outlook::Unsearched;
   ContactManifold<Real> manifold{};  ///< at the impact, in the frame of a
   Rotation<Real> rotation{};         ///< of a at the impact
@@ -38,7 +38,8 @@ struct Encounter {
 ///
 /// Bodies in free flight are predicted on their parabola, all others on a straight line.
 template <class Real>
-Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact,
-                               const ContactManifold<Real>& closest, Real dt, Real substep);
+SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                                  const ContactManifold<Real>& closest, Real dt,
+                                                  Real substep);
 
 }  // namespace plumb

@@ -11,11 +11,11 @@ namespace plumb::precise {
 
 /// A run of `Precise` together with a second one at another tolerance: their difference estimates the first
 /// one's error, including its amplification by the motion.
-class CompanionDriver final : public Driver {
+class ErrorEstimatingDriver final : public Driver {
  public:
   using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
   /// `make` creates a driver of the scene; `bodies` is its number of bodies.
-  CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make);
+  ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& make);
 
   void step() override;
   double time() const override { return main_->time(); }

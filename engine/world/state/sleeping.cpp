@@ -1,4 +1,4 @@
-#include "engine/world/state/islands.h"
+#include "engine/world/state/sleeping.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,7 +22,7 @@ BodyId id_of(const WorldData<Real>& w, int body) {
 template <class Real>
 void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
   if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
-    std::vector<char>& known = w.scratch.restless;
+    std::vector<char>& known = w.scratch.cannot_sleep;
     known.assign(static_cast<std::size_t>(w.bodies.size()), 0);
     std::erase_if(told, [&](BodyId each) {
       return !w.bodies.holds(each.index, each.generation) || std::exchange(known[each.index], 1) != 0;
@@ -38,7 +38,7 @@ bool has_points(const ContactRecord& contact) {
 
 // Calls visit(other body) for every body that a contact with points or a joint connects to `body`.
 template <class Real, class Visit>
-void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
+void for_each_constraint_edge(WorldData<Real>& w, int body, Visit&& visit) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
     if (has_points<Real>(contact)) visit((edge & 1) == 0 ? contact.body_b : contact.body_a);
   });
@@ -48,7 +48,7 @@ void for_each_tie(WorldData<Real>& w, int body, Visit&& visit) {
 
 template <class Real>
 bool gives_way_awake(const WorldData<Real>& w, int body) {
-  return w.bodies[body].awake && w.gives_way(body);
+  return w.bodies[body].awake && w.is_dynamic(body);
 }
 
 // Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while a kinematic
@@ -85,7 +85,7 @@ void park_ties(WorldData<Real>& w, int body) {
 template <class Real>
 bool still(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
-  return record.may_sleep && record.still_for >= Real(tuning::kSleepTime);
+  return record.may_sleep && record.sleep_time >= Real(tuning::kSleepTime);
 }
 
 // Reserves memory for the contacts of bodies that fall asleep.
@@ -107,8 +107,8 @@ template <class Real>
 void enter_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   record.awake = true;
-  w.ties_changed = true;
-  record.still_for = 0;
+  w.topology_changed = true;
+  record.sleep_time = 0;
   record.awake_index = static_cast<int>(w.awake.size());
   append(w.awake, body);
 }
@@ -117,7 +117,7 @@ template <class Real>
 void leave_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   record.awake = false;
-  w.ties_changed = true;
+  w.topology_changed = true;
   w.awake[record.awake_index] = w.awake.back();
   w.bodies[w.awake.back()].awake_index = record.awake_index;
   w.awake.pop_back();
@@ -129,7 +129,7 @@ void fall_asleep(WorldData<Real>& w, int body) {
   tell(w, w.log().fell_asleep, body);
   leave_awake(w, body);
   // Islands on a kinematic body check its sleep timer.
-  w.bodies[body].still_for = std::max(w.bodies[body].still_for, Real(tuning::kSleepTime));
+  w.bodies[body].sleep_time = std::max(w.bodies[body].sleep_time, Real(tuning::kSleepTime));
   BodyMotion<Real>& motion = w.motion[body];
   motion.velocity = {}, motion.angular_velocity = 0;
   motion.moved = {}, motion.turned = 0;
@@ -153,7 +153,7 @@ void wake_body(WorldData<Real>& w, int body) {
     for (std::size_t next = first; next < queue.size(); ++next) {
       const int current = queue[next];
       unpark_ties(w, current);
-      if (w.gives_way(current)) for_each_tie(w, current, wake);
+      if (w.is_dynamic(current)) for_each_constraint_edge(w, current, wake);
     }
   } catch (...) {
     // Half an island must not be awake, so all of it sleeps on. This needs no memory: the lists held these
@@ -169,7 +169,7 @@ void wake_body(WorldData<Real>& w, int body) {
 template <class Real>
 void wake_neighbours(WorldData<Real>& w, int body) {
   wake_body(w, body);
-  for_each_tie(w, body, [&](int other) { wake_body(w, other); });
+  for_each_constraint_edge(w, body, [&](int other) { wake_body(w, other); });
 }
 
 template <class Real>
@@ -178,13 +178,13 @@ void sleep_islands(WorldData<Real>& w) {
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
   UnionFind islands(w.scratch.island_of, w.bodies.size());
   w.scratch.islands_known = false;  // they are overwritten here
-  std::vector<char>& restless = w.scratch.restless;
-  restless.assign(w.bodies.size(), 0);
+  std::vector<char>& cannot_sleep = w.scratch.cannot_sleep;
+  cannot_sleep.assign(w.bodies.size(), 0);
   const auto tie = [&](int a, int b) {
-    if (w.gives_way(a) && w.gives_way(b)) return islands.join(a, b);
+    if (w.is_dynamic(a) && w.is_dynamic(b)) return islands.join(a, b);
     // Bodies on a moving kinematic body do not sleep.
     for (const auto& [platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) restless[rider] = 1;
+      if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) cannot_sleep[rider] = 1;
     }
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
@@ -192,12 +192,12 @@ void sleep_islands(WorldData<Real>& w) {
     if (joint.active) tie(joint.body_a, joint.body_b);
   });
   for (const int body : w.awake) {
-    if (restless[body] || !still(w, body)) restless[islands.find(body)] = 1;
+    if (cannot_sleep[body] || !still(w, body)) cannot_sleep[islands.find(body)] = 1;
   }
   std::vector<int>& sleepers = w.scratch.queue;
   sleepers.clear();
   for (const int body : w.awake) {
-    if (!restless[islands.find(body)]) sleepers.push_back(body);
+    if (!cannot_sleep[islands.find(body)]) sleepers.push_back(body);
   }
   make_room_to_park(w, sleepers);
   for (const int body : sleepers) fall_asleep(w, body);
@@ -211,14 +211,14 @@ void put_to_sleep(WorldData<Real>& w, int body) {
   constexpr Real kListed = -1;
   std::vector<int> island;
   const auto add = [&](int i) {
-    Real& still_for = w.bodies[i].still_for;
-    if (!w.bodies[i].awake || still_for == kListed || (i != body && !w.gives_way(i))) return;
+    Real& sleep_time = w.bodies[i].sleep_time;
+    if (!w.bodies[i].awake || sleep_time == kListed || (i != body && !w.is_dynamic(i))) return;
     island.push_back(i);
-    still_for = kListed;
+    sleep_time = kListed;
   };
   add(body);
   for (std::size_t next = 0; next < island.size(); ++next) {
-    if (w.gives_way(island[next])) for_each_tie(w, island[next], add);
+    if (w.is_dynamic(island[next])) for_each_constraint_edge(w, island[next], add);
   }
   make_room_to_park(w, island);
   for (const int i : island) fall_asleep(w, i);

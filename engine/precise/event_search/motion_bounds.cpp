@@ -1,4 +1,4 @@
-#include "engine/precise/event_search/paths.h"
+#include "engine/precise/event_search/motion_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,14 @@ double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 }  // namespace
 
-StepPaths::StepPaths(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies)
+StepMotionBounds::StepMotionBounds(const Flight& flight, std::span<const std::size_t> integrated,
+                                   std::size_t bodies)
     : flight_(flight), slot_(bodies, -1), paths_(bodies), turning_(bodies) {
   for (std::size_t slot = 0; slot < integrated.size(); ++slot)
     slot_[integrated[slot]] = static_cast<int>(slot);
 }
 
-void StepPaths::take(SmoothMotion& motion) {
+void StepMotionBounds::take(EventFreeIntegrator& motion) {
   motion_ = &motion;
   start_ = motion.start();
   end_ = motion.time();
@@ -36,7 +37,7 @@ void StepPaths::take(SmoothMotion& motion) {
   }
 }
 
-StepPaths::Placed StepPaths::at(std::size_t body, double time) const {
+StepMotionBounds::Placed StepMotionBounds::at(std::size_t body, double time) const {
   BodyState now;
   if (slot_[body] < 0) {
     now = flight_.at(body, time).state;
@@ -57,7 +58,7 @@ StepPaths::Placed StepPaths::at(std::size_t body, double time) const {
   return {{now.position, rotation_of(now.angle)}, {now.velocity, now.angular_velocity}};
 }
 
-void StepPaths::follow_integrated(std::size_t body, int slot, SmoothMotion& motion) {
+void StepMotionBounds::follow_integrated(std::size_t body, int slot, EventFreeIntegrator& motion) {
   const BodyState from =
       EquationsOfMotion::state(motion.state_at_start().value(), static_cast<std::size_t>(slot));
   const StepPolynomial& path = motion.polynomial();
@@ -92,7 +93,7 @@ void StepPaths::follow_integrated(std::size_t body, int slot, SmoothMotion& moti
   turning.acceleration *= 1 + kMargin;
 }
 
-void StepPaths::follow_parabola(std::size_t body, const BodyState& from, const BodyState& to) {
+void StepMotionBounds::follow_parabola(std::size_t body, const BodyState& from, const BodyState& to) {
   Path& p = paths_[body];
   const double h = end_ - start_;
   // The Bernstein points of a parabola: its ends, and the intersection of its end tangents.
@@ -110,17 +111,17 @@ void StepPaths::follow_parabola(std::size_t body, const BodyState& from, const B
                     std::abs(to.angular_velocity - from.angular_velocity) / h * (1 + kMargin)};
 }
 
-StepPaths::Relative StepPaths::relative(std::size_t a, std::size_t b) const {
+StepMotionBounds::Relative StepMotionBounds::relative(std::size_t a, std::size_t b) const {
   return bounds(paths_[a], paths_[b]);
 }
 
-StepPaths::Relative StepPaths::relative_of(int a, int b) const {
+StepMotionBounds::Relative StepMotionBounds::relative_of(int a, int b) const {
   const Path still;
   return bounds(a == kFixedFrame ? still : paths_[static_cast<std::size_t>(a)],
                 b == kFixedFrame ? still : paths_[static_cast<std::size_t>(b)]);
 }
 
-StepPaths::Relative StepPaths::bounds(const Path& p, const Path& q) const {
+StepMotionBounds::Relative StepMotionBounds::bounds(const Path& p, const Path& q) const {
   Relative most;
   const auto velocity = [&](std::size_t j) { return Vec2d{p.vx[j] - q.vx[j], p.vy[j] - q.vy[j]}; };
   for (std::size_t j = 0; j < kControls; ++j) {
@@ -134,7 +135,7 @@ StepPaths::Relative StepPaths::bounds(const Path& p, const Path& q) const {
   return most;
 }
 
-Aabb<double> StepPaths::swept(const Outline& outline) const {
+Aabb<double> StepMotionBounds::swept(const FeatureShape& outline) const {
   const Path& path = paths_[outline.body];
   const Pose<double> pose = at(outline.body, start_).pose;
   Aabb<double> shape{{1e300, 1e300}, {-1e300, -1e300}};

@@ -1,5 +1,5 @@
 // Impacts that are handed on within a substep: how many rounds they take.
-#include "engine/world/contact_solver/bounce_crowds.h"
+#include "engine/world/contact_solver/impact_propagation.h"
 
 #include <gtest/gtest.h>
 
@@ -27,14 +27,14 @@ struct Line {
   }
 
   int resolve() {
-    return resolve_crowds(bodies.data(), rotations.data(), bounces, {.h = 0.01, .inverse_h = 100}, room);
+    return propagate_impacts(bodies.data(), rotations.data(), bounces, {.h = 0.01, .inverse_h = 100}, room);
   }
 
   std::vector<BodyMotion<double>> bodies;
   std::vector<Rotation<double>> rotations;
   std::vector<ContactConstraint<double>> contacts;
-  std::vector<Bounce<double>> bounces;
-  CrowdRoom<double> room;
+  std::vector<RestitutionContact<double>> bounces;
+  ImpactScratch<double> room;
 };
 
 TEST(BounceCrowds, HandAnImpactThroughALineInARoundForEachContact) {

@@ -4,17 +4,17 @@
 #include <span>
 #include <vector>
 
+#include "engine/precise/dynamics/feature_shape.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/dynamics/outline.h"
 #include "engine/precise/dynamics/parts.h"
-#include "engine/precise/event_search/search.h"
+#include "engine/precise/event_search/conservative_advancement.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
 
 /// Two shapes that touch at an instant, in one or two points, with their relative motion there; or a limit of
 /// a joint that is reached, with one point.
-struct Touch {
+struct ContactCandidate {
   OutlinePair pair{};
   std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
   double friction = 0, restitution = 0;
@@ -31,7 +31,7 @@ class TouchFinder {
  public:
   TouchFinder(const Scene& scene, const Parts& parts);
 
-  std::span<const Outline> outlines() const { return outlines_; }
+  std::span<const FeatureShape> outlines() const { return outlines_; }
   bool may_meet(std::size_t a, std::size_t b) const;
   double friction(const OutlinePair& pair) const;
   double restitution(const OutlinePair& pair) const;
@@ -44,23 +44,23 @@ class TouchFinder {
 
   /// Returns the touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs
   /// that touch where a chain may not push: at its back, and at an end that belongs to the next segment.
-  std::vector<Touch> touches(std::span<const BodyState> states, double near,
-                             std::vector<OutlinePair>& passing) const;
+  std::vector<ContactCandidate> touches(std::span<const BodyState> states, double near,
+                                        std::vector<OutlinePair>& passing) const;
 
   /// Updates the rates of a touch after velocities have changed.
-  void measure(std::span<const BodyState> states, Touch& touch) const;
+  void measure(std::span<const BodyState> states, ContactCandidate& touch) const;
 
  private:
-  void measure_stop(std::span<const BodyState> states, Touch& touch) const;
+  void measure_stop(std::span<const BodyState> states, ContactCandidate& touch) const;
 
   Parts parts_;
-  std::vector<Outline> outlines_;
+  std::vector<FeatureShape> outlines_;
   std::vector<char> dynamic_;  // by body
   ContactRules rules_;
   double speed_ = 1, length_ = 1;
 };
 
 /// Broad phase of a step: returns the pairs whose swept boxes overlap.
-std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepPaths& paths);
+std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepMotionBounds& paths);
 
 }  // namespace plumb::precise

@@ -1,4 +1,4 @@
-#include "engine/world/step/encounter.h"
+#include "engine/world/step/speculative_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,8 @@ Real turning(const WorldData<Real>& w, int body) {
 // Returns true if continuous collision will treat the body as fast.
 template <class Real>
 bool is_fast(const WorldData<Real>& w, int body, Real dt) {
-  return w.gives_way(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
-                                  Real(tuning::kFastShare) * w.bodies[body].half_width;
+  return w.is_dynamic(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
+                                   Real(tuning::kFastShare) * w.bodies[body].half_width;
 }
 
 // Returns true if the body is in free flight, as far as is known before the step is solved.
@@ -63,7 +63,7 @@ Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double 
 template <class Real>
 bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
              Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
-  const Real touching = Real(tuning::kManifoldTravel) * smaller;
+  const Real touching = Real(tuning::kRecycleDistance) * smaller;
   const Rotation<Real> q = w.rotation[contact.body_a];
   const Vec2<Real> n = q * manifold.normal;
   const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
@@ -75,7 +75,7 @@ bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   const Real turned =
       std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
   const bool any_point =
-      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kContactReachMost) * smaller;
+      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kSpeculativeMarginMost) * smaller;
   for (int i = 0; i < manifold.count; ++i) {
     const Vec2<Real> arm = q * manifold.points[i].point;
     const Real open = manifold.points[i].separation;
@@ -92,7 +92,7 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   const int a = contact.body_a, b = contact.body_b;
   const Real closing =
       dt * fastest(w.motion[b].velocity - w.motion[a].velocity, turning(w, a) + turning(w, b));
-  const Real guessed = Real(tuning::kContactReachMost) * smaller;
+  const Real guessed = Real(tuning::kSpeculativeMarginMost) * smaller;
   if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
   if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
@@ -102,9 +102,9 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
 
 // Returns the speculative contact at a fraction of the step.
 template <class Real>
-Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& contact,
-                             const Sweep<double>& way_a, const Sweep<double>& way_b, double fraction,
-                             Real smaller, double dt) {
+SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const ContactRecord& contact,
+                                                const Sweep<double>& way_a, const Sweep<double>& way_b,
+                                                double fraction, Real smaller, double dt) {
   const Pose<double> at_a = pose_at(way_a, fraction), at_b = pose_at(way_b, fraction);
   const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
   const Vec2d between = at_b.position - at_a.position;
@@ -113,11 +113,11 @@ Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& cont
   };
   const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
-  Encounter<Real> at;
+  SpeculativeContact<Real> at;
   const auto moved = [](const Sweep<double>& way) {
     return std::abs(way.motion.x) + std::abs(way.motion.y) + std::abs(way.curve.x) + std::abs(way.curve.y);
   };
-  at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kContactReach) * smaller,
+  at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kSpeculativeMargin) * smaller,
                                static_cast<Real>(moved(way_a) + moved(way_b)));
   if (at.manifold.count == 0) return at;
   at.outlook = Outlook::Meets;
@@ -134,13 +134,14 @@ Encounter<Real> encounter_at(const WorldData<Real>& w, const ContactRecord& cont
 }  // namespace
 
 template <class Real>
-Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& contact,
-                               const ContactManifold<Real>& closest, Real dt, Real substep) {
+SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                                  const ContactManifold<Real>& closest, Real dt,
+                                                  Real substep) {
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
   // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
-  if (closest.count > 0 && w.gives_way(a) && w.gives_way(b) && !(flies(w, a) && flies(w, b))) return {};
+  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
   const double time = static_cast<double>(dt);
@@ -158,12 +159,12 @@ Encounter<Real> find_encounter(const WorldData<Real>& w, const ContactRecord& co
       time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), tolerance);
   if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
   if (impact.state != ImpactResult<Real>::State::Hit) return {};
-  return encounter_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
+  return speculative_contact_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
 }
 
-template Encounter<float> find_encounter(const WorldData<float>&, const ContactRecord&,
-                                         const ContactManifold<float>&, float, float);
-template Encounter<double> find_encounter(const WorldData<double>&, const ContactRecord&,
-                                          const ContactManifold<double>&, double, double);
+template SpeculativeContact<float> find_speculative_contact(const WorldData<float>&, const ContactRecord&,
+                                                            const ContactManifold<float>&, float, float);
+template SpeculativeContact<double> find_speculative_contact(const WorldData<double>&, const ContactRecord&,
+                                                             const ContactManifold<double>&, double, double);
 
 }  // namespace plumb

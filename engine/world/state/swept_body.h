@@ -8,7 +8,7 @@ namespace plumb {
 
 /// Motion of a body from some time within the step to its end. The path is a parabola where only constant
 /// forces act, else straight; the rotation is uniform.
-struct Flight {
+struct SweptBody {
   int body = -1;
   bool covered = false;   ///< see FastBody
   bool expected = false;  ///< see FastBody
@@ -89,7 +89,7 @@ struct Flight {
     stands = true;
   }
   /// Continues from a fraction of the step as a rigid part of `pusher`, except along locked axes.
-  void go_along(const Flight& pusher, double fraction, BodyLocks locks) {
+  void go_along(const SweptBody& pusher, double fraction, BodyLocks locks) {
     velocity = velocity_at(fraction);
     begin_anew(fraction);
     gain = curve = {};
@@ -123,7 +123,7 @@ struct Flight {
 };
 
 /// Next time-of-impact event of a flight, as it was found.
-struct Meeting {
+struct ToiEvent {
   double fraction = 1;  ///< of the step; 1: no impact
   int flight = 0;       ///< its index
   int version = 0;      ///< of the flight when the event was found

@@ -1,4 +1,4 @@
-#include "engine/precise/dynamics/outline.h"
+#include "engine/precise/dynamics/feature_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +22,12 @@ Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose
 
 /// A feature relative to its edge: corner and edge in either order are one case.
 struct EdgeView {
-  const Outline *edged, *cornered;
+  const FeatureShape *edged, *cornered;
   const Pose<double>*pose_e, *pose_c;
   int edge, corner;
 };
 
-EdgeView edge_view(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+EdgeView edge_view(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                    const Pose<double>& pose_b) {
   if (f.kind == Kind::CornerOfB) return {&a, &b, &pose_a, &pose_b, f.a, f.b};
   return {&b, &a, &pose_b, &pose_a, f.b, f.a};
@@ -51,8 +51,8 @@ struct Lowest {
   double height = 0;
   int corner = 0;
 };
-Lowest lowest_over(const Outline& edged, const Pose<double>& pose_e, int edge, const Outline& cornered,
-                   const Pose<double>& pose_c) {
+Lowest lowest_over(const FeatureShape& edged, const Pose<double>& pose_e, int edge,
+                   const FeatureShape& cornered, const Pose<double>& pose_c) {
   const EdgeView view{&edged, &cornered, &pose_e, &pose_c, edge, 0};
   Lowest best{std::numeric_limits<double>::infinity(), 0};
   for (int k = 0; k < cornered.count(); ++k) {
@@ -67,7 +67,7 @@ struct CornerPair {
   double distance = std::numeric_limits<double>::infinity();
   Vec2d direction{};
 };
-CornerPair closest_corners(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+CornerPair closest_corners(const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                            const Pose<double>& pose_b) {
   CornerPair best;
   double least = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ CornerPair closest_corners(const Outline& a, const Pose<double>& pose_a, const O
 }
 
 /// Returns the separation of the hulls along a direction from a to b.
-double apart_along(Vec2d n, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+double apart_along(Vec2d n, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                    const Pose<double>& pose_b) {
   double far_a = -std::numeric_limits<double>::infinity(), near_b = -far_a;
   for (const Corner<double>& c : a.corners) far_a = std::max(far_a, dot(n, world(pose_a, c.point)));
@@ -96,7 +96,7 @@ double apart_along(Vec2d n, const Outline& a, const Pose<double>& pose_a, const 
 }
 
 template <class Visit>
-void each_edge(const Outline& a, const Outline& b, const Visit& visit) {
+void each_edge(const FeatureShape& a, const FeatureShape& b, const Visit& visit) {
   for (int i = 0; i < a.edges(); ++i) visit(Kind::CornerOfB, i);
   for (int i = 0; i < b.edges(); ++i) visit(Kind::CornerOfA, i);
 }
@@ -107,7 +107,7 @@ Feature feature(Kind kind, int edge, int corner) {
 
 }  // namespace
 
-double Outline::edge_length(int edge) const {
+double FeatureShape::edge_length(int edge) const {
   return length(corners[next(edge)].point - corners[edge].point);
 }
 
@@ -135,11 +135,11 @@ struct CornersOf {
 };
 
 /// Returns the segments of a chain.
-std::vector<Outline> links_of(const Outline& common, const Chain& chain, const Pose<double>& pose) {
-  std::vector<Outline> links;
+std::vector<FeatureShape> links_of(const FeatureShape& common, const Chain& chain, const Pose<double>& pose) {
+  std::vector<FeatureShape> links;
   const std::size_t points = chain.points.size(), count = chain.closed ? points : points - 1;
   for (std::size_t i = 0; i < count; ++i) {
-    Outline& link = links.emplace_back(common);
+    FeatureShape& link = links.emplace_back(common);
     const Vec2d from = world(pose, chain.points[i]), to = world(pose, chain.points[(i + 1) % points]);
     link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the direction of travel
     link.link.front_only = true;
@@ -156,27 +156,27 @@ std::vector<Outline> links_of(const Outline& common, const Chain& chain, const P
 
 }  // namespace
 
-std::vector<Outline> outlines_of(std::size_t body, const Shape& shape) {
-  Outline outline;
+std::vector<FeatureShape> outlines_of(std::size_t body, const Shape& shape) {
+  FeatureShape outline;
   outline.body = body;
   outline.friction = shape.friction;
   outline.restitution = shape.restitution;
   outline.filter = shape.filter;
   const Pose<double> pose{shape.position, shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle)};
-  std::vector<Outline> outlines;
+  std::vector<FeatureShape> outlines;
   if (const Chain* chain = std::get_if<Chain>(&shape.geometry)) {
     outlines = links_of(outline, *chain, pose);
   } else {
     outline.corners = transformed(std::visit(CornersOf{outline.radius}, shape.geometry), pose);
     outlines = {outline};
   }
-  for (Outline& o : outlines) {
+  for (FeatureShape& o : outlines) {
     for (const Corner<double>& c : o.corners) o.reach = std::max(o.reach, length(c.point));
   }
   return outlines;
 }
 
-Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+Gap gap_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
            const Pose<double>& pose_b) {
   Gap gap;
   const double radii = a.radius + b.radius;
@@ -199,10 +199,11 @@ Gap gap_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const
   return gap;
 }
 
-bool admits(const Feature& f, const Gap& gap, const Outline& a, const Pose<double>& pose_a, const Outline& b,
-            const Pose<double>& pose_b, double near) {
+bool admits(const Feature& f, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
+            const FeatureShape& b, const Pose<double>& pose_b, double near) {
   constexpr double kDeep = 64;
-  const auto side = [&](const Outline& o, const Pose<double>& pose, bool edge, int index, Vec2d outward) {
+  const auto side = [&](const FeatureShape& o, const Pose<double>& pose, bool edge, int index,
+                        Vec2d outward) {
     if (!o.link.front_only) return true;
     if (gap.value < -kDeep * near) return false;
     if (edge) return index == 0;
@@ -218,12 +219,12 @@ bool admits(const Feature& f, const Gap& gap, const Outline& a, const Pose<doubl
 // With the normal n, its turning rate W, the contact point p and the bodies' velocities v, w,
 //   gap' = n . (vb - va) + wb (p - xb) x n - wa (p - xa) x n,      n' = W t,   t' = -W n,
 // and slip the same with t in place of n. p' is the velocity of the contact's corner, including its radius.
-ContactRows rows_of(const Feature& f, const Outline& a, const Pose<double>& pose_a,
-                    const Twist<double>& twist_a, const Outline& b, const Pose<double>& pose_b,
+ContactRows rows_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a,
+                    const Twist<double>& twist_a, const FeatureShape& b, const Pose<double>& pose_b,
                     const Twist<double>& twist_b) {
   const Gap gap = gap_of(f, a, pose_a, b, pose_b);
   const Vec2d n = gap.normal, t = perpendicular(n), p = gap.point;
-  const auto corner_velocity = [](const Outline& o, int corner, const Pose<double>& pose,
+  const auto corner_velocity = [](const FeatureShape& o, int corner, const Pose<double>& pose,
                                   const Twist<double>& twist) {
     return twist.velocity + cross(twist.angular_velocity, pose.rotation * o.corners[corner].point);
   };
@@ -258,7 +259,7 @@ ContactRows rows_of(const Feature& f, const Outline& a, const Pose<double>& pose
   return rows;
 }
 
-Separation separation(const Outline& a, const Pose<double>& pose_a, const Outline& b,
+Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                       const Pose<double>& pose_b) {
   const double radii = a.radius + b.radius;
   Separation best;
@@ -287,13 +288,13 @@ Separation separation(const Outline& a, const Pose<double>& pose_a, const Outlin
   return best;
 }
 
-Limits limits_of(const Feature& f, const Outline& a, const Pose<double>& pose_a, const Outline& b,
+Limits limits_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                  const Pose<double>& pose_b) {
   Limits limits;
   if (f.kind == Kind::Corners) {
     // The normal must stay within the cones of both corners: it points away from their neighbours.
     const Vec2d n = gap_of(f, a, pose_a, b, pose_b).normal;
-    const auto cone = [&](const Outline& o, int corner, const Pose<double>& pose, Vec2d outward) {
+    const auto cone = [&](const FeatureShape& o, int corner, const Pose<double>& pose, Vec2d outward) {
       if (o.count() < 2) return;
       for (const int other : {o.previous(corner), o.next(corner)}) {
         const Vec2d to = pose.rotation * (o.corners[corner].point - o.corners[other].point);

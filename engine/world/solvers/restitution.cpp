@@ -1,4 +1,4 @@
-#include "engine/world/solvers/bouncing.h"
+#include "engine/world/solvers/restitution.h"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ bool is_centred_disc(const WorldData<Real>& w, int shape) {
 
 // Prepares two separated circles: they will touch on the line between their centres at that time.
 template <class Real>
-void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Bounce<Real>& bounce) {
+void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, RestitutionContact<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
   if (c.count != 1 || !(c.separation[0] > 0) || c.normal_impulse[0] > 0) return;
   if (!is_centred_disc(w, contact.shape_a) || !is_centred_disc(w, contact.shape_b)) return;
@@ -39,18 +39,18 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Bounce
 }  // namespace
 
 template <class Real>
-void find_bounces(WorldData<Real>& w) {
+void collect_restitution_contacts(WorldData<Real>& w) {
   w.scratch.bounces.clear();
   for (const int id : w.scratch.bouncing) {
     const ContactRecord& contact = w.contacts[id];
     if (contact.home != ContactHome::Graph) continue;
-    Bounce<Real> bounce{.contact = &constraint_of(w, contact)};
+    RestitutionContact<Real> bounce{.contact = &constraint_of(w, contact)};
     follow_discs(w, contact, bounce);
     if (bounce.contact->restitution > 0 || bounce.radii > 0) w.scratch.bounces.push_back(bounce);
   }
 }
 
-template void find_bounces(WorldData<float>&);
-template void find_bounces(WorldData<double>&);
+template void collect_restitution_contacts(WorldData<float>&);
+template void collect_restitution_contacts(WorldData<double>&);
 
 }  // namespace plumb

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/precise/dynamics/outline.h"
-#include "engine/precise/event_search/paths.h"
+#include "engine/precise/dynamics/feature_shape.h"
+#include "engine/precise/event_search/motion_bounds.h"
 
 namespace plumb::precise {
 
@@ -25,10 +25,11 @@ double lasts(double f, double rate, double most_fall);
 /// Along a separating direction every corner's height f obeys
 ///   f(t + s) >= f + f' s - A s^2 / 2,
 /// A a bound on f'' from the step's polynomials, so that nothing is missed at any speed or spin.
-class ContactSearch {
+class ConservativeAdvancement {
  public:
   /// `steps`: limit on the steps of one search; beyond it, `Error` (Run).
-  ContactSearch(std::span<const Outline> outlines, const StepPaths& paths, long steps = 200000)
+  ConservativeAdvancement(std::span<const FeatureShape> outlines, const StepMotionBounds& paths,
+                          long steps = 200000)
       : outlines_(outlines), paths_(paths), most_(steps) {}
 
   /// Returns the first time in [from, until] at which the pair is `near` (m) or closer.
@@ -48,8 +49,8 @@ class ContactSearch {
   double distance(const OutlinePair& pair, double time) const;
 
  private:
-  std::span<const Outline> outlines_;
-  const StepPaths& paths_;
+  std::span<const FeatureShape> outlines_;
+  const StepMotionBounds& paths_;
   long most_;
 };
 

@@ -1,4 +1,4 @@
-#include "engine/world/contact_solver/bounces.h"
+#include "engine/world/contact_solver/restitution_contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 
 // Exchanges the contact's masses with the stored ones.
 template <class Real>
-void swap_masses(Bounce<Real>& bounce) {
+void swap_masses(RestitutionContact<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
   std::swap(bounce.masses[0], c.mass[0]), std::swap(bounce.masses[1], c.mass[1]);
   std::swap(bounce.masses[2], c.inverse_pp), std::swap(bounce.masses[3], c.inverse_pq);
@@ -18,7 +18,7 @@ void swap_masses(Bounce<Real>& bounce) {
 
 // Disables the contact: without masses it gives no impulses.
 template <class Real>
-void let_through(Bounce<Real>& bounce) {
+void let_through(RestitutionContact<Real>& bounce) {
   bounce.passes = true;
   for (Real& mass : bounce.masses) mass = 0;
   swap_masses(bounce);
@@ -27,7 +27,7 @@ void let_through(Bounce<Real>& bounce) {
 }  // namespace
 
 template <class Real>
-void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h, Real from) {
+void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from) {
   ContactConstraint<Real>& c = *bounce.contact;
   if (bounce.radii == 0 || c.normal_impulse[0] > 0) return;
   const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
@@ -47,10 +47,10 @@ void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h, Real fro
 }
 
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
                      const ContactStep<Real>& step) {
   bool parted = false;
-  for (Bounce<Real>& bounce : bounces) {
+  for (RestitutionContact<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
     face(motion, bounce, step.h, Real(0));
     bool parts = c.restitution > 0;
@@ -66,11 +66,11 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
 }
 
 template <class Real>
-bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
-                   const ContactStep<Real>& step) {
+bool schedule_impacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+                      const ContactStep<Real>& step) {
   const Real h = step.h;
   bool any = false;
-  for (Bounce<Real>& bounce : bounces) {
+  for (RestitutionContact<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
     bounce.closes = false;
     bool arrives = false;
@@ -97,8 +97,8 @@ bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bo
 }
 
 template <class Real>
-void let_pass(std::vector<Bounce<Real>>& bounces) {
-  for (Bounce<Real>& bounce : bounces) {
+void let_pass(std::vector<RestitutionContact<Real>>& bounces) {
+  for (RestitutionContact<Real>& bounce : bounces) {
     const ContactConstraint<Real>& c = *bounce.contact;
     bounce.passes = bounce.closes && !bounce.strikes[0] && !bounce.strikes[1] && c.normal_impulse[0] == 0 &&
                     c.normal_impulse[1] == 0;
@@ -107,22 +107,22 @@ void let_pass(std::vector<Bounce<Real>>& bounces) {
 }
 
 template <class Real>
-void hold_again(std::vector<Bounce<Real>>& bounces) {
-  for (Bounce<Real>& bounce : bounces) {
+void hold_again(std::vector<RestitutionContact<Real>>& bounces) {
+  for (RestitutionContact<Real>& bounce : bounces) {
     if (!bounce.passes) continue;
     bounce.passes = false;
     swap_masses(bounce);
   }
 }
 
-#define PLUMB_FOR(Real)                                                              \
-  template void face(const BodyMotion<Real>*, Bounce<Real>&, Real, Real);            \
-  template bool note_approaches(const BodyMotion<Real>*, std::vector<Bounce<Real>>&, \
-                                const ContactStep<Real>&);                           \
-  template bool place_bounces(const BodyMotion<Real>*, std::vector<Bounce<Real>>&,   \
-                              const ContactStep<Real>&);                             \
-  template void let_pass(std::vector<Bounce<Real>>&);                                \
-  template void hold_again(std::vector<Bounce<Real>>&);
+#define PLUMB_FOR(Real)                                                                           \
+  template void face(const BodyMotion<Real>*, RestitutionContact<Real>&, Real, Real);             \
+  template bool note_approaches(const BodyMotion<Real>*, std::vector<RestitutionContact<Real>>&,  \
+                                const ContactStep<Real>&);                                        \
+  template bool schedule_impacts(const BodyMotion<Real>*, std::vector<RestitutionContact<Real>>&, \
+                                 const ContactStep<Real>&);                                       \
+  template void let_pass(std::vector<RestitutionContact<Real>>&);                                 \
+  template void hold_again(std::vector<RestitutionContact<Real>>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -1,4 +1,4 @@
-#include "engine/precise/origin.h"
+#include "engine/precise/shifted_origin.h"
 
 #include <algorithm>
 #include <cmath>

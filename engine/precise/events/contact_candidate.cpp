@@ -1,4 +1,4 @@
-#include "engine/precise/events/touch.h"
+#include "engine/precise/events/contact_candidate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
          row.angular_b * b.angular_velocity;
 }
 
-Aabb<double> box_of(const Outline& outline, const Pose<double>& pose, double margin) {
+Aabb<double> tight_aabb(const FeatureShape& outline, const Pose<double>& pose, double margin) {
   Aabb<double> box{{1e300, 1e300}, {-1e300, -1e300}};
   for (const Corner<double>& corner : outline.corners) {
     const Vec2d p = pose.position + pose.rotation * corner.point;
@@ -41,7 +41,7 @@ TouchFinder::TouchFinder(const Scene& scene, const Parts& parts)
 }
 
 bool TouchFinder::may_meet(std::size_t a, std::size_t b) const {
-  const Outline &p = outlines_[a], &q = outlines_[b];
+  const FeatureShape &p = outlines_[a], &q = outlines_[b];
   if (p.body == q.body || !(dynamic_[p.body] || dynamic_[q.body]) || !may_touch(p.filter, q.filter))
     return false;
   return !std::binary_search(parts_.apart.begin(), parts_.apart.end(),
@@ -58,27 +58,27 @@ double TouchFinder::restitution(const OutlinePair& pair) const {
 
 double TouchFinder::near(std::span<const BodyState> states) const {
   double extent = 0;
-  for (const Outline& o : outlines_) {
+  for (const FeatureShape& o : outlines_) {
     extent = std::max(extent, length(states[o.body].position) + o.reach + o.radius);
   }
   return 32 * kEpsilon * extent;
 }
 
-std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, double near,
-                                        std::vector<OutlinePair>& passing) const {
+std::vector<ContactCandidate> TouchFinder::touches(std::span<const BodyState> states, double near,
+                                                   std::vector<OutlinePair>& passing) const {
   passing.clear();
   std::vector<Pose<double>> poses;
   std::vector<Aabb<double>> boxes;
-  for (const Outline& o : outlines_) {
+  for (const FeatureShape& o : outlines_) {
     poses.push_back(pose_of(states[o.body]));
-    boxes.push_back(box_of(o, poses.back(), near));
+    boxes.push_back(tight_aabb(o, poses.back(), near));
   }
-  std::vector<Touch> found;
+  std::vector<ContactCandidate> found;
   for (const OutlinePair& pair :
        pairs_of_boxes(boxes, [&](std::size_t a, std::size_t b) { return may_meet(a, b); })) {
-    const Outline &a = outlines_[pair.a], &b = outlines_[pair.b];
+    const FeatureShape &a = outlines_[pair.a], &b = outlines_[pair.b];
     if (separation(a, poses[pair.a], b, poses[pair.b]).distance > near) continue;
-    Touch touch;
+    ContactCandidate touch;
     touch.pair = pair;
     touch.friction = friction(pair);
     touch.restitution = restitution(pair);
@@ -97,9 +97,9 @@ std::vector<Touch> TouchFinder::touches(std::span<const BodyState> states, doubl
   return found;
 }
 
-void TouchFinder::measure(std::span<const BodyState> states, Touch& touch) const {
+void TouchFinder::measure(std::span<const BodyState> states, ContactCandidate& touch) const {
   if (touch.stop) return measure_stop(states, touch);
-  const Outline &a = outlines_[touch.pair.a], &b = outlines_[touch.pair.b];
+  const FeatureShape &a = outlines_[touch.pair.a], &b = outlines_[touch.pair.b];
   const BodyState &state_a = states[a.body], &state_b = states[b.body];
   const Twist<double> twist_a = twist_of(state_a), twist_b = twist_of(state_b);
   for (int i = 0; i < touch.count; ++i) {
@@ -114,7 +114,7 @@ void TouchFinder::measure(std::span<const BodyState> states, Touch& touch) const
 }
 
 /// Measures a limit: its row stays the same while bodies do not move.
-void TouchFinder::measure_stop(std::span<const BodyState> states, Touch& touch) const {
+void TouchFinder::measure_stop(std::span<const BodyState> states, ContactCandidate& touch) const {
   const Row<double>& row = touch.rows[0].normal;
   double around = 0;
   touch.closing[0] = 0;
@@ -129,9 +129,9 @@ void TouchFinder::measure_stop(std::span<const BodyState> states, Touch& touch) 
   touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
 }
 
-std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepPaths& paths) {
+std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepMotionBounds& paths) {
   std::vector<Aabb<double>> boxes;
-  for (const Outline& o : finder.outlines()) boxes.push_back(paths.swept(o));
+  for (const FeatureShape& o : finder.outlines()) boxes.push_back(paths.swept(o));
   return pairs_of_boxes(boxes, [&](std::size_t a, std::size_t b) { return finder.may_meet(a, b); });
 }
 

@@ -15,9 +15,10 @@ Vec2d local_origin(const Scene& scene);
 Scene seen_from(const Scene& scene, Vec2d origin);
 
 /// Wraps the driver of a scene that is `seen_from` a point, as a driver of the scene itself.
-class OffsetDriver final : public Driver {
+class ShiftedOriginDriver final : public Driver {
  public:
-  OffsetDriver(std::unique_ptr<Driver> driver, Vec2d origin) : driver_(std::move(driver)), origin_(origin) {}
+  ShiftedOriginDriver(std::unique_ptr<Driver> driver, Vec2d origin)
+      : driver_(std::move(driver)), origin_(origin) {}
 
   void step() override { driver_->step(); }
   double time() const override { return driver_->time(); }

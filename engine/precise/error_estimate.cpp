@@ -1,4 +1,4 @@
-#include "engine/precise/companion.h"
+#include "engine/precise/error_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 }  // namespace
 
-CompanionDriver::CompanionDriver(const Precise& precise, std::size_t bodies, const Make& make)
+ErrorEstimatingDriver::ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& make)
     : main_(make(alone(precise))),
       companion_(make(companion_of(precise))),
       states_(bodies),
@@ -36,7 +36,7 @@ CompanionDriver::CompanionDriver(const Precise& precise, std::size_t bodies, con
   error_.known = true;
 }
 
-void CompanionDriver::step() {
+void ErrorEstimatingDriver::step() {
   main_->step();
   companion_->step();
   main_->read(states_);
@@ -49,18 +49,18 @@ void CompanionDriver::step() {
   }
 }
 
-void CompanionDriver::write(std::size_t body, const BodyState& state) {
+void ErrorEstimatingDriver::write(std::size_t body, const BodyState& state) {
   main_->write(body, state);
   companion_->write(body, state);
 }
 
-Statistics CompanionDriver::statistics() const {
+Statistics ErrorEstimatingDriver::statistics() const {
   Statistics all = main_->statistics();
   all.error = error_;
   return all;
 }
 
-std::vector<std::byte> CompanionDriver::save() const {
+std::vector<std::byte> ErrorEstimatingDriver::save() const {
   const std::vector<std::byte> main = main_->save(), companion = companion_->save();
   SnapshotWriter out;
   for (const double largest : {error_.position, error_.angle, error_.velocity}) out.put(largest);
@@ -71,7 +71,7 @@ std::vector<std::byte> CompanionDriver::save() const {
   return out.bytes();
 }
 
-void CompanionDriver::restore(std::span<const std::byte> snapshot) {
+void ErrorEstimatingDriver::restore(std::span<const std::byte> snapshot) {
   const std::vector<std::byte> before = save();
   try {
     restore_parts(snapshot);
@@ -81,7 +81,7 @@ void CompanionDriver::restore(std::span<const std::byte> snapshot) {
   }
 }
 
-void CompanionDriver::restore_parts(std::span<const std::byte> snapshot) {
+void ErrorEstimatingDriver::restore_parts(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   ErrorEstimate error{.known = true};
   for (double* largest : {&error.position, &error.angle, &error.velocity}) *largest = in.get<double>();

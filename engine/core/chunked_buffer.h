@@ -9,7 +9,7 @@ namespace plumb {
 /// allocate nothing. More, as for a million contacts that begin in a scene's first step, is freed while it is
 /// consumed.
 template <class T>
-class BurstList {
+class ChunkedBuffer {
  public:
   void push_back(const T& value) {
     if (blocks_.empty() || blocks_.back().size() == kBlock) blocks_.emplace_back();

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "engine/world/contact_solver/bounces.h"
+#include "engine/world/contact_solver/restitution_contacts.h"
 
 namespace plumb {
 
 /// A point with an impact, in one round.
 template <class Real>
 struct StruckPoint {
-  Bounce<Real>* bounce = nullptr;
+  RestitutionContact<Real>* bounce = nullptr;
   int point = 0;
   Real time = 0;     ///< s, since the start of the substep
   Real wanted = 0;   ///< m/s, target velocity along the normal
@@ -17,14 +17,14 @@ struct StruckPoint {
   Real impulse = 0;  ///< N s
 };
 
-/// Scratch memory of `resolve_crowds`, kept to avoid allocations. All but the last two lists are indexed by
-/// body.
+/// Scratch memory of `propagate_impacts`, kept to avoid allocations. All but the last two lists are indexed
+/// by body.
 template <class Real>
-struct CrowdRoom {
+struct ImpactScratch {
   std::vector<char> reached;   ///< impacts may propagate to the body
   std::vector<Real> earliest;  ///< s, time of its next impact
   std::vector<Real> last;      ///< s, time of its last impact
-  std::vector<Bounce<Real>*> crowd;
+  std::vector<RestitutionContact<Real>*> cluster;
   std::vector<StruckPoint<Real>> struck;
 };
 
@@ -41,7 +41,8 @@ struct CrowdRoom {
 /// Returns the number of rounds. If no time passes for many rounds, it stops and leaves the rest to the
 /// constraints. Between two walls that both push, a body would bounce for ever.
 template <class Real>
-int resolve_crowds(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::vector<Bounce<Real>>& bounces,
-                   const ContactStep<Real>& step, CrowdRoom<Real>& room);
+int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
+                      std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
+                      ImpactScratch<Real>& room);
 
 }  // namespace plumb

@@ -10,12 +10,12 @@ namespace plumb {
 /// node above meanwhile. Leaves lie in the order of queries, not of bodies, so that each would be a cache
 /// miss. The tree is not up to date before finish(). Proxies must stay leaves until then.
 template <class Real>
-class LateEnlarging {
+class PrefetchedEnlarging {
  public:
-  explicit LateEnlarging(DynamicTree<Real>& tree) : tree_(tree) {}
-  ~LateEnlarging() { finish(); }  // also if an exception was thrown
-  LateEnlarging(const LateEnlarging&) = delete;
-  LateEnlarging& operator=(const LateEnlarging&) = delete;
+  explicit PrefetchedEnlarging(DynamicTree<Real>& tree) : tree_(tree) {}
+  ~PrefetchedEnlarging() { finish(); }  // also if an exception was thrown
+  PrefetchedEnlarging(const PrefetchedEnlarging&) = delete;
+  PrefetchedEnlarging& operator=(const PrefetchedEnlarging&) = delete;
 
   void enlarge(int proxy, const Aabb<Real>& box) {
     if (given_ >= kWait) take(given_ - kWait);

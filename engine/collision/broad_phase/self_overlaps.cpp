@@ -3,7 +3,7 @@
 namespace plumb {
 
 template <class Real>
-bool DynamicTree<Real>::mark_meetings(std::vector<char>& meets, int most) const {
+bool DynamicTree<Real>::mark_self_overlaps(std::vector<char>& meets, int most) const {
   meets.assign(slots_.size(), 0);
   // Two subtrees whose leaves may overlap.
   struct Both {
@@ -36,7 +36,7 @@ bool DynamicTree<Real>::mark_meetings(std::vector<char>& meets, int most) const 
   return true;
 }
 
-template bool DynamicTree<float>::mark_meetings(std::vector<char>&, int) const;
-template bool DynamicTree<double>::mark_meetings(std::vector<char>&, int) const;
+template bool DynamicTree<float>::mark_self_overlaps(std::vector<char>&, int) const;
+template bool DynamicTree<double>::mark_self_overlaps(std::vector<char>&, int) const;
 
 }  // namespace plumb

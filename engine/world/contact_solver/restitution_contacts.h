@@ -10,7 +10,7 @@ namespace plumb {
 
 /// A contact with restitution, or of discs that approach fast: time and speed of its bounce in the substep.
 template <class Real>
-struct Bounce {
+struct RestitutionContact {
   ContactConstraint<Real>* contact = nullptr;
   Real before[2] = {};  ///< m/s, velocity along the normal at the start of the substep
   Real speed[2] = {};   ///< m/s, separating speed of the points at the end of the substep
@@ -43,12 +43,12 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 /// deflect them by the angle that it turns until then. After an impact at `from` that leaves them sliding,
 /// t = `from` is a double root: rounding would find an earlier one, at which they still approach.
 template <class Real>
-void face(const BodyMotion<Real>* motion, Bounce<Real>& bounce, Real h, Real from);
+void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 
 /// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
 /// be warm started: returns true if one of these had an impulse.
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
                      const ContactStep<Real>& step);
 
 /// Sets when and how fast each contact bounces in the substep, once the bodies' accelerations are known.
@@ -58,16 +58,16 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& 
 /// after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c - a
 /// (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
 template <class Real>
-bool place_bounces(const BodyMotion<Real>* motion, std::vector<Bounce<Real>>& bounces,
-                   const ContactStep<Real>& step);
+bool schedule_impacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+                      const ContactStep<Real>& step);
 
 /// Disables, before any iteration, contacts that will bounce but stay open in this substep. The solver would
 /// slow them, and the momentum passed on to other bodies could not be recovered.
 template <class Real>
-void let_pass(std::vector<Bounce<Real>>& bounces);
+void let_pass(std::vector<RestitutionContact<Real>>& bounces);
 
 /// Enables the contacts again that `let_pass` disabled. Called after relax_contacts.
 template <class Real>
-void hold_again(std::vector<Bounce<Real>>& bounces);
+void hold_again(std::vector<RestitutionContact<Real>>& bounces);
 
 }  // namespace plumb

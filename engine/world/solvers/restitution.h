@@ -7,6 +7,6 @@ namespace plumb {
 /// Collects the restitution contacts of a step, and circles that approach each other fast, whose normal is
 /// predicted for the time of contact.
 template <class Real>
-void find_bounces(WorldData<Real>& w);
+void collect_restitution_contacts(WorldData<Real>& w);
 
 }  // namespace plumb
