@@ -31,9 +31,6 @@ constexpr std::string_view kSoft =
     "Joints of the world are damped springs that the substeps sweep once: under a weight that begins at once "
     "a chain of 7 to 10 sags by 3 to 9 mm, a spinning weld turns by 0.001 rad, and a limit takes some "
     "substeps to stop what meets it.";
-constexpr std::string_view kDamping =
-    "The world applies gravity for the whole of a step to a body in free flight, and its damping c after "
-    "that: the speed that it tends to is too small by c dt/2.";
 constexpr std::string_view kCrowded =
     "The last of 314 impacts come many to a step; an engine that resolves one a step and pair leaves some to "
     "the next.";
@@ -138,7 +135,6 @@ constexpr KnownLimit kLimits[] = {
     {"plumb", "welded_pair", "angle_error", kSoft},
     {"plumb|plumb-float", "hanging_chain[7]", "position_error|velocity_error", kSoft},
     {"plumb|plumb-float", "small_modes[10]", "position_error|velocity_error|energy_drift", kSoft},
-    {"plumb|plumb-float", "damped_coasting/falling", "velocity_error", kDamping},
     {"bullet-double", "pi_billiard/314", "velocity_error", kCrowded},
     // The same at other steps.
     {"box2d", "overhang[1]|table_edge/lies|toppling_block/stands|toppling_block/topples",

@@ -61,6 +61,31 @@ TYPED_TEST(Motion, ImpulseAtACornerTurns) {
   EXPECT_NEAR(world.velocity_at(body, {1.5, 1}).y, 1.5 + 4.5 * 0.5, 1e-5);
 }
 
+// v' = g - c v: v = u + (v0 - u) e^(-c t) with u = g / c, and x = x0 + u t + (v0 - u) (1 - e^(-c t)) / c.
+TYPED_TEST(Motion, ADampedFallIsExactAtAnyDamping) {
+  for (const double c : {1e-6, 0.05, 1.0, 7.5, 60.0}) {
+    BasicWorld<TypeParam> world;
+    const BodyId body = world.create_body({.position = {0, 50},
+                                           .velocity = {3, 0},
+                                           .angular_velocity = 4,
+                                           .mass = MassProperties{2, {}, 1},
+                                           .linear_damping = c,
+                                           .angular_damping = c});
+    run(world, 120);
+    const double t = 2, u = -kGravity / c, left = std::exp(-c * t), gone = -std::expm1(-c * t);
+    const double tolerance = rounding<TypeParam>(20, 480);
+    EXPECT_NEAR(world.velocity(body).y, u * gone, tolerance) << c;
+    EXPECT_NEAR(world.velocity(body).x, 3 * left, tolerance) << c;
+    // Written so that nothing cancels for a small c.
+    const double fallen =
+        kGravity * (c < 1e-3 ? t * t * (0.5 - c * t / 6 + c * c * t * t / 24) : (t - gone / c) / c);
+    EXPECT_NEAR(world.position(body).y, 50 - fallen, tolerance * t) << c;
+    EXPECT_NEAR(world.position(body).x, 3 * gone / c, tolerance * t) << c;
+    EXPECT_NEAR(world.angular_velocity(body), 4 * left, tolerance) << c;
+    EXPECT_NEAR(world.angle(body), 4 * gone / c, tolerance * t) << c;
+  }
+}
+
 TYPED_TEST(Motion, DampingIsExponential) {
   BasicWorld<TypeParam> world(weightless());
   BodyDefinition definition;

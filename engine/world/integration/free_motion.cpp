@@ -21,6 +21,24 @@ double decay(double x) {
   return sum;
 }
 
+// Means over a time t of what damping c leaves: of a velocity, phi_1 = (1 - e^-x) / x, and of one that grows
+// from 0, phi_2 = (1 - phi_1) / x, x = c t. Under a constant acceleration a, v' = e^-x v + phi_1 t a and the
+// displacement is t (phi_1 v + phi_2 t a).
+struct DampedMeans {
+  double first, second;
+};
+
+DampedMeans damped_means(double x) {
+  if (x > 0.125) {
+    const double first = (1 - decay(x)) / x;
+    return {first, (1 - first) / x};
+  }
+  // 1/2! - x/3! + x^2/4! - ... to x^9/11!: below rounding.
+  double second = 0;
+  for (int n = 11; n >= 2; --n) second = (1 - x * second) / n;
+  return {1 - x * second, second};
+}
+
 // Returns the velocity increments and damping factors of a body for a time, s.
 template <class Real>
 VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
@@ -54,21 +72,33 @@ constexpr double share_before(Integrator integrator) {
   return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
 }
 
-// Moves a body in free flight. Exact for constant acceleration: x(t) = x + v t + a t^2/2 = x + (v(t) - a t/2)
-// t.
+// Moves a velocity through a time under a constant acceleration, which would add `gain`, and damping, which
+// leaves `keep`, c times the time being `x`. Returns the displacement.
+template <class Value, class Real>
+Value coast(Value& velocity, Value gain, Real keep, double x, Real time) {
+  const Value before = velocity;
+  if (keep == 1) {
+    velocity = before + gain;
+    return (Real(0.5) * time) * (before + velocity);
+  }
+  const DampedMeans means = damped_means(x);
+  const Real first = static_cast<Real>(means.first), second = static_cast<Real>(means.second);
+  velocity = keep * before + first * gain;
+  return time * (first * before + second * gain);
+}
+
+// Moves a body in free flight through the step. Exact for constant acceleration.
 template <class Real>
 void fly(WorldData<Real>& w, int body, double dt) {
   const VelocityIncrement<Real> kick = velocity_increment_of(w, body, dt);
+  const BodyExtras<Real>& own = w.extras_of(body);
   BodyMotion<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(dt);
-  const Vec2<Real> before = motion.velocity;
-  const Real spin_before = motion.angular_velocity;
-  apply(kick, motion);
-  // The mean of both ends: exact for constant acceleration, of second order with damping.
-  motion.moved = (Real(0.5) * t) * (before + motion.velocity);
-  if (kick.locked_x) motion.moved.x = 0;
-  if (kick.locked_y) motion.moved.y = 0;
-  motion.turned = Real(0.5) * t * (spin_before + motion.angular_velocity);
+  motion.moved = coast(motion.velocity, kick.velocity, kick.keep, dt * double(own.linear_damping), t);
+  if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
+  if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
+  motion.turned =
+      coast(motion.angular_velocity, kick.spin, kick.keep_spin, dt * double(own.angular_damping), t);
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
