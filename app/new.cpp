@@ -24,9 +24,9 @@ std::string problem_with_name(const std::string& name) {
 // Writes `folder`/`name`.cpp, which must not be there yet.
 void write_scenario(const std::string& name, const std::string& folder) {
   std::string text = kNewScenario;
-  const std::string placeholder = "new_scenario_name";
-  for (auto at = text.find(placeholder); at != std::string::npos; at = text.find(placeholder, at))
-    text.replace(at, placeholder.size(), name);
+  const std::string stand_in = "new_scenario_name";
+  for (auto at = text.find(stand_in); at != std::string::npos; at = text.find(stand_in, at))
+    text.replace(at, stand_in.size(), name);
   const std::filesystem::path path = std::filesystem::path(folder) / (name + ".cpp");
   if (!std::filesystem::is_directory(folder))
     throw UsageError(

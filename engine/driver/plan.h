@@ -15,7 +15,7 @@ struct Stage {
 
 /// The stages that `compile` derived from the scene, in the order of execution.
 struct Plan {
-  std::string driver;  ///< "realtime<double>", "realtime<float>", "precise"
+  std::string driver;  ///< "world<double>", "world<float>", "precise"
   std::vector<Stage> stages;
   int substeps = 1;            ///< Realtime: substeps per step
   std::string substeps_why{};  ///< "as asked for", or the reason for more

@@ -69,7 +69,7 @@ bool is_plain(const Joint& joint) {
   return rod != nullptr && !rod->spring && !rod->range && !rod->motor;
 }
 
-// What every adapter translates: discs and boxes, plain joints, gravity alike for all.
+// Returns true for scenes that every adapter translates: discs and boxes, plain joints, equal gravity.
 bool is_plain(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (body.gravity_scale != 1 || body.linear_damping != 0 || body.angular_damping != 0) return false;

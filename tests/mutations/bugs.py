@@ -113,8 +113,6 @@ MUTATIONS = [
     Mutation("precise: the companion is no finer than the run", "engine/precise/error_estimate.cpp",
              "kFiner = 0.1,", "kFiner = 1,", "precise"),
 
-    # What the fixed-step driver promises.
-
     # The real-time world.
     Mutation("world: a limit pulls", "engine/world/joint_solver/joint_rule.h",
              "return role == RowRole::Limit ? 0 : -most;", "return -most;", "world"),

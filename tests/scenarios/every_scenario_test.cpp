@@ -298,7 +298,7 @@ TEST_P(EveryScenario, KeepsItsJointsTogether) {
   }
 }
 
-/// Whether a joint has a motor or a spring.
+/// Returns true if a joint has a motor or a spring.
 bool stores_energy(const Joint& joint) {
   return std::visit(
       [](const auto& j) {

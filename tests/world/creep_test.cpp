@@ -6,7 +6,7 @@
 
 #include "tests/world/support.h"
 
-// What stands on friction and is kept awake stays where it is.
+// Checks that bodies held by friction do not creep while they are kept awake.
 namespace plumb {
 namespace {
 

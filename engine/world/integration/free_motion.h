@@ -3,12 +3,12 @@
 #include "engine/world/world_data.h"
 
 /// Integration of the awake bodies, common to all solvers. In each substep gravity, forces, damping and locks
-/// change the velocity (the kick), and the velocity moves the body.
+/// change the velocity, and the velocity moves the body.
 namespace plumb {
 
-/// Computes the kicks for substeps of length `h`, and resets displacements, at the step's start. With
-/// velocity Verlet, bodies without contact points and joints are moved along a parabola through the whole
-/// step.
+/// Computes the velocity increments for substeps of length `h`, and resets displacements, at the step's
+/// start. With velocity Verlet, bodies without contact points and joints are moved along a parabola through
+/// the whole step.
 template <class Real>
 void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator);
 
@@ -23,8 +23,8 @@ template <class Real>
 void integrate_and_warm_start(WorldData<Real>& w);
 
 /// Integrates positions: x += h v. A body without joints that had no impulse in the substep moves by the
-/// integrator's mean of the velocities before and after the kick. So bodies with separated contacts fall like
-/// bodies without.
+/// integrator's mean of the velocities before and after the increment. So bodies with separated contacts fall
+/// like bodies without.
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator);
 
