@@ -62,6 +62,43 @@ TEST(PreciseRest, StacksStand) {
   EXPECT_EQ(events(*driver, ContactEvent::Separation).count, 0);
 }
 
+/// A pyramid of boxes of 1 m and 1 kg, each on the edges of two below it.
+Scene pyramid(int rows) {
+  Scene scene{.name = "pyramid"};
+  scene.bodies = {ground(0.6)};
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < rows - row; ++i) {
+      const Vec2d place{1.01 * (i - (rows - row - 1) / 2.0), row + 0.5};
+      scene.bodies.push_back(block("block" + std::to_string(scene.bodies.size()), place, 1, 1, 0.6));
+      scene.bodies.back().mass = 1;
+    }
+  return scene;
+}
+
+TEST(PreciseRest, PyramidsWithMoreContactsThanStaticsDeterminesStandWithoutEvents) {
+  for (const int rows : {2, 3, 4, 5, 7}) {
+    const Scene scene = pyramid(rows);
+    const auto driver = make_precise_driver(scene, {}, {});
+    const auto states = advance(*driver, scene.bodies.size(), 30);
+    double largest = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      largest = std::max(largest, length_squared(states[i].position - scene.bodies[i].position));
+    EXPECT_LT(std::sqrt(largest), 1e-13) << rows;
+    EXPECT_EQ(events(*driver, ContactEvent::Separation).count, 0) << rows;
+    EXPECT_EQ(events(*driver, ContactEvent::SlipStart).count, 0) << rows;
+    Vec2d carried{};
+    for (const ContactReaction& contact : driver->reactions().contacts) {
+      // Every contact pushes, and the ground, the first body, carries the whole weight.
+      EXPECT_GE(contact.normal_force, -1e-9) << rows;
+      const Vec2d tangent{-contact.normal.y, contact.normal.x};
+      if (contact.body_a == 0)
+        carried += contact.normal_force * contact.normal + contact.tangent_force * tangent;
+    }
+    EXPECT_NEAR(carried.y, 9.81 * rows * (rows + 1) / 2, 1e-9) << rows;
+    EXPECT_NEAR(carried.x, 0, 1e-9) << rows;
+  }
+}
+
 TEST(PreciseRest, OnMoreSupportsThanAreNeeded) {
   // A long box on four posts: normal forces are not determined, the motion is.
   Scene scene{.name = "posts"};

@@ -159,15 +159,31 @@ void EquationsOfMotion::solve_contacts(std::span<double> right_side) {
   for (std::size_t i = 0; i < right_side.size(); ++i) right_side[i] *= scale_[i];
 }
 
+/// Returns the forces that the active contacts had when they were decided, by row.
+std::vector<double> EquationsOfMotion::decided_forces() const {
+  std::vector<double> forces;
+  for (const ActiveContact& patch : patches_)
+    forces.insert(forces.end(), patch.pushes, patch.pushes + patch.count);
+  for (const ActiveContact& patch : patches_) {
+    if (patch.sticks()) forces.push_back(patch.grip);
+  }
+  forces.resize(constraints_.size(), 0.0);  // held stops
+  return forces;
+}
+
 /// Adds the accelerations by contacts to those without them.
 void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
   linearise_contacts(true);
+  // Forces of redundant contacts are not unique: those since the contacts were decided, and what changed.
+  const std::vector<double> decided = decided_forces();
+  add_response(active_response_, decided, accelerations);
   contact_side_.resize(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     contact_side_[i] = -(row_speed(constraints_[i], accelerations) + constraints_[i].bias_acceleration);
   }
   solve_contacts(contact_side_);
   add_response(active_response_, contact_side_, accelerations);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) contact_side_[i] += decided[i];
 
   contact_forces_.normal.assign(contact_side_.begin(),
                                 contact_side_.begin() + static_cast<std::ptrdiff_t>(points_));

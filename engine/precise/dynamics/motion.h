@@ -213,6 +213,7 @@ class EquationsOfMotion final : public Flow {
                     std::span<Twist<double>> motion) const;
   void linearise_contacts(bool forces);
   void solve_contacts(std::span<double> right_side);
+  std::vector<double> decided_forces() const;
   void press(std::span<Twist<double>> accelerations);
   void add_motors();
   void close_contacts(std::span<const Twist<double>> motion, bool gaps, std::span<Twist<double>> shift);

@@ -182,7 +182,9 @@ void Contacts::evaluate_contact(const Watched& watched, const ContactForces& for
     case Quantity::Cone: {
       double normal = 0;
       for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
-      value = patch.friction * normal - std::abs(forces.tangent[watched.patch]);
+      // At the tip of the cone the contact opens, which is no slip: without a tangential force the cone
+      // lasts.
+      value = patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[watched.patch]);
       break;
     }
     case Quantity::Slip: {
@@ -284,6 +286,8 @@ void Contacts::save(SnapshotWriter& out) const {
     out.put(patch.mode);
     out.put(patch.count);
     out.put(patch.features);
+    out.put(patch.pushes);
+    out.put(patch.grip);
   }
   out.put(static_cast<std::uint64_t>(touching_.size()));
   for (const OutlinePair& pair : touching_) out.put(pair);
@@ -319,6 +323,8 @@ void Contacts::restore(SnapshotReader& in) {
       in.expect(feature.a >= 0 && feature.a < patch.a->count() && feature.b >= 0 &&
                 feature.b < patch.b->count());
     }
+    for (double& force : patch.pushes) force = in.get<double>();
+    patch.grip = in.get<double>();
   }
   touching_.assign(in.count(sizeof(OutlinePair)), {});
   for (OutlinePair& each : touching_) each = pair();

@@ -84,8 +84,9 @@ void Contacts::refuse_overlaps(double share) {
 
 void Contacts::settle() {
   const double now = smooth_.time();
-  events_at_once_ =
-      now - last_event_ <= 4 * std::numeric_limits<double>::epsilon() * now ? events_at_once_ + 1 : 0;
+  const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
+  const double instant = 4 * std::numeric_limits<double>::epsilon() * std::max(now, own_time);
+  events_at_once_ = now - last_event_ <= instant ? events_at_once_ + 1 : 0;
   last_event_ = now;
   if (events_at_once_ > kMostEventsAtOnce)
     throw Error(Error::Kind::Run, "contacts, limits and motors", "events",
@@ -286,9 +287,12 @@ void Contacts::activate(std::span<const ContactCandidate> touches, const TouchPr
                         touch.friction,
                         solution.mode[q],
                         0,
-                        {}};
+                        {},
+                        {},
+                        solution.force[p.problem.points() + q]};
     for (std::size_t i = 0; i < p.problem.points(); ++i) {
       if (p.touch_of[i] != p.touches[q] || !solution.pushes[i]) continue;
+      patch.pushes[patch.count] = solution.force[i];
       patch.features[patch.count++] = touch.features[p.index_of[i]];
       force_scale_ = std::max(force_scale_, solution.force[i]);
     }
@@ -323,7 +327,7 @@ bool Contacts::resolve_zeno_contacts(std::vector<ContactCandidate>& touches) {
   any = false;
   for (const ContactCandidate& touch : touches) {
     if (touch.stop) continue;
-    ActiveContact patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b], 0, 0, 0, {}};
+    ActiveContact patch{&finder_.outlines()[touch.pair.a], &finder_.outlines()[touch.pair.b]};
     for (int i = 0; i < touch.count; ++i) {
       const Row<double>& row = touch.rows[i].normal;
       const double pull = -(rate_along(row, now) + row.bias_acceleration);
