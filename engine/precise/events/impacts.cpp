@@ -89,10 +89,20 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
     p.problem.rate.push_back(closing - wanted);
   }
   for (const std::size_t t : p.touches) p.problem.rate.push_back(touches[t].slip);
-  const CoulombSolution solution = solve_coulomb(p.problem);
+  CoulombSolution solution = solve_coulomb(p.problem);
   if (!solution.solved) {
     throw Error(Error::Kind::Run, subject(touches[p.touches[0]]), "effective mass", "infinite",
                 "an impact meets what joints and other contacts hold everything fast: nothing can give way");
+  }
+  // The impulses do the work of `first` + `second`, J, and scaled by k that of k `first` + k^2 `second`.
+  double first = 0, second = 0;
+  for (std::size_t i = 0; i < p.problem.size(); ++i) {
+    const double before = i < n ? touches[p.touch_of[i]].closing[p.index_of[i]] : p.problem.rate[i];
+    first += solution.force[i] * before;
+    second += solution.force[i] * (solution.rate[i] - p.problem.rate[i]) / 2;
+  }
+  if (first + second > 0 && second > 0) {
+    for (double& impulse : solution.force) impulse *= -first / second;
   }
   apply(p.response, solution.force, touches, states, y);
 }
