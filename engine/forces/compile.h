@@ -29,7 +29,8 @@ class LawCompiler {
   }
 
   LinearDragLaw<Real> compile(const LinearDrag& law) const {
-    return {index_.at(law.body), static_cast<Real>(law.coefficient)};
+    return {index_.at(law.body), static_cast<Real>(law.coefficient),
+            static_cast<Real>(law.angular_coefficient)};
   }
   QuadraticDragLaw<Real> compile(const QuadraticDrag& law) const {
     return {index_.at(law.body), static_cast<Real>(law.coefficient)};

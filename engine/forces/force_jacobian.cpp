@@ -50,10 +50,11 @@ struct Derivative {
   }
   ForceBlock& block() const { return block(ends[0].body, ends[0].body); }
 
-  // F = -c v.
+  // F = -c v, T = -c_r w.
   void operator()(const LinearDrag& law) const {
     ForceBlock& b = block();
     b.velocity[0][0] = b.velocity[1][1] = -law.coefficient;
+    b.velocity[2][2] = -law.angular_coefficient;
   }
 
   // F = -c |v| v: dF/dv = -c (|v| 1 + v v^T / |v|).

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/text.h"
+#include "engine/precise/body_laws.h"
 #include "engine/precise/driver.h"
 #include "engine/precise/dynamics/clock.h"
 #include "engine/precise/error_estimate.h"
@@ -152,8 +153,9 @@ std::size_t PreciseDriver::slot_of(std::size_t body) const {
 
 namespace plumb {
 
-std::unique_ptr<Driver> make_precise_driver(const Scene& scene, const Precise& precise,
+std::unique_ptr<Driver> make_precise_driver(const Scene& given, const Precise& precise,
                                             CompileOptions options) {
+  const Scene scene = precise::with_body_laws(given);
   const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
     const Vec2d origin = precise::local_origin(scene);
     if (origin == Vec2d{}) return std::make_unique<precise::PreciseDriver>(scene, p, options);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/text.h"
+#include "engine/precise/body_laws.h"
 #include "engine/precise/dynamics/joints.h"
 #include "engine/precise/dynamics/parts.h"
 #include "engine/precise/precise.h"
@@ -31,7 +32,7 @@ std::string missing_in(const Joint& joint) {
 
 std::string precise_unsupported(const Scene& scene) {
   constexpr const char* kElsewhere = ", which Precise does not have; 'plumb' runs it";
-  Scene bodies = scene;
+  Scene bodies = precise::with_body_laws(scene);
   bodies.joints.clear();
   if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
   for (const Joint& joint : scene.joints) {
@@ -42,7 +43,7 @@ std::string precise_unsupported(const Scene& scene) {
   }
   // Every evaluation involves all contacts at once: its cost grows at least with the square of their number.
   constexpr std::size_t kMostBodies = 300;
-  const precise::Parts parts = precise::divide(scene);
+  const precise::Parts parts = precise::divide(precise::with_body_laws(scene));
   std::vector<char> touches(scene.bodies.size(), 0);
   for (const precise::FeatureShape& outline : parts.outlines) {
     if (scene.bodies[outline.body].type == BodyType::Dynamic) touches[outline.body] = 1;
@@ -54,10 +55,13 @@ std::string precise_unsupported(const Scene& scene) {
          " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8}, or filter pairs out";
 }
 
-std::string symplectic_unsupported(const Scene& scene) {
+std::string symplectic_unsupported(const Scene& given) {
+  const Scene scene = precise::with_body_laws(given);
   for (const ForceLaw& law : scene.forces) {
     const bool brakes = std::visit(
         [](const auto& l) {
+          if constexpr (requires { l.angular_coefficient; })
+            return l.coefficient != 0 || l.angular_coefficient != 0;
           if constexpr (requires { l.coefficient; }) return l.coefficient != 0;
           if constexpr (requires { l.damping; }) return l.damping != 0;
           return false;

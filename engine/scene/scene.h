@@ -65,10 +65,11 @@ struct Body {
   friend bool operator==(const Body&, const Body&) = default;
 };
 
-/// F = -coefficient v, at the centre of mass.
+/// F = -coefficient v at the centre of mass, and the torque -angular_coefficient w: slow flow past a body.
 struct LinearDrag {
   std::string body;
-  double coefficient = 0;  ///< N s/m, >= 0
+  double coefficient = 0;          ///< N s/m, >= 0
+  double angular_coefficient = 0;  ///< N m s, >= 0
   friend bool operator==(const LinearDrag&, const LinearDrag&) = default;
 };
 

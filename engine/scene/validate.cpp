@@ -333,6 +333,7 @@ class Checker {
   void check_force(const LinearDrag& law) const {
     body_called("body", law.body, false);
     number("coefficient", law.coefficient, Limits::NonNegative, "N s/m");
+    number("angular_coefficient", law.angular_coefficient, Limits::NonNegative, "N m s");
   }
 
   void check_force(const QuadraticDrag& law) const {

@@ -5,7 +5,7 @@
 
 #include "tests/app/program.h"
 
-// What a user does with hunt.
+// Uses hunt as a user does.
 namespace plumb::app {
 namespace {
 

@@ -40,7 +40,7 @@ std::vector<Option> options_of(const std::string& subcommand) {
   return options;
 }
 
-/// What makes a subcommand complete, so that the bad value is all that is wrong.
+/// Completes a subcommand, so that the bad value is all that is wrong.
 std::vector<std::string> complete(const std::string& subcommand, const std::string& option,
                                   const Folder& folder) {
   static const std::map<std::string, std::vector<std::string>> kRest{

@@ -8,7 +8,7 @@
 
 #include "tests/app/program.h"
 
-// What a user does with stress.
+// Uses stress as a user does.
 namespace plumb::app {
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-// What a user does with sweep, front, tune and the comparison of results.
+// Uses sweep, front, tune and the comparison of results as a user does.
 namespace plumb::app {
 namespace {
 
@@ -35,7 +35,7 @@ TEST(Sweep, KilledInTheMiddleTheSameCommandGoesOn) {
     if (json["kind"] == "run") ++runs[json["result"]["engine"].dump() + json["result"]["asked"].dump()];
   }
   for (const auto& [run, count] : runs) EXPECT_EQ(count, 1) << run;
-  // What is complete is not run again.
+  // Complete parts are not run again.
   const std::string results = folder.read("s/results.jsonl");
   const Ran again = plumb(command);
   EXPECT_EQ(again.code, 0);

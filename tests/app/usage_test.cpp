@@ -164,7 +164,7 @@ TEST(Output, AClosedPipeEndsQuietly) {
   EXPECT_EQ(folder.read("err"), "");
 }
 
-// What is opened next would get the number of stdout, and be written into.
+// With stdout closed, the next file that is opened would get its number, and be written into.
 TEST(Output, AClosedStdoutIsAnErrorAndLeavesResultsAsTheyAre) {
   const Folder folder;
   const std::string common =

@@ -1,4 +1,5 @@
-// What is valid by itself, at its extremes together: refused with a reason, or in motion with finite states.
+// Tries values that are valid by themselves at their extremes together: refused with a reason, or in motion
+// with finite states.
 #include <gtest/gtest.h>
 
 #include "tests/bad_input/refusal.h"

@@ -17,7 +17,8 @@
 /// lists do not compile when one is missing.
 namespace plumb::bad_input {
 
-/// Where a number stands ("motor.max_force", "points[1].x") and whose member it is ("Motor.max_force").
+/// Names a number's place ("motor.max_force", "points[1].x") and the member that it belongs to
+/// ("Motor.max_force").
 struct FieldPlace {
   std::string path, key;
 };
@@ -74,7 +75,7 @@ void visit_fields(T& value, const FieldPlace& at, Visit&& visit) {
   }
 }
 
-/// What values a number may have.
+/// Allowed values of a number.
 struct Rule {
   double lowest = 0, highest = 0;
   double least = 0;       ///< in size
@@ -118,7 +119,7 @@ inline std::vector<double> bad_numbers() {
           2147483647.0};
 }
 
-/// Whether a field of type T can hold the number at all.
+/// Returns true if a field of type T can hold the number at all.
 template <class T>
 bool can_hold(double value) {
   if constexpr (std::is_same_v<T, double>) {

@@ -10,7 +10,7 @@
 #include "engine/world/snapshot.h"
 #include "tests/bad_input/fields.h"
 
-/// What has to be true of an error about bad input.
+/// Checks the properties of an error about bad input.
 namespace plumb::bad_input {
 
 /// The value is refused by a typed error that names the thing, its member and the value.

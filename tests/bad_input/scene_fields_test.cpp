@@ -52,6 +52,7 @@ std::map<std::string, Rule> scene_rules() {
                                     {"Segment.end", kAny},
                                     {"Chain.points", kAny},
                                     {"LinearDrag.coefficient", kNotNegative},
+                                    {"LinearDrag.angular_coefficient", kNotNegative},
                                     {"QuadraticDrag.coefficient", kNotNegative},
                                     {"PointForce.force", kAny},
                                     {"PointForce.point", kAny},
@@ -150,7 +151,7 @@ Scene full_scene() {
           .name = "9", .body_a = a, .body_b = b, .ground_a = {0, 5}, .ground_b = {3, 5}, .length = 6.0},
       RatchetJoint{.name = "10", .body_a = a, .body_b = b},
       FrictionJoint{.name = "11", .body_a = a, .body_b = b}};
-  scene.forces = {LinearDrag{a, 0.5},
+  scene.forces = {LinearDrag{a, 0.5, 0.1},
                   QuadraticDrag{a, 0.25},
                   PointForce{.body = a, .force = {1, 2}, .duration = 1},
                   Torque{.body = a, .torque = 1, .duration = 1},
@@ -247,7 +248,7 @@ TEST(SceneFields, BadNumbersAreRefusedWithTheirPlace) {
   int refused = 0, read = 0, accepted = 0;
   for (const FieldPlace& at : places) {
     Rule rule = rules.of(at.key);
-    // What is not dynamic has no mass, whatever is written there.
+    // Only dynamic bodies have a mass, whatever is written there.
     if (at.path == "bodies[0].mass") rule = kNotNegative;
     for (const double bad : bad_numbers()) {
       const Spoilt spoilt = spoil(good, at, bad);

@@ -11,7 +11,7 @@ PLUMB_MEMBERS(Shape, geometry, position, angle, friction, restitution, filter, r
               surface_speed, density)
 PLUMB_MEMBERS(Body, name, type, position, angle, velocity, angular_velocity, mass, inertia, fixed_rotation,
               shapes, gravity_scale, linear_damping, angular_damping, lock_x, lock_y)
-PLUMB_MEMBERS(LinearDrag, body, coefficient)
+PLUMB_MEMBERS(LinearDrag, body, coefficient, angular_coefficient)
 PLUMB_MEMBERS(QuadraticDrag, body, coefficient)
 PLUMB_MEMBERS(PointForce, body, force, point, frame, start, duration)
 PLUMB_MEMBERS(Torque, body, torque, start, duration)

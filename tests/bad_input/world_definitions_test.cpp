@@ -124,7 +124,7 @@ struct Place {
   }
 };
 
-/// How often each number was tried, and with what result.
+/// Counts how often each number was tried, and with what result.
 struct Tally {
   int refused = 0, accepted = 0, related = 0;
 };

@@ -116,7 +116,7 @@ TEST(Boxes, CornersApartGiveTheDirectionBetweenThem) {
                 {Vec2d{0.4, 0.4} + 0.095 * Vec2d{0.6, 0.8}}, -0.01);
 }
 
-// What rests keeps its points' names: trembling by roundings must not change them, on top of each other,
+// Points at rest keep their feature ids: trembling by roundings must not change them, on top of each other,
 // overhanging, in a brick wall and on a broad floor, hovering or sunk in.
 template <class Real>
 void expect_steady_names() {

@@ -17,7 +17,7 @@ using truth::Vec2l;
 struct Errors {
   double separation = 0;  // of the nearest point
   double choice = 0;  // how much farther apart the shapes are along the best normal than along the one chosen
-  double normal = 0;  // where the hulls are clearly apart: from the direction between their nearest points
+  double normal = 0;  // if the hulls are clearly apart: from the direction between their nearest points
   double surface = 0;  // how far the nearest point is from half-way between the surfaces
 
   bool below(const Errors& b) const {
@@ -113,15 +113,15 @@ void judge(const Pair<Real>& pair, const Errors& rounding, Tally& tally) {
   worst.surface = std::max(worst.surface, errors.surface);
 }
 
-/// What rounding does. The unit is a roundoff of the type; a pose far out costs a few.
+/// Allowance for rounding. The unit is a roundoff of the type; a pose far from the origin costs a few.
 template <class Real>
 Errors rounding_errors() {
   const double unit = double{std::numeric_limits<Real>::epsilon()};
   return {6 * unit, 6 * unit, 40 * unit, 10 * unit};
 }
 
-/// What the liking for a's faces may cost besides. Parallel edges (kParallel, 2e-3 rad): the normal is off by
-/// that much, and a way as long as the edge is seen under it. Overlaps: kPreference, 5e-4 of the smaller
+/// Allowance for the preference for a's faces. Parallel edges (kParallel, 2e-3 rad): the normal is off by
+/// that much, and a distance as long as the edge is seen under it. Overlaps: kPreference, 5e-4 of the smaller
 /// shape's size across, which is up to 4.5 here.
 constexpr Errors kChoiceErrors = {2.3e-3, 2.3e-3, 2e-3, 2.3e-3};
 

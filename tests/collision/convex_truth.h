@@ -10,8 +10,8 @@
 #include "engine/geometry/convex_hull.h"
 #include "engine/math/trigonometry.h"
 
-/// What two convex shapes are to each other, found in another way than the engine finds it: by the hull of
-/// all differences of their corners (the Minkowski difference), in long double.
+/// Computes how two convex shapes lie to each other in another way than the engine: by the hull of all
+/// differences of their corners (the Minkowski difference), in long double.
 namespace plumb::truth {
 
 using Long = long double;

@@ -53,7 +53,7 @@ TYPED_TEST(DynamicTreeMeetings, AreThoseOfEachWithEach) {
   }
   EXPECT_GT(met, 1000);
   EXPECT_LT(met, 15000) << "not all";
-  // What was taken out meets nobody.
+  // A removed box meets nothing.
   for (int proxy = 0; proxy < 200; ++proxy) tree.remove(proxy);
   ASSERT_TRUE(tree.mark_self_overlaps(meets, 1 << 20));
   EXPECT_EQ(meets, std::vector<char>(200, 0));

@@ -181,9 +181,9 @@ TYPED_TEST(DynamicTreeShape, TraversalsOfAChainOfPairs) {
   EXPECT_EQ(hits, 2 * kPairs);
 }
 
-// What a query of a leaf's size meets must not grow much when boxes are moved in bulk instead of one by one.
-// The sum of perimeters decides; a tree of leaves put in one at a time by the surface-area heuristic is the
-// measure.
+// The number of boxes that a query of a leaf's size meets must not grow much when boxes are moved in bulk
+// instead of one by one. The sum of perimeters decides; a tree of leaves put in one at a time by the surface-
+// area heuristic is the measure.
 TYPED_TEST(DynamicTreeShape, StaysGoodInLongMotion) {
   using Real = TypeParam;
   constexpr int kBoxes = 2000;
@@ -208,8 +208,8 @@ TYPED_TEST(DynamicTreeShape, StaysGoodInLongMotion) {
   EXPECT_LT(tree.cost(), 1.15 * tree_of(boxes).cost());
 }
 
-// What moves together keeps its neighbours: its boxes are made exact where they are, and no leaf changes its
-// place. The tree is as good as a new one, as its boxes are those of the start, carried along.
+// Boxes that move together keep their neighbours: they are made exact in place, and no leaf moves within the
+// tree. The tree is as good as a new one, as its boxes are those of the start, carried along.
 TYPED_TEST(DynamicTreeShape, MovesAlongWithoutBuilding) {
   using Real = TypeParam;
   constexpr int kBoxes = 2000, kSteps = 64;
@@ -393,7 +393,7 @@ TYPED_TEST(DynamicTreeShape, DamagedSnapshotsAreRefused) {
       << "users' numbers, boxes inside others, free nodes and counters are not checked";
 }
 
-// Which twice of would not be a number.
+// Coordinates whose double would overflow.
 TYPED_TEST(DynamicTreeShape, CountsThatNoRunReachesAreRefused) {
   const std::vector<std::byte> good = bytes_of(tree_of(scattered<TypeParam>(30)));
   for (const std::size_t highest : {11u, 19u}) {

@@ -77,7 +77,8 @@ class DynamicTreeTest : public testing::Test {
     box.upper += {uniform(0, 0.5), uniform(0, 0.5)};
     tree_.enlarge(proxy, box);
   }
-  /// What a body that moves on does: the new box contains neither the old one nor, at times, a part of it.
+  /// Moves a box as a body that goes on does: the new box contains neither the old one nor, at times, a part
+  /// of it.
   void shift() {
     const int proxy = some_leaf();
     Aabb<Real>& box = list_[proxy].box;

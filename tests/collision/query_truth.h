@@ -135,7 +135,7 @@ inline Wide support(const std::vector<Point>& points, Point n) {
   return most;
 }
 
-/// How far b lies beyond a along n: negative where they overlap there.
+/// Returns how far b lies beyond a along n: negative if they overlap there.
 inline Wide gap_along(const std::vector<Point>& a, const std::vector<Point>& b, Point n) {
   return -support(b, -n) - support(a, n);
 }
@@ -203,7 +203,7 @@ inline Wide hull_gap(const std::vector<Point>& a, const std::vector<Point>& b) {
   return least;
 }
 
-/// Where a convex function is least in 0 .. 1.
+/// Returns the argument in 0 .. 1 at which a convex function is least.
 template <class Function>
 Wide lowest_along(const Function& f) {
   Wide low = 0, high = 1;

@@ -274,7 +274,7 @@ TYPED_TEST(TimeOfImpact, GearsThatNeverTouch) {
   EXPECT_TRUE(fast.stays_apart(got.exact_fraction, 0.01, 0.001));
 }
 
-// What rests or slides closer than the target is left alone; what comes closer is stopped.
+// Shapes that rest or slide closer than the target are left alone; those that come closer are stopped.
 TYPED_TEST(TimeOfImpact, StartsCloserThanTheTarget) {
   using Real = TypeParam;
   const Shape<Real> ground = truth::tight_aabb<Real>(100, 1), box = truth::tight_aabb<Real>(1, 1);

@@ -94,7 +94,7 @@ TEST(Starters, Cpp) { expect_starter({PLUMB_STARTER_CPP}); }
 TEST(Starters, JavaScript) { expect_starter({PLUMB_NODE, PLUMB_STARTERS "/ball.js"}); }
 #endif
 
-// What docs/protocol.md says is enough for chapters 1 to 3.
+// The part of a scene that docs/protocol.md says is enough for chapters 1 to 3.
 TEST(Starters, AnEngineWrittenFromTheProtocolPassesThreeChapters) {
   const Json report = examined({"python3", PLUMB_CIRCLES});
   for (const int chapter : {1, 2, 3}) {

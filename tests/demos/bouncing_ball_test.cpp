@@ -51,8 +51,8 @@ TEST_P(EveryScheme, FallsFasterAndFaster) {
   }
 }
 
-// What a step of free fall does to the energy: + m (g h)^2 / 2 with explicit Euler, less as much with
-// semi-implicit Euler, nothing with Verlet.
+// Change of energy in a step of free fall: + m (g h)^2 / 2 with explicit Euler, less as much with semi-
+// implicit Euler, nothing with Verlet.
 TEST_P(EveryScheme, KeepsGainsOrLosesEnergyAsItMust) {
   const double dt = 0.02, share = kGravity * kGravity * dt * dt / 2;
   const std::unique_ptr<Demo> demo = undamped(GetParam(), 1, dt);
@@ -63,7 +63,7 @@ TEST_P(EveryScheme, KeepsGainsOrLosesEnergyAsItMust) {
   EXPECT_NEAR(figure(*demo, "energy") - start, kSteps * per_step[GetParam()], 100 * kRounding);
 }
 
-// What is at `x` when what runs on without walls, from `low` to `high`, is at `way`: a path that is folded.
+// Folds a path without walls into the room from `low` to `high`: returns the place for the way `way`.
 double folded(double way, double low, double high) {
   const double room = high - low;
   const double at = std::fmod(std::fmod(way - low, 2 * room) + 2 * room, 2 * room);
@@ -111,7 +111,7 @@ TEST(BouncingBall, ReturnsToTheSquareOfItsRestitution) {
       demo->step_once();
       const BodyState now = ball(*demo);
       const bool rises = now.velocity.y > 0;
-      // Where its speed takes it; the impact itself lies within a step.
+      // The place to which its speed takes it; the impact itself lies within a step.
       const double top = now.position.y - kRadius + now.velocity.y * now.velocity.y / (2 * kGravity);
       if (n * dt > fall && rises) highest = std::max(highest, top);
     }
@@ -171,7 +171,7 @@ TEST(BouncingBall, SamePathOnAnyFrameRate) {
   EXPECT_EQ(play({1.0 / 240, 1.0 / 90, 0.001}), expected);
 }
 
-// What is drawn moves evenly between the steps, a step behind.
+// Drawn bodies move evenly between the steps, a step behind.
 class BallPlace : public DebugDraw {
  public:
   void polygon(std::span<const Vec2d>, double, DrawRole) override {}

@@ -9,7 +9,7 @@
 #include "demos/core/registry.h"
 #include "engine/scene/error.h"
 
-// What every demo has to do, whatever it shows.
+// Checks that hold for every demo.
 namespace plumb::demos {
 namespace {
 
@@ -67,7 +67,7 @@ TEST_P(EveryDemo, LongFramesDoNotPileUp) {
   EXPECT_LE(demo_->advance(1e-6), 1);
 }
 
-// What is restored goes on as what was never stopped.
+// A restored demo goes on as one that was never stopped.
 TEST_P(EveryDemo, ComesBack) {
   stir(*demo_);
   for (int i = 0; i < 40; ++i) demo_->step_once();
@@ -161,7 +161,7 @@ TEST_P(EveryDemo, BearsAnyInput) {
   for (const Figure& figure : demo_->figures()) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
 }
 
-// What is drawn is finite, and lies between the last two steps: at their ends it is one and the other.
+// Drawn places are finite, and lie between the last two steps: at their ends it is one and the other.
 class Counter : public DebugDraw {
  public:
   void polygon(std::span<const Vec2d> corners, double, DrawRole) override {

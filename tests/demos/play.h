@@ -9,7 +9,7 @@
 
 #include "demos/core/registry.h"
 
-/// What a player does with a demo, and what one sees of it.
+/// Plays a demo as a player does, and reads off what one sees of it.
 namespace plumb::demos {
 
 inline void click(Demo& demo, Vec2d point) {

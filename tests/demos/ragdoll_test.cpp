@@ -32,7 +32,7 @@ class EitherWay : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Joints, EitherWay, testing::Values("hinges", "sticks", "direct"),
                          [](const auto& each) { return std::string(each.param); });
 
-// How far the distance of neighbours of the chain is from a link, at most, m.
+// Returns the largest difference between the distance of neighbours in the chain and a link's length, m.
 double worst_link(const Demo& demo) {
   const std::vector<BodyId> chain = bodies_called(demo, "chain");
   EXPECT_EQ(chain.size(), static_cast<std::size_t>(kChain));
@@ -138,7 +138,7 @@ TEST(Ragdoll, MoreIterationsHoldSticksBetter) {
   EXPECT_LT(gaps.back(), 0.2 * gaps.front());
 }
 
-// How far parts of the figure are apart that are to be together or at their distance, beside what they were
+// Returns how far parts of the figure are from being together or at their distance, beside what they were
 // at the start, m. Hinges stand where the figure is drawn to have them: here about the hip at (2.2, 5).
 class Shape {
  public:

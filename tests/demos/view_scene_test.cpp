@@ -70,7 +70,8 @@ TEST(ViewScene, BodiesCanBeDragged) {
   EXPECT_EQ(demo.hash(), later);
 }
 
-// What touches nothing is not there for queries, and can be taken hold of all the same: the rods of a chain.
+// Bodies that touch nothing, such as the rods of a chain, are not found by queries, and can be grabbed all
+// the same.
 TEST(ViewScene, WhatTouchesNothingCanBeDragged) {
   Scene scene = oscillator();
   for (Body& body : scene.bodies) body.shapes[0].filter.mask = 0;

@@ -1,5 +1,6 @@
-// What plumb promises at the extremes, a figure a test. What is measured is printed (`--gtest_output=xml` has
-// it), and bounds are the promise, or three times what was measured where that is less.
+// Checks what plumb promises at the extremes, a figure a test. Measured values are printed
+// (`--gtest_output=xml` has them), and bounds are the promise, or three times the measured value if that is
+// less.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::string name_of_case(const testing::TestParamInfo<Engine>& tested) { return 
 
 // ---- Masses
 
-// How far the heavy box goes down in 10 s, m.
+// Returns how far the heavy box goes down in 10 s, m.
 double sinking(Engine engine, double ratio) {
   const auto runner = make_runner(engine, heavy_on_light(ratio));
   double worst = 0;

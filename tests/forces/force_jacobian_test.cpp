@@ -92,7 +92,7 @@ Scene two_bodies(const std::string& name, ForceLaw law) {
 }
 
 TEST(ForceJacobian, IsTheDerivativeOfEveryLaw) {
-  expect_derivatives(two_bodies("linear drag", LinearDrag{"a", 0.7}));
+  expect_derivatives(two_bodies("linear drag", LinearDrag{"a", 0.7, 0.3}));
   expect_derivatives(two_bodies("quadratic drag", QuadraticDrag{"b", 0.7}));
   expect_derivatives(two_bodies("force in the body", PointForce{"a", {1, 3}, {0.5, 0.2}, Frame::Body, 0, 1}));
   expect_derivatives(

@@ -12,7 +12,7 @@
 /// Engines and scenarios with known mistakes, to test the harness by.
 namespace plumb::harness::fakes {
 
-/// What a fake engine gives after `step` steps of dt.
+/// State that a fake engine gives after `step` steps of dt.
 using Motion = std::function<void(long step, double dt, std::span<BodyState> out)>;
 
 class FakeSimulator final : public reference::Simulator {

@@ -161,7 +161,7 @@ TEST(JointGap, OfAPulleyIsWhatItsRopeIsOff) {
   const JointGaps gaps(scene);
   std::vector<BodyState> states = {{{0, -1}, 0, {}, 0}, {{3, -2}, 0, {}, 0}};
   EXPECT_NEAR(gaps.gap(0, states), 0, 1e-15);
-  states[0].position.y = -1.5, states[1].position.y = -1.75;  // what a gives, b takes twice
+  states[0].position.y = -1.5, states[1].position.y = -1.75;  // b takes twice the energy that a gives
   EXPECT_NEAR(gaps.gap(0, states), 0, 1e-15);
   states[1].position.y = -1.74;
   EXPECT_NEAR(gaps.gap(0, states), 0.02, 1e-15);

@@ -29,7 +29,8 @@ JointSystem<Real> system_for(const std::vector<Row<Real>>& rows) {
   return JointSystem<Real>(rows, one, one);
 }
 
-/// How many rows depend on others; checks the solution for (0, 1), which is (-1/e^2, 1/e^2) where both count.
+/// Returns how many rows depend on others; checks the solution for (0, 1), which is (-1/e^2, 1/e^2) if both
+/// count.
 template <class Real>
 int dependent_at(double share, Real least_share = 0) {
   int counted = -1;

@@ -68,7 +68,7 @@ struct Landing {
   Motion after(Real end) const {
     Motion s = start();
     Real now = 0;
-    int struck = -1;  // what has just been struck opens until the other one is
+    int struck = -1;  // the one just struck opens until the other one is
     for (int impacts = 0; impacts < 200000; ++impacts) {
       constexpr Real kNever = std::numeric_limits<Real>::infinity();
       const Real first = struck == 0 ? kNever : strikes_after(s, 0);

@@ -8,7 +8,7 @@
 #include "engine/simulation/simulation.h"
 #include "tests/precise/contact_scenes.h"
 
-// What joints and contacts push with, against statics and closed forms.
+// Holds the forces of joints and contacts against statics and closed forms.
 namespace plumb {
 namespace {
 

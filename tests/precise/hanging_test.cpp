@@ -215,8 +215,8 @@ TEST(PreciseHanging, LinksThatMayNotTurnStay) {
   EXPECT_NEAR(states[1].angle, static_cast<double>(end[0]), 1e-12);
 }
 
-// What a force acts on, and what hangs on a moving body, is followed in all coordinates: with a force of no
-// effect and a body that does not move these are the same motions.
+// Bodies on which a force acts, and those that hang on a moving body, are followed in all coordinates: with a
+// force of no effect and a body that does not move these are the same motions.
 TEST(PreciseHanging, AgreesWithAllCoordinates) {
   Scene in_angles = scene_of(kTree, true, false);
   Scene pushed = in_angles;

@@ -20,7 +20,7 @@ Scene two(const Joint& joint, Vec2d at = {1, 0}) {
   return scene;
 }
 
-/// What Precise refuses to start: the figure, and the joint.
+/// Returns what Precise refuses to start with: the figure, and the joint.
 std::string refused(const Scene& scene, double tolerance, double& figure) {
   Simulation simulation = compile(scene, Precise{.tolerance = tolerance});
   try {

@@ -33,6 +33,30 @@ TEST(Precise, FreeFallIsThePolynomial) {
   EXPECT_EQ(run(scene, 6, {.max_dt = 100.0 / 60})[0].position, states[0].position) << "at any step";
 }
 
+TEST(Precise, DampedBodiesDecayAsTheirDefinitionSays) {
+  // v' = -c v + s g: v = v0 e^(-c t) + (s g / c) (1 - e^(-c t)), and x its integral; the spin decays alike.
+  Scene scene{.name = "damped", .gravity = {0, -9.81}};
+  scene.bodies = {ball("ball", {0, 0}, {3, 4}, 2.5)};
+  scene.bodies[0].angular_velocity = 5;
+  for (const double c : {0.3, 7.0, 400.0}) {
+    for (const double scale : {1.0, -0.5, 0.0}) {
+      scene.bodies[0].linear_damping = c, scene.bodies[0].angular_damping = 2 * c;
+      scene.bodies[0].gravity_scale = scale;
+      const double t = 1, kept = std::exp(-c * t), way = -std::expm1(-c * t) / c, g = -9.81 * scale;
+      const BodyState s = run(scene, 60, {.tolerance = 1e-11})[0];
+      EXPECT_NEAR(s.position.x, 3 * way, 2e-10) << c;
+      EXPECT_NEAR(s.position.y, 4 * way + g / c * (t - way), 2e-10) << c << " " << scale;
+      EXPECT_NEAR(s.velocity.y, 4 * kept + g * way, 2e-10) << c << " " << scale;
+      EXPECT_NEAR(s.angle, -5 * std::expm1(-2 * c * t) / (2 * c), 2e-10) << c;
+      EXPECT_NEAR(s.angular_velocity, 5 * kept * kept, 2e-10) << c;
+    }
+  }
+  scene.bodies[0].linear_damping = scene.bodies[0].angular_damping = 0;
+  scene.bodies[0].gravity_scale = 0.25;
+  const BodyState s = run(scene, 60)[0];
+  EXPECT_NEAR(s.position.y, 4 - 9.81 / 8, 1e-14) << "on its parabola";
+}
+
 TEST(Precise, FreeFallWithLinearDrag) {
   Scene scene{.name = "fall"};
   scene.bodies = {{.name = "ball", .velocity = {3, 5}, .mass = 2, .inertia = 1}};

@@ -142,7 +142,8 @@ TEST(PreciseSeparation, TheBlockThatOverhangsTooFarFalls) {
         edge += out;
         blocks.push_back(block("block" + std::to_string(i), {edge - 0.5, 0.125 + 0.25 * i}, 1, 0.25, 0.5));
       }
-      // What lies on block i is balanced over its edge when the others are exact; correct for the safe ones.
+      // The blocks on block i are balanced over its edge when the others are exact; correct for the safe
+      // ones.
       scene.bodies = {table, blocks[0], blocks[1], blocks[2]};
       double support = 0;
       bool falls = false;

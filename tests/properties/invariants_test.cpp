@@ -1,4 +1,4 @@
-// What motion keeps: momentum where nothing pushes from outside, energy where nothing drives, its way back,
+// Checks what motion keeps: momentum if nothing pushes from outside, energy if nothing drives, its way back,
 // and its bits however time is cut.
 #include <gtest/gtest.h>
 
@@ -157,7 +157,7 @@ TEST_P(Invariants, TimeMayBeCut) {
   });
 }
 
-/// What moves by forces alone comes back the way that it went.
+/// Motion by forces alone comes back the way that it went.
 TEST(PreciseInvariants, SmoothMotionGoesBackAsItCame) {
   Recipe sample{.gravity = true, .contacts = false};
   for (const int tie : {kRevolute, kRod, kWeld, kSlider, kSpring, kPull, kPinned})

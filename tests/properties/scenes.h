@@ -24,7 +24,7 @@ struct Thing {
   int tie = 0;             ///< to the thing before: one of `Ties`
 };
 
-/// What holds a thing: nothing, a joint to the thing before, or a force law.
+/// Holds a thing by nothing, by a joint to the thing before, or by a force law.
 enum Ties { kFree, kRevolute, kRod, kWeld, kSoftRod, kSlider, kSpring, kPull, kDrag, kPinned, kTies };
 
 struct Recipe {

@@ -1,5 +1,5 @@
-// What physics does not depend on: where one looks from, in which units, in which order things are named, and
-// into which pieces time is cut.
+// Checks what physics does not depend on: the frame, the units, the order and names of things, and the pieces
+// into which time is cut.
 #include <gtest/gtest.h>
 
 #include <algorithm>

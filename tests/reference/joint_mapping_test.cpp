@@ -1,4 +1,4 @@
-// What each joint of a scene becomes in an engine, against what it must do by mechanics.
+// Holds each joint of a scene, as an engine gets it, against what it must do by mechanics.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -66,8 +66,8 @@ inline int children() {
   return count;
 }
 
-/// Whether the process that wrote its number to `file` is gone within 5 s, or a zombie that init has yet to
-/// reap. One that is not gone is killed.
+/// Returns true if the process that wrote its number to `file` is gone within 5 s, or a zombie that init has
+/// yet to reap. One that is not gone is killed.
 inline bool gone(const fs::path& file) {
   pid_t number = 0;
   std::ifstream(file) >> number;

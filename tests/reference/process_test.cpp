@@ -151,7 +151,7 @@ TEST_F(ProcessTest, Hanging) {
   // The time is that of a line, however slowly its bytes come.
   const std::string drip = "while True:\n    say(' ')\n    time.sleep(0.01)";
   expect_failure(engine(drip, {.seconds = 5}), Fault::Timeout, "within 5 s");
-  // What it started goes with it.
+  // Its child processes go with it.
   const fs::path file = folder_.path() / "pid";
   expect_failure(engine("if os.fork() == 0:\n    with open('" + file.string() +
                             "', 'w') as f: f.write(str(os.getpid()))\ntime.sleep(60)",

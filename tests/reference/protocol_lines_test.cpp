@@ -25,7 +25,7 @@ Json good_hello() {
       "options": [{"name": "iterations", "fallback": 4, "range": "from 1", "meaning": "sweeps"}]})");
 }
 
-/// What each kind of message is read by.
+/// Reader of each kind of message.
 struct Message {
   const char* name;
   Json good;

@@ -179,7 +179,8 @@ TEST(Settings, EffectiveSettingsShowWhatWasAskedFor) {
   }
 }
 
-// What is printed is what runs: a spring of 20 rad a step has 80 substeps of a quarter of a rad, not 4.
+// Printed settings are those that run: a spring of 20 rad a step has 80 substeps of a quarter of a rad, not
+// 4.
 TEST(Methods, SchemesAndOrders) {
   const auto method = [](const char* name, const char* integrator) {
     return find_backend(name).method({.options = {{"integrator", integrator}}});

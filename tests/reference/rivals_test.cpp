@@ -1,4 +1,4 @@
-// What each rival does with a scene, against closed forms and against what its scheme must give.
+// Holds each rival's motion of a scene against closed forms and against what its scheme must give.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

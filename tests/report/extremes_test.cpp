@@ -45,7 +45,7 @@ TEST(Extremes, CountsWhatSurvivesByEngineSettingAndFamily) {
   EXPECT_EQ(rows[1].families.at("mass_ratio_stack").survived, 2);
   EXPECT_THAT(rows[1].outcomes,
               ElementsAre(Pair("inaccurate", 1), Pair("ok", 8), Pair("refused", 1), Pair("sinks", 2)));
-  // What is skipped is not counted.
+  // Skipped runs are not counted.
   EXPECT_EQ(rows[5].all.survived, 2);
   EXPECT_EQ(rows[5].all.total, 8);
   EXPECT_FALSE(rows[5].families.contains("stiff_spring"));

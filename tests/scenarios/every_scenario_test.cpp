@@ -1,4 +1,4 @@
-// What must hold of any scenario, whoever wrote it: a new file is covered without an edit here.
+// Checks what must hold of any scenario: a new file is covered without an edit here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -207,7 +207,7 @@ TEST(Conserved, LeavesNothingOutInTheFirstFourScenarios) {
   }
 }
 
-/// Where `anchor` of a joint's body is, and how it moves.
+/// Returns place and velocity of `anchor` of a joint's body.
 BodyState anchor_of(const Scene& scene, std::span<const BodyState> states, std::string_view body,
                     Vec2d anchor) {
   const auto index = find_body(scene, body);
@@ -217,7 +217,7 @@ BodyState anchor_of(const Scene& scene, std::span<const BodyState> states, std::
   return {.position = s.position + arm, .velocity = s.velocity + cross(s.angular_velocity, arm)};
 }
 
-/// What each kind of joint says of its anchors.
+/// Returns what each kind of joint says of its anchors.
 struct ExpectClosed {
   const Scene& scene;
   std::span<const BodyState> start, states;
@@ -271,7 +271,7 @@ struct ExpectClosed {
  private:
   struct Between {
     Vec2d d, u;
-    double place, speed;  // what rounding may do
+    double place, speed;  // allowed for rounding
   };
   Between between(const auto& j) const {
     const BodyState a = anchor_of(scene, states, j.body_a, j.anchor_a);

@@ -152,7 +152,7 @@ inline Totals totals(const Scene& scene, std::span<const BodyState> states) {
   return sum;
 }
 
-/// Whether any two bodies' shapes may meet.
+/// Returns true if any two bodies' shapes may meet.
 inline bool has_contacts(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)

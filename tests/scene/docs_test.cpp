@@ -219,7 +219,7 @@ TEST(Schema, StatesTheDefaults) {
   }
 }
 
-/// What a schema cannot say: rules that tie one part of the scene to another. It does refuse what is no name
+/// Rules that tie one part of the scene to another, which a schema cannot say. It does refuse what is no name
 /// at all.
 bool beyond_schema(const Error& error) {
   if (error.value().empty() || error.value().find("\\x") != std::string::npos) return false;

@@ -174,7 +174,7 @@ ForceLaw random_force(std::mt19937_64& random, const Body& body) {
   const double duration = coin(random) ? infinite : non_negative(random);
   switch (up_to(random, 6)) {
     case 0:
-      return LinearDrag{body.name, non_negative(random)};
+      return LinearDrag{body.name, non_negative(random), non_negative(random)};
     case 1:
       return QuadraticDrag{body.name, non_negative(random)};
     case 2:

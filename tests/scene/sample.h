@@ -23,7 +23,7 @@ double random_bits(std::mt19937_64& random);
 /// The error that `run` throws; fails the test and throws on where it throws none.
 Error error_of(const std::function<void()>& run);
 
-/// Whether two scenes are the same in every bit: negative zeros count.
+/// Returns true if two scenes are the same in every bit: negative zeros count.
 bool same_bits(const Scene& a, const Scene& b);
 
 }  // namespace plumb::test

@@ -4,7 +4,7 @@
 #include "engine/scene/validate.h"
 #include "tests/scene/sample.h"
 
-/// What shapes, bodies and joints may have beyond circles, boxes, hinges and rods.
+/// Checks what shapes, bodies and joints may have beyond circles, boxes, hinges and rods.
 namespace plumb {
 namespace {
 

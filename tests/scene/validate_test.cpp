@@ -236,7 +236,8 @@ TEST(ValidScene, TakesTheLimitsThemselves) {
   EXPECT_NO_THROW(validate(scene));
 }
 
-/// What the limits promise: no inertia that follows from them, nor its reciprocal, overflows or vanishes.
+/// Checks what the limits promise: no inertia that follows from them, nor its reciprocal, overflows or
+/// vanishes.
 TEST(ValidScene, LimitsKeepInertiaFinite) {
   for (const double size : {1e-100, 1e100}) {
     for (const double mass : {1e-100, 1e100}) {

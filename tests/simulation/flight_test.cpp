@@ -17,7 +17,7 @@ Simulation thrown(const Realtime& accuracy) {
   return compile(with(empty_scene(), {body}), accuracy);
 }
 
-/// Where the body is after `t`, if gravity's displacement is off by `excess` g t^2 / 2.
+/// Returns the body's place after `t`, if gravity's displacement is off by `excess` g t^2 / 2.
 Vec2d parabola(double t, double excess = 0) {
   return {kStart.x + kVelocity.x * t, kStart.y + kVelocity.y * t - (1 + excess) * kGravity * t * t / 2};
 }

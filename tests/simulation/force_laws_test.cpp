@@ -74,7 +74,7 @@ double driven_place(double t) {
   return 6.0 / 8 * (t * std::cos(0.5) - (std::sin(4 * t + 0.5) - std::sin(0.5)) / 4);
 }
 
-/// How far each scene is from its closed form after 3 s, in its bodies' places.
+/// Returns how far each scene is from its closed form after 3 s, in its bodies' places.
 std::vector<double> misses(const Accuracy& accuracy, int steps) {
   const double t = 3;
   const auto stars = run(double_star(), accuracy, steps), pair = run(two_masses(), accuracy, steps);

@@ -31,7 +31,7 @@ namespace {
 using namespace plumb::testing;
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// How many runs failed, each for want of another allocation of step `step`.
+/// Counts runs that failed, each for want of another allocation of step `step`.
 int failures(const Scene& scene, const Accuracy& accuracy, int step) {
   int failed = 0;
   for (const int allocation : {0, 1, 2, 4, 8, 15, 30, 60}) {

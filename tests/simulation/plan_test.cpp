@@ -80,7 +80,7 @@ TEST(Plan, DriverIsNamedByPrecision) {
   EXPECT_EQ(plan_world(empty_scene(), {.precision = Precision::Float}, false).driver, "world<float>");
 }
 
-// What a plan leaves out makes no difference to any bit.
+// Stages that a plan leaves out make no difference to any bit.
 TEST(Plan, DerivedAndEveryStageGiveTheSameBits) {
   Scene spinning = with(empty_scene(), {disc("a", {0, 0})});
   spinning.bodies[0].angular_velocity = -3;

@@ -136,7 +136,7 @@ TEST(Outcomes, Refused) {
   EXPECT_NE(finding.reason.find("out of range"), std::string::npos) << finding.reason;
 }
 
-// What an engine never does is one thing, a limit that it has reached another.
+// Tells what an engine never does from a limit that it has reached.
 TEST(Outcomes, SkippedIsNotRefused) {
   fakes::FakeBackend never = engine("never");
   never.unsupported_ = "it has no joints";

@@ -38,7 +38,8 @@ struct Weight {
   }
 };
 
-// What the joints of the right half ask for, from the crown down: radius 1, an even number of voussoirs.
+// Forces that the joints of the right half ask for, from the crown down: radius 1, an even number of
+// voussoirs.
 std::vector<Inequality> inequalities(int voussoirs, Real thickness, Real friction) {
   const Real inner = 1 - thickness / 2, outer = 1 + thickness / 2;
   std::vector<Inequality> out;

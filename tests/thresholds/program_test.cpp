@@ -8,7 +8,7 @@
 
 #include "tests/app/program.h"
 
-// What a user does with `plumb thresholds`.
+// Uses `plumb thresholds` as a user does.
 namespace plumb::app {
 namespace {
 

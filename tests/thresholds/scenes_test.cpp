@@ -54,7 +54,7 @@ TEST(Thresholds, HaveTheirExactValueInsideTheirRange) {
   }
 }
 
-// What stays where it is holds.
+// Bodies that stay in place hold.
 TEST(Thresholds, TheirJudgesCallRestHolding) {
   for (const char* name : {"ramp_friction", "steep_ramp_friction", "toppling_angle", "toppling_push",
                            "overhang", "overhang_of_two", "arch_thickness", "heavy_on_light", "heavy_tip"}) {

@@ -33,7 +33,7 @@ double another(const Control& control) {
   return control.whole ? std::floor(value) : value;
 }
 
-// What is done before a step.
+// Actions before a step.
 void play(Demo& demo, int step) {
   if (step == 100) demo.press(at(demo, 0.5, 0.6));
   if (step > 100 && step < 160) demo.drag(at(demo, 0.5 + 0.005 * (step - 100), 0.6));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Paint kWhite{{255, 255, 255}, {}, 0};
 
-// How much of the canvas, cleared to black, is white, px^2.
+// Returns how much of the canvas, cleared to black, is white, px^2.
 double covered(const Canvas& canvas) {
   double sum = 0;
   for (const std::uint32_t pixel : canvas.pixels()) sum += unpacked(pixel).r / 255.0;

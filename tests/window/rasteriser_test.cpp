@@ -8,7 +8,7 @@
 namespace plumb::window {
 namespace {
 
-// What `draw` puts into an otherwise empty frame.
+// Returns the pixels that `draw` puts into an otherwise empty frame.
 template <class Draw>
 Canvas drawn(Draw&& draw) {
   ImGui::CreateContext();

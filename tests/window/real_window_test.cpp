@@ -78,7 +78,7 @@ class RealWindow : public testing::Test {
     setenv("DISPLAY", display_->name().c_str(), 1);
     setenv("SDL_VIDEODRIVER", "x11", 1);
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
-    // What the libraries of windows keep until the end is not the demos'.
+    // Memory that the libraries of windows keep until the end is not the demos'.
     setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
   }
 

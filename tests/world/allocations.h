@@ -2,7 +2,7 @@
 
 namespace plumb::test {
 
-/// How often this program has called operator new so far.
+/// Returns how often this program has called operator new so far.
 long allocations();
 
 /// Bytes that operator new has given out and not got back, as the allocator rounded them.
@@ -10,7 +10,7 @@ long live_bytes();
 
 /// The allocation after `others` more of them fails once; a negative number: none does.
 void fail_after(long others);
-/// Whether it has.
+/// Returns true if it has.
 bool has_failed();
 
 }  // namespace plumb::test

@@ -112,8 +112,8 @@ BusyWorld<Real> make_busy_world(int size = 40) {
   return busy;
 }
 
-/// What a game does between two steps: turns the platform round, pushes, lets bodies come and go. The same
-/// for the same step and world.
+/// Does what a game does between two steps: turns the platform round, pushes, lets bodies come and go. The
+/// same for the same step and world.
 template <class Real>
 void act(BusyWorld<Real>& busy, std::int64_t step) {
   BasicWorld<Real>& world = busy.world;

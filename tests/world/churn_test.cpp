@@ -29,8 +29,8 @@ World make_stirred(int count) {
   return world;
 }
 
-// Where islands come and go without end, something may still become more than ever before, a time or two.
-// Each island with room of its own asked for it 11 times here.
+// If islands come and go without end, something may still become more than ever before, a time or two. Each
+// island with room of its own asked for it 11 times here.
 TEST(Churn, StepsHardlyEverAllocateOnceWarm) {
   World world = make_stirred(120);
   run(world, 6000);

@@ -17,7 +17,7 @@ TEST(Materials, FrictionSlowsAtMuG) {
   // A wide, flat box: it does not tip. Each of 240 substeps rounds to half an ulp of 8: 240 * 2.4e-7 m/s.
   EXPECT_NEAR(world.velocity(box).x, 8 - 0.4 * kGravity, 6e-5);
   run(world, 90);
-  // What is left is the rounding of a substep's friction: 2^-24 mu g h.
+  // The rest is the rounding of a substep's friction: 2^-24 mu g h.
   EXPECT_NEAR(world.velocity(box).x, 0, 0x1p-24 * 0.4 * kGravity / 240);
 }
 
@@ -140,8 +140,9 @@ TEST(Filters, CanChangeWhileTheWorldRuns) {
   EXPECT_LT(world.position(ball).y, -2);
 }
 
-// What nothing can meet has no box in the trees: it gets one where it is when its filter has it meet things,
-// also in a world that was restored, on a body of another type, and beside a shape of its body that has one.
+// Shapes that nothing can meet have no box in the trees: one gets its box in place when its filter lets it
+// meet things, also in a world that was restored, on a body of another type, and beside a shape of its body
+// that has one.
 TEST(Filters, WhatMetNothingMeetsThingsLater) {
   for (const bool beside : {false, true}) {
     World world;
@@ -284,8 +285,7 @@ TEST(Contacts, AreReadWithTheirForces) {
   EXPECT_NEAR(contacts[0].points[0].y, 0, 0x1p-22);
 }
 
-// Where hundreds fall side by side and a few meet, which shapes meet any other is found at once: the few
-// bounce as if alone.
+// If hundreds fall side by side and a few meet, the pairs are found at once: the few bounce as if alone.
 TEST(Contacts, TheFewThatMeetAmongManyThatFall) {
   const ShapeDefinition disc{.geometry = Circle{0.5}, .material = {.friction = 0, .restitution = 1}};
   World world({.gravity = {0, -kGravity}});

@@ -7,7 +7,7 @@
 #include "engine/world/world_data.h"
 #include "tests/world/solver_scenes.h"
 
-// What is particular to the direct solution: what joints tie together does not stretch.
+// Checks what is particular to the direct solution: joined bodies do not stretch their joints.
 namespace plumb {
 namespace {
 

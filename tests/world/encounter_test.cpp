@@ -4,7 +4,7 @@
 
 #include "tests/world/support.h"
 
-// What comes fast for the other one's size, and slowly for its own.
+// Bodies that come fast for the other one's size, and slowly for their own.
 namespace plumb {
 namespace {
 
@@ -19,7 +19,7 @@ void strike(double gap, BodyType type, Real) {
   ram.type = type;
   ram.velocity = {40, 0};
   const BodyId large = world.create_body(ram, ShapeDefinition{.geometry = Box{8, 8}, .density = 8});
-  // What is put into the world has no look ahead in its first step: it gets there in the third.
+  // A body put into the world has no look ahead in its first step: it gets there in the third.
   const BodyId small = add_box(world, {4 + gap + 2 * 40 * kStep + 0.2, 0.3}, 1, 0.4, 0.4);
   for (int step = 0; step < 6; ++step) {
     world.step(kStep, 4);

@@ -6,7 +6,7 @@
 
 #include "tests/world/support.h"
 
-// What is very high, heavy, far or long.
+// Bodies that are very high, heavy, far or long.
 namespace plumb {
 namespace {
 
@@ -102,7 +102,7 @@ TEST(Extremes, NothingGetsIntoAGroundUnseen) {
       world.step();
       deepest = std::max(deepest, 0.5 - world.position(box).y);
     }
-    // What its weight adds to a step's way after its boxes were stored: g dt^2 = 2.7 mm.
+    // Addition of its weight to a step's way after its boxes were stored: g dt^2 = 2.7 mm.
     EXPECT_LT(deepest, 2.8e-3) << i;
   }
 }

@@ -70,8 +70,8 @@ Worst swing(double angle, double tip_mass, int steps) {
   return worst;
 }
 
-// What is asked for: less than 1 % at 1:1000, less than 0.1 % at 1:10,000. Measured: nothing but rounding,
-// and no energy is gained.
+// Asked for: less than 1 % at 1:1000, less than 0.1 % at 1:10,000. Measured: nothing but rounding, and no
+// energy is gained.
 TYPED_TEST(HeavyTip, DoesNotStretchTheChainWhereItSwingsFromLevel) {
   const Worst thousand = swing<TypeParam>(0, 1e3, 1200), ten = swing<TypeParam>(0, 1e4, 1200);
   const double rounding = sizeof(TypeParam) == 4 ? 3e-7 : 3e-11;

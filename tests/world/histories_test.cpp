@@ -24,7 +24,7 @@ std::uint64_t key(Id id) {
 }
 Pair sorted(ShapeId a, ShapeId b) { return std::minmax(key(a), key(b)); }
 
-/// What has begun and not ended, as events tell it.
+/// Keeps what has begun and not ended, as events tell it.
 struct Ledger {
   std::set<Pair> touching, sensed;
   std::map<std::uint64_t, bool> asleep;
@@ -178,7 +178,7 @@ class History {
         return "save and restore";
       }
       case 16: {
-        // What happens until it is gone back to happens to nobody.
+        // Events of steps that are rolled back happen to nobody.
         const std::vector<std::byte> state = save(world_);
         throws_ = false;
         for (int i = 0; i < 5; ++i) world_.step();
@@ -199,7 +199,7 @@ class History {
     }
   }
 
-  /// What has begun is what is.
+  /// Overlaps that have begun are those that are there.
   void compare() {
     std::set<Pair> sensed;
     for (const BodyId each : world_.bodies()) {

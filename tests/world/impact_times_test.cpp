@@ -74,7 +74,7 @@ struct Flyer {
     while (time > 0) {
       const double piece = time / kSamples;
       double hit = -1;
-      // What has just struck is at 0 and parts.
+      // A body that has just struck is at 0 and parts.
       for (int i = 1; i <= kSamples && hit < 0; ++i)
         if (height(piece * i) < 0) hit = piece * i;
       if (hit < 0) return go_on(time);
@@ -126,7 +126,7 @@ void bounce(Draw draw, int round) {
       {.geometry = Box{20, 2}, .position = {0, -1}, .material = {.friction = 0, .restitution = e}});
   truth.angle = draw(-3, 3), truth.spin = draw(-10, 10), truth.vy = -draw(2, 30);
   truth.corners = form.corners, truth.radius = form.radius, truth.restitution = e;
-  // What is put into the world has no look ahead in its first step.
+  // A body put into the world has no look ahead in its first step.
   truth.y = 0, truth.y = -truth.height(0) + draw(0.005, 0.5) - 2 * kStep * truth.vy;
   const BodyId body =
       world.create_body({.position = {0, truth.y},

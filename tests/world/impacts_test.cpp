@@ -216,7 +216,7 @@ TEST(Impacts, ThatLastNoStepAreReported) {
   }
 }
 
-// What comes at once is resolved at once: a rack that is hit in the middle parts evenly.
+// Impacts that come at once are resolved at once: a rack that is hit in the middle parts evenly.
 TEST(Impacts, AnEvenBreakIsEven) {
   World world({.gravity = {0, 0}, .sleeping = false});
   std::vector<BodyId> row[5];

@@ -2,7 +2,8 @@
 
 #include "tests/world/solver_scenes.h"
 
-// What is particular to Jakobsen's projections: they end where constraints hold, and more sweeps hold more.
+// Checks what is particular to Jakobsen's projections: they end where constraints hold, and more sweeps hold
+// more.
 namespace plumb {
 namespace {
 

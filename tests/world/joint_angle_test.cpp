@@ -70,7 +70,7 @@ TYPED_TEST(JointAngles, AreBornAtTheNearestTurn) {
   }
 }
 
-// What limits allow comes first: a door between 4 and 6 rad that stands at 5.
+// Limits come first: a door between 4 and 6 rad that stands at 5.
 TYPED_TEST(JointAngles, AreBornAtTheTurnThatLimitsAllow) {
   struct Case {
     double angle;
@@ -209,7 +209,7 @@ TYPED_TEST(JointAngles, OfGearsCountTheTurnsThatBodiesHaveCome) {
   }
 }
 
-// What has been wound past half a turn comes back the way that it went.
+// A joint wound past half a turn comes back the way that it went.
 TYPED_TEST(JointAngles, OfSpringsPassHalfATurn) {
   BasicWorld<TypeParam> world(weightless());
   const BodyId ground = world.create_body({.type = BodyType::Static}), door = add_door(world, 0);

@@ -206,7 +206,7 @@ struct Bearing {
   const char* name;
   JointKind kind;
   Vec2d at;
-  double force, torque;  // what it bears there, N and N m; 0: not tried
+  double force, torque;  // load that it bears there, N and N m; 0: not tried
 };
 
 TYPED_TEST(LoadsNearTheEdge, JointsBreakAtTheForceAndTorqueThatTheyWereGiven) {

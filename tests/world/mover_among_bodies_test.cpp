@@ -126,7 +126,7 @@ TYPED_TEST(MoverAmongBodies, StaysInARoomWhateverHappensThere) {
   this->options.push_force = 2000;
   int squeezed = 0, stood = 0;
   for (int i = 0; i < 3000; ++i) {
-    for (const BodyId body : this->world.bodies()) {  // what moves by itself stays inside
+    for (const BodyId body : this->world.bodies()) {  // moving bodies stay inside
       if (this->world.type(body) != BodyType::Kinematic) continue;
       const Vec2d at = this->world.position(body), v = this->world.velocity(body);
       if (length_squared(at) > 20 && dot(at, v) > 0) this->world.set_velocity(body, -v);

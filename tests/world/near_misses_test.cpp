@@ -8,7 +8,7 @@
 
 #include "tests/world/support.h"
 
-// What flies past something without touching it keeps its velocity to the last bit, however closely it
+// A body that flies past something without touching it keeps its velocity to the last bit, however closely it
 // passes.
 namespace plumb {
 namespace {

@@ -81,7 +81,7 @@ TYPED_TEST(NearTheEdge, ANewCentreOfMassMovesAsThatPointDid) {
     EXPECT_NEAR(world.velocity(body).y, 1.5, 1e-5);
     expect_at(world, body, {0, 0}, 1e-5);
   }
-  // What is read beside changes nothing.
+  // Reading beside it changes nothing.
   BasicWorld<TypeParam> other(weightless());
   const BodyId same =
       other.create_body({.velocity = {1, 0}, .angular_velocity = 2}, ShapeDefinition{.geometry = Box{1, 1}});

@@ -117,7 +117,7 @@ Passenger add_passenger(BasicWorld<Real>& world, Draw& draw, double length, Vec2
 
 enum class Walls { Boxes, Segments, Capsules, Chain };
 
-/// What an encounter is, and what went wrong.
+/// Describes an encounter, and what went wrong.
 struct Outcome {
   std::string what;
   std::string fault;  ///< empty: nothing
@@ -282,7 +282,7 @@ Outcome hinged(std::uint64_t number) {
   for (int step = 1; step <= 120; ++step) {
     world.step(dt);
     const double angle = world.angle(rod);
-    // What turns about its middle has a second arm, half a turn behind.
+    // A body that turns about its middle has a second arm, half a turn behind.
     const double back = centred ? std::numbers::pi : 2 * std::numbers::pi;
     const Vec2d seen = seen_from(world, rod, {arm, 0});
     const bool beyond = std::abs(angle) < 0.3 && seen.y < 0 && std::abs(seen.x - shift) < length / 2;

@@ -102,7 +102,7 @@ TYPED_TEST(Quarantine, StaysAsItWasAndGoesOnWhenReleased) {
   EXPECT_NEAR(world.velocity(ball).y, -kGravity, 1e-5);
 }
 
-// What lay on it falls, rays pass it, and it can be set right before it is released.
+// Bodies that lay on it fall, rays pass it, and it can be set right before it is released.
 TYPED_TEST(Quarantine, NothingTouchesIt) {
   typename TestFixture::World world;
   const BodyId shelf = world.create_body({.type = BodyType::Kinematic}, {.geometry = Box{4, 1}});

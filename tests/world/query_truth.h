@@ -74,7 +74,8 @@ inline Wide ray_to_line(Point x, Point way, Point p, Point q) {
   return fraction >= 0 && fraction <= 1 && along >= 0 && along <= 1 ? fraction : kNever;
 }
 
-/// Where a ray that starts outside first meets the points within `radius` of the line p q.
+/// Returns the place at which a ray that starts outside first meets the points within `radius` of the line p
+/// q.
 inline Wide ray_to_capsule(Point x, Point way, Point p, Point q, Wide radius) {
   Wide first = kNever;
   if (radius > 0) first = std::min(ray_to_circle(x, way, p, radius), ray_to_circle(x, way, q, radius));

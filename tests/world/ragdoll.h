@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-/// How a ragdoll as a whole starts: turned and spinning about its torso's centre.
+/// Start of a ragdoll as a whole: turned and spinning about its torso's centre.
 struct RagdollStart {
   Vec2d at{};               ///< m
   double tilt = 0;          ///< rad

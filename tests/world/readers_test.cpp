@@ -7,7 +7,7 @@
 #include "engine/scene/error.h"
 #include "tests/world/support.h"
 
-/// What definitions say can be read back, and users' own combine rules.
+/// Definitions can be read back, and users' own combine rules.
 namespace plumb {
 namespace {
 
@@ -54,7 +54,7 @@ TEST(Readers, TellWhatAShapeAndAChainWereMadeFrom) {
   for (const ShapeId segment : world.segments(chain)) EXPECT_EQ(world.user_data(segment), 9u);
 }
 
-// What was put in, after its transformation by hand.
+// The values put in, after their transformation by hand.
 TEST(Readers, GiveShapesBackAsDefinitions) {
   World world;
   // The centre of mass is not the body's origin.

@@ -19,7 +19,7 @@ void add_wall(BasicWorld<Real>& world, double x) {
                     ShapeDefinition{.geometry = Box{1, 10}, .material = kElastic});
 }
 
-// Where a point is that flies between -0.5 and 0.5, from the middle.
+// Returns the place of a point that flies between -0.5 and 0.5, from the middle.
 double between_walls(double way) {
   const double x = std::fmod(way + 0.5, 2);
   return x < 1 ? x - 0.5 : 1.5 - x;
@@ -136,7 +136,8 @@ TEST(Rebound, IsTold) {
   EXPECT_TRUE(world.events().begin.empty());
 }
 
-// What something presses on, or a joint holds, is left to the solver: nothing gets out of its joints.
+// Bodies on which something presses, or that a joint holds, are left to the solver: nothing gets out of its
+// joints.
 TEST(Rebound, LeavesWhatIsHeldToTheSolver) {
   World world(without_sleep());
   add_ground(world);
@@ -150,9 +151,9 @@ TEST(Rebound, LeavesWhatIsHeldToTheSolver) {
   }
 }
 
-// What does not bounce is stopped where it meets a wall, by its place alone: it has all its velocity until
-// the solver takes the share into the wall from it, and the one along a smooth wall for good. The same when
-// others are thrown back in that step.
+// A body without restitution is stopped where it meets a wall, by its place alone: it has all its velocity
+// until the solver takes the share into the wall from it, and the one along a smooth wall for good. The same
+// when others are thrown back in that step.
 TEST(Rebound, LeavesItsSpeedToWhatItStops) {
   for (const bool others_bounce : {false, true}) {
     World world(weightless());

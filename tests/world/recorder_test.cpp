@@ -118,7 +118,7 @@ TYPED_TEST(Recorder, EveryCallIsRepeated) {
     RecordedWorld<TypeParam> world(file, {.gravity = {0, -10}});
     play(world);
     hash = world->hash();
-    // What it records is what a plain world does.
+    // Its recording holds what a plain world does.
     BasicWorld<TypeParam> plain({.gravity = {0, -10}});
     play(plain);
     EXPECT_EQ(save(plain), save(*world));
@@ -332,7 +332,7 @@ std::string name_in(const std::string& declaration) {
   return declaration.substr(begin, end - begin);
 }
 
-// How often each member function that is not const is declared in the public part of a class.
+// Counts how often each member function that is not const is declared in the public part of a class.
 std::map<std::string, int> changing_members(const fs::path& header, const std::string& name) {
   std::string text = without_comments(text_of(header));
   text = text.substr(text.find("class " + name + " {"));
@@ -353,7 +353,7 @@ TEST(RecordedCalls, AreAllThatChangeAWorld) {
   std::map<std::string, int> world = changing_members(folder / "world.h", "BasicWorld");
   std::map<std::string, int> recorded = changing_members(folder / "recorder.h", "RecordedWorld");
   EXPECT_GT(world.size(), 25u);
-  // What is reached by edit() and restore().
+  // Functions reached by edit() and restore().
   EXPECT_EQ(world.erase("data"), 1u);
   // Rules are code that a replay could not know.
   EXPECT_EQ(world.erase("combine_with"), 1u);

@@ -62,7 +62,7 @@ TEST(Restitution, HeightsFallByItsSquare) {
   }
 }
 
-// Where a body that is dropped is after `t`, above where it bounces: parabola after parabola.
+// Returns the height of a body that is dropped after `t`, above where it bounces: parabola after parabola.
 double height_at(double t, double restitution) {
   double speed = std::sqrt(2 * kGravity * kDrop);
   const double fall = speed / kGravity;
@@ -119,7 +119,7 @@ TEST(Restitution, ThrownLongBodiesGainNoEnergy) {
     double least = energy();
     for (int step = 0; step < 120; ++step) {
       world.step();
-      // What v += h g, x += h v with h of a substep makes of a flight at 10 m/s: g h v / 2 per kg, once an
+      // Error of v += h g, x += h v, with h of a substep, in a flight at 10 m/s: g h v / 2 per kg, once an
       // impact.
       EXPECT_LE(energy(), least + world.mass(thrown) * kGravity * kSubstep * 10 / 2) << i << " at " << step;
       least = std::min(least, energy());

@@ -20,7 +20,7 @@ Vec2d turned(Vec2d p, double angle) {
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-// What slides, and how high its centre stands on a flat floor.
+// Sliding body, and how high its centre stands on a flat floor.
 struct Slider {
   const char* name;
   ShapeGeometry geometry;
@@ -103,7 +103,8 @@ void lay_tile(World& w, const Slide& run, int i, double from, double width,
   }
 }
 
-// How far the motion is from that over one flat floor: uniform, level, at the height that it started with.
+// Returns how far the motion is from that over one flat floor: uniform, level, at the height that it started
+// with.
 struct Miss {
   double speed = 0;  // as a share
   double height = 0, angle = 0;

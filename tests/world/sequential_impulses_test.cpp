@@ -2,7 +2,8 @@
 
 #include "tests/world/solver_scenes.h"
 
-// What is particular to sequential impulses: what Baumgarte's feedback leaves, and what sweeps are good for.
+// Checks what is particular to sequential impulses: the gap that Baumgarte's feedback leaves, and the use of
+// sweeps.
 namespace plumb {
 namespace {
 

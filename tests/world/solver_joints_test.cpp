@@ -14,7 +14,7 @@ using test::add_mass;
 using test::with;
 
 constexpr double kH = 1.0 / 240;
-// What a body falls in a substep before a joint answers, m.
+// Fall of a body in a substep before a joint answers, m.
 constexpr double kFall = kGravity * kH * kH;
 
 class SolverJoints : public testing::TestWithParam<Solver> {};

@@ -5,7 +5,7 @@
 
 #include "tests/world/solver_scenes.h"
 
-// What no solver may depend on: left and right, and in which order bodies came.
+// Checks what no solver may depend on: left and right, and the order in which bodies came.
 namespace plumb {
 namespace {
 

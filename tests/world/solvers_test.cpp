@@ -14,8 +14,8 @@
 #include "tests/world/solver_scenes.h"
 #include "tests/world/vector_widths.h"
 
-// What holds of each solver: closed forms of bodies in flight, in collision, on slopes and on stacks, and
-// what the rest of the world makes of the impulses.
+// Checks each solver: closed forms of bodies in flight, in collision, on slopes and on stacks, and what the
+// rest of the world makes of the impulses.
 namespace plumb {
 namespace {
 
@@ -59,8 +59,8 @@ TEST_P(EachSolver, HeadOnCollisionsKeepMomentumAndRestitution) {
   }
 }
 
-// What is known of the impact is the approach up to one step before: |v' - e v| <= (1 + e) g dt. It takes
-// place within a step's way of the ground.
+// Known of the impact is the approach up to one step before: |v' - e v| <= (1 + e) g dt. It takes place
+// within a step's way of the ground.
 TEST_P(EachSolver, BallsBounceAtTheirRestitution) {
   const double dt = 1.0 / 240, e = 0.5, v = std::sqrt(2 * kGravity);
   DoubleWorld world(with(GetParam()));

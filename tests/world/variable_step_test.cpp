@@ -43,8 +43,8 @@ double moved(int rows, double time, const std::function<double(int)>& dt) {
   return most;
 }
 
-// What stands still under equal steps does so under any: within a millimetre of the overlaps, which go with
-// the substep.
+// Bodies that stand still under equal steps do so under any: within a millimetre of the overlaps, which go
+// with the substep.
 TYPED_TEST(VariableSteps, LetPyramidsRest) {
   const double equal = moved<TypeParam>(10, 10, [](int) { return 1.0 / 60; });
   for (const double factor : {0.1, 1.5, 2.0, 3.0, 4.0, 10.0}) {

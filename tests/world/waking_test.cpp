@@ -63,7 +63,7 @@ struct Row {
   bool far_wakes = false;  ///< it acts on all
 };
 
-/// What can be done to a body.
+/// Changes that can be made to a body.
 template <class Real>
 std::vector<Row<Real>> rows_of_body(BodyId Ids::*who, bool dynamic) {
   using W = BasicWorld<Real>;

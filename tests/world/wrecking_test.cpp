@@ -7,7 +7,7 @@
 
 #include "tests/world/support.h"
 
-// What a violent impact drives into each other comes apart again soon.
+// Bodies that a violent impact drives into each other come apart again soon.
 namespace plumb {
 namespace {
 

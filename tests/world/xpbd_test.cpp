@@ -2,7 +2,8 @@
 
 #include "tests/world/solver_scenes.h"
 
-// What is particular to XPBD: compliance means the same whatever the step, and substeps are its sweeps.
+// Checks what is particular to XPBD: compliance means the same whatever the step, and substeps are its
+// sweeps.
 namespace plumb {
 namespace {
 

@@ -23,7 +23,9 @@ Index index_of_bodies(const Scene& scene) {
 }
 
 /// Returns true if a law's wrench on its body is constant between switching times, however the body moves.
-bool is_constant(const LinearDrag& law, const Body&) { return law.coefficient == 0; }
+bool is_constant(const LinearDrag& law, const Body&) {
+  return law.coefficient == 0 && law.angular_coefficient == 0;
+}
 bool is_constant(const QuadraticDrag& law, const Body&) { return law.coefficient == 0; }
 bool is_constant(const PointForce& law, const Body& body) {
   const bool no_lever = law.point == Vec2d{} || body.fixed_rotation;

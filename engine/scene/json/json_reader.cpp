@@ -152,8 +152,13 @@ Body read_body(const View& view) {
   return body;
 }
 
-template <class Drag>
-Drag read_drag(const Fields& fields) {
+LinearDrag read_linear_drag(const Fields& fields) {
+  LinearDrag law{json::string(fields.required("body")), json::number(fields.required("coefficient"))};
+  fields.read("angular_coefficient", law.angular_coefficient);
+  return law;
+}
+
+QuadraticDrag read_quadratic_drag(const Fields& fields) {
   return {json::string(fields.required("body")), json::number(fields.required("coefficient"))};
 }
 
@@ -208,18 +213,20 @@ SinusoidalForce read_sinusoidal_force(const Fields& fields) {
 }
 
 ForceLaw read_force(const View& view) {
-  const Fields::Keys common{"type", "body"}, drag{"coefficient"}, timed{"start", "duration"};
+  const Fields::Keys common{"type", "body"}, drag{"coefficient"}, turning{"angular_coefficient"},
+      timed{"start", "duration"};
   const Fields::Keys point{"force", "point", "frame"}, torque{"torque"};
   const Fields::Keys ends{"body_a", "body_b", "anchor_a", "anchor_b"};
   const Fields::Keys spring{"rest_length", "stiffness", "damping"};
   const Fields::Keys attraction{"centre_body", "centre", "strength", "exponent"};
   const Fields::Keys wave{"amplitude", "angular_frequency", "phase"};
-  const Fields::Keys any = common + drag + timed + point + torque + ends + spring + attraction + wave;
+  const Fields::Keys any =
+      common + drag + turning + timed + point + torque + ends + spring + attraction + wave;
   switch (type_of(view, "a force", any, kForceNames)) {
     case 0:
-      return read_drag<LinearDrag>(Fields(view, "a linear_drag", common + drag));
+      return read_linear_drag(Fields(view, "a linear_drag", common + drag + turning));
     case 1:
-      return read_drag<QuadraticDrag>(Fields(view, "a quadratic_drag", common + drag));
+      return read_quadratic_drag(Fields(view, "a quadratic_drag", common + drag));
     case 2:
       return read_point_force(Fields(view, "a point_force", common + point + timed));
     case 3:

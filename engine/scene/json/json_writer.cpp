@@ -197,7 +197,10 @@ class Writer {
     out_.end('}');
   }
 
-  void law(const LinearDrag& drag) { write("coefficient", drag.coefficient); }
+  void law(const LinearDrag& drag) {
+    write("coefficient", drag.coefficient);
+    write("angular_coefficient", drag.angular_coefficient);
+  }
   void law(const QuadraticDrag& drag) { write("coefficient", drag.coefficient); }
   void law(const PointForce& force) {
     write("force", force.force);

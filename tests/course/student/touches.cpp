@@ -3,7 +3,7 @@
 
 #include "tests/course/student/world.h"
 
-// Where shapes touch: circles and circles, circles and boxes, corners in boxes.
+// Finds contacts: circles and circles, circles and boxes, corners in boxes.
 namespace plumb::course {
 namespace {
 

@@ -20,7 +20,7 @@ class ByteSource {
   bool empty() const { return bytes_.empty(); }
   std::span<const std::uint8_t> rest() const { return bytes_; }
 
-  /// Whether `number` is to give numbers far outside of what is asked for, too.
+  /// Says if `number` is to give numbers far outside of the range asked for, too.
   void set_extreme(bool on) { extreme_ = on; }
   bool extreme() const { return extreme_; }
 

@@ -1,4 +1,4 @@
-// How JSON is changed besides byte by byte: numbers become extreme, members and elements are left out,
+// Changes JSON in other ways than byte by byte: numbers become extreme, members and elements are left out,
 // doubled and put elsewhere, so that most inputs are still JSON and get past the parser. Texts that are no
 // JSON as a whole are taken line by line. libFuzzer calls this where it is linked in.
 #include <cstddef>

@@ -10,8 +10,8 @@
 
 namespace plumb::fuzz {
 
-/// Where the next number from `at` on is that is small and not 0: of 8 bytes it could be the length of a
-/// list, of 4 an index. `at` where there is none.
+/// Returns the place, from `at` on, of the next number that is small and not 0: of 8 bytes it could be the
+/// length of a list, of 4 an index. Returns `at` if there is none.
 template <class Number>
 std::size_t next_small(const std::vector<std::byte>& bytes, std::size_t at) {
   for (std::size_t i = 0; i + sizeof(Number) <= bytes.size(); ++i) {

@@ -45,7 +45,7 @@ void check_counts(const BasicWorld<Real>& world) {
           "the counts are those of what is there");
 }
 
-// What there is to know about a body that went wrong.
+// Describes a body that went wrong.
 template <class Real>
 std::string story_of(const BasicWorld<Real>& world, BodyId body) {
   const BodyState state = world.state(body);

@@ -6,12 +6,12 @@
 
 namespace plumb::fuzz {
 
-/// What holds for every world, at any time between two steps: its lists fit together, its counts agree, its
-/// handles are valid and its numbers finite.
+/// Checks what holds for every world, at any time between two steps: its lists fit together, its counts
+/// agree, its handles are valid and its numbers finite.
 template <class Real>
 void check_world(const BasicWorld<Real>& world);
 
-/// What a step may not do to bodies.
+/// Checks what a step may not do to bodies.
 template <class Real>
 class StepCheck {
  public:

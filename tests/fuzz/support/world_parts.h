@@ -4,8 +4,8 @@
 #include "engine/world/state/query_shape.h"
 #include "tests/fuzz/support/byte_source.h"
 
-/// What a world is made from, drawn from bytes: metres and kilograms as games have them, and anything at all
-/// in extreme runs.
+/// Parts of a world, drawn from bytes: metres and kilograms as games have them, and anything at all in
+/// extreme runs.
 namespace plumb::fuzz {
 
 WorldDefinition draw_world(ByteSource& in);

@@ -48,7 +48,7 @@ class MemoryFile {
   int number_;
 };
 
-// What a writer puts before the first record.
+// Bytes that a writer puts before the first record.
 template <class Real>
 Bytes file_header() {
   const MemoryFile file({});

@@ -44,7 +44,7 @@ void run_simulation(const Scene& scene, const Accuracy& accuracy) {
     const std::string reason = unsupported(scene, accuracy);
     Simulation simulation = compile(scene, accuracy);
     require(reason.empty(), "what is not supported is not compiled");
-    // Where springs or joints need more, a step takes seconds.
+    // If springs or joints need more, a step takes seconds.
     const bool quick = simulation.plan().substeps <= kMostSubsteps;
     for (int i = 0; quick && i < kSteps; ++i) simulation.step();
     for (std::size_t body = 0; body < simulation.body_count(); ++body)

@@ -81,7 +81,7 @@ std::string answers_to(const reference::Backend& engine, const std::string& requ
   return out;
 }
 
-// What the worker writes is what the host takes.
+// The host takes what the worker writes.
 void check_answer(const std::string& line) {
   try {
     const nlohmann::ordered_json answer = protocol::parse_line(line);

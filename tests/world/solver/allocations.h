@@ -2,7 +2,7 @@
 
 namespace plumb {
 
-/// How often this program has called operator new so far.
+/// Returns how often this program has called operator new so far.
 long allocations();
 
 }  // namespace plumb

@@ -11,8 +11,8 @@ ContactConstraint<float> between(int a, int b) {
   return c;
 }
 
-// What is solved last holds best: the ground, and before it a body with more contacts than there are colours,
-// which holds what it touches.
+// The colour that is solved last holds best: the ground, and before it a body with more contacts than there
+// are colours, which holds what it touches.
 TEST(ContactGraph, BodiesWithManyContactsComeBeforeTheGroundAlone) {
   ContactGraph<float> graph;
   constexpr int kGround = 0, kDrum = 1;

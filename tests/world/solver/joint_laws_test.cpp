@@ -7,7 +7,7 @@
 
 #include "tests/world/solver/joint_bench.h"
 
-/// What holds for joints of every kind: conservation, finite answers at singular poses, rigidity under load.
+/// Checks joints of every kind: conservation, finite answers at singular poses, rigidity under load.
 namespace plumb {
 namespace {
 
@@ -119,7 +119,7 @@ TEST(JointLaws, PassiveJointsAddNoEnergy) {
     for (int i = 0; i < 600; ++i) {
       bench.step(kStep);
       const double now = kinetic_energy(bench);
-      // What pulling a gap back puts in was taken out when the gap opened: it comes back in part.
+      // Energy put in by pulling a gap back was taken out when the gap opened: it comes back in part.
       ASSERT_LT(now, energy + 0.005 * first) << kind.index();
       energy = now;
     }

@@ -16,7 +16,7 @@
 #include "tests/world/solver/allocations.h"
 #include "tests/world/solver/joint_bench.h"
 
-/// How a set of joints keeps them: slots, colours, sleep, changes, bytes.
+/// Checks the state of a set of joints: slots, colours, sleep, changes, bytes.
 namespace plumb {
 namespace {
 
