@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,10 +26,12 @@ class BitSet {
   int size() const { return static_cast<int>(words_.size()) * kWordBits; }
 
   void set(int i) {
+    assert(i >= 0);
     if (i >= size()) grow(i);
     words_[word(i)] |= bit(i);
   }
   void reset(int i) {
+    assert(i >= 0);
     if (i < size()) words_[word(i)] &= ~bit(i);
   }
   bool test(int i) const { return i < size() && (words_[word(i)] & bit(i)) != 0; }

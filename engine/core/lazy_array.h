@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <tuple>
 #include <vector>
 
@@ -16,6 +17,7 @@ class LazyArray {
   T get(int i) const { return used() ? items_[i] : T{}; }
   /// Returns the value for writing; allocates memory for all `size` values.
   T& at(int i, int size) {
+    assert(i >= 0 && i < size);
     make_room(items_, size);
     return items_[i];
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,7 @@ void ensure_room(std::vector<T>& list, std::size_t wanted) {
 /// Resizes a vector with this growth.
 template <class T>
 void make_room(std::vector<T>& list, int size) {
+  assert(size >= 0);
   const std::size_t wanted = static_cast<std::size_t>(size);
   ensure_room(list, wanted);
   list.resize(wanted);

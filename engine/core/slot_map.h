@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -31,6 +32,7 @@ class SlotMap {
       generations_.push_back(1);
     } else {
       index = free_.back();
+      assert(!used(index));
       free_.pop_back();
       items_[index] = std::move(value);
       ++generations_[index];
@@ -38,6 +40,7 @@ class SlotMap {
     return index;
   }
   void remove(int index) {
+    assert(used(index));
     items_[index] = T{};
     ++generations_[index];
     free_.push_back(index);

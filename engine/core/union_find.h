@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 namespace plumb {
@@ -14,6 +15,7 @@ class UnionFind {
     for (int i = 0; i < size; ++i) parents_[i] = i;
   }
   int find(int i) {
+    assert(i >= 0 && i < static_cast<int>(parents_.size()));
     while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
     return i;
   }

@@ -1,12 +1,14 @@
 #include "engine/linear_algebra/banded_lu.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
 namespace plumb {
 
 void BandedLu::reset(std::size_t size, std::size_t below, std::size_t above) {
+  assert(size == 0 || (below < size && above < size));
   size_ = size;
   below_ = below;
   reach_ = below + above;
@@ -42,6 +44,7 @@ bool BandedLu::factor() {
 }
 
 void BandedLu::solve(std::span<double> x) const {
+  assert(x.size() == size_);
   for (std::size_t k = 0; k < size_; ++k) {
     std::swap(x[k], x[pivot_[k]]);
     const std::size_t last_row = std::min(k + below_, size_ - 1);

@@ -1,10 +1,14 @@
 #include "engine/linear_algebra/block_order.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace plumb {
 
 void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
+  assert(blocks >= 0);
+  assert(std::all_of(ends.begin(), ends.end(),
+                     [&](const auto& end) { return end.second >= 0 && end.second < blocks; }));
   neighbours_.resize(std::max<std::size_t>(neighbours_.size(), blocks));
   for (int i = 0; i < blocks; ++i) neighbours_[i].clear();
   ends_.assign(ends.begin(), ends.end());
@@ -39,6 +43,7 @@ void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
     walk(edge, 2);
   }
   std::reverse(sequence_.begin(), sequence_.end());
+  assert(static_cast<int>(sequence_.size()) == blocks);
 }
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/bounded_rows.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,7 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* room)
       wrong_(room) {}
 
 double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes) {
+  assert(blocks.size() == sizes.size());
   std::pmr::vector<std::pair<int, int>> ends(rows.get_allocator());
   const int count = static_cast<int>(blocks.size());
   for (int block = 0; block < count; ++block) {
@@ -93,6 +95,11 @@ void BoundedRows::push(const BoundedRow& row, double impulse) {
 }
 
 void BoundedRows::find_mobility() {
+  assert(std::all_of(rows.begin(), rows.end(), [&](const BoundedRow& row) {
+    const int count = static_cast<int>(bodies.size());
+    return row.a >= 0 && row.a < count && row.b >= 0 && row.b < count && row.lower <= row.upper &&
+           row.compliance >= 0;
+  }));
   mobility_.resize(rows.size());
   largest_ = 0;
   const int blocks = static_cast<int>(order_.sequence().size());
@@ -100,6 +107,8 @@ void BoundedRows::find_mobility() {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const BoundedRow& row = rows[i];
     mobility_[i] = coupling(bodies, row, row);
+    assert(mobility_[i] >= 0);
+    assert(row.block >= 0 && row.block < blocks);
     const double speed = std::max(std::abs(along(row)), std::abs(row.wanted));
     if (mobility_[i] > 0) largest_ = std::max(largest_, speed * speed / mobility_[i]);
     block_first_[row.block + 1] = static_cast<int>(i) + 1;
@@ -119,6 +128,7 @@ void BoundedRows::assemble() {
     for (const int other : order_.neighbours(rows[i].block)) first = std::min(first, block_place_[other]);
     first_.push_back(first);
   }
+  assert(sequence_.size() == rows.size());
   all_.reset(first_);
   for (int place = 0; place < static_cast<int>(sequence_.size()); ++place) {
     const int i = sequence_[place];
@@ -251,6 +261,7 @@ double BoundedRows::energy() const {
 void BoundedRows::shrink() {
   const Work w = work();
   if (!(w.own > w.wanted)) return;
+  assert(w.own >= 0);
   const double share = std::max(w.wanted / w.own, 0.0);
   for (BoundedRow& row : rows) row.impulse *= share;
   apply_all();

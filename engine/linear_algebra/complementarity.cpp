@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/complementarity.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -17,6 +18,7 @@ class Tableau {
   Tableau(std::span<const double> matrix, std::span<const double> q, std::span<const double> covering,
           double least_pivot)
       : n_(q.size()), width_(2 * n_ + 2), entries_(n_ * width_, 0.0), basis_(n_) {
+    assert(matrix.size() == n_ * n_ && covering.size() == n_);
     for (std::size_t i = 0; i < n_; ++i) {
       at(i, i) = 1;
       for (std::size_t j = 0; j < n_; ++j) at(i, n_ + j) = -matrix[i * n_ + j];
@@ -64,6 +66,8 @@ class Tableau {
   }
 
   void pivot(std::size_t row, std::size_t column) {
+    assert(row < n_ && column < width_ - 1);
+    assert(at(row, column) != 0);
     const double scale = 1 / at(row, column);
     entries_in_row_.clear();  // sparse: most contacts do not couple, so few entries are nonzero
     for (std::size_t j = 0; j < width_; ++j) {

@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/dense_system.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,7 @@ constexpr double kEnough = 0.1;
 }  // namespace
 
 std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix, double dependent) {
+  assert(matrix.size() == size * size);
   size_ = size;
   original_.assign(matrix.begin(), matrix.end());
   work_.resize(size);
@@ -34,6 +36,7 @@ std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix
       part.row[i] = rows[part.row[i]], part.column[i] = rows[part.column[i]];
     rank_ += part.rank;
   }
+  assert(rank_ <= size);
   return rank_;
 }
 
@@ -106,8 +109,10 @@ void DenseSystem::Part::bring_pivot(std::size_t from_row) {
 /// Eliminates the pivot's unknown from the rows below. In a heap each contact touches few others: most rows
 /// lack it, and the others change only at the entries of the pivot's row.
 void DenseSystem::Part::eliminate() {
+  assert(rank < size);
   const double* pivots = lu.data() + rank * size;
   const std::size_t gone = column[rank];
+  assert(pivots[gone] != 0);
   std::erase(entries[rank], gone);
   for (std::size_t i = rank + 1; i < size; ++i) {
     double* own = lu.data() + i * size;
@@ -136,6 +141,7 @@ void DenseSystem::Part::solve(std::span<double> b, std::span<double> work) const
 }
 
 void DenseSystem::solve(std::span<double> b) const {
+  assert(b.size() == size_);
   for (std::size_t p = 0; p < division_.count(); ++p) parts_[p].solve(b, work_);
 }
 

@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/elimination_order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <limits>
 #include <set>
@@ -35,6 +36,7 @@ class Contraction {
 
   /// Removes `link`, merges its bodies, and returns the numbers of the links that it couples.
   std::vector<int> eliminate(int link) {
+    assert(alive_[link]);
     alive_[link] = 0;
     int a = body_of(links_[link].a), b = body_of(links_[link].b);
     if (a < 0 || a == b) std::swap(a, b);
@@ -117,6 +119,7 @@ EliminationOrder minimum_degree(const std::vector<Link>& links, int bodies) {
   order.below.resize(links.size());
   while (!queue.empty()) {
     const int link = std::get<2>(*queue.begin());
+    assert(order.sequence.size() < links.size());
     queue.erase(queue.begin());
     order.sequence.push_back(link);
     order.below[link] = graph.eliminate(link);
@@ -128,6 +131,7 @@ EliminationOrder minimum_degree(const std::vector<Link>& links, int bodies) {
       queue.insert(key);
     }
   }
+  assert(order.sequence.size() == links.size());
   return order;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/envelope_matrix.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace plumb {
 
@@ -10,6 +11,7 @@ void EnvelopeMatrix::reset(std::span<const int> first) {
   int next = 0;
   for (int i = 0; i < size(); ++i) {
     start_[i] = next;
+    assert(first_[i] >= 0 && first_[i] <= i);
     next += i - first_[i] + 1;
   }
   values_.assign(static_cast<std::size_t>(next), 0);
@@ -21,6 +23,7 @@ void EnvelopeMatrix::factorise() {
   for (int i = 0; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];
+    assert(!(diagonal < 0));  // positive definite; not a number where a body is quarantined later
     // row[j] <- (L D)_ij = a_ij - sum_k (L D)_ik L_jk
     for (int j = first_[i]; j < i; ++j) {
       const double* above = &values_[start_[j]] - first_[j];

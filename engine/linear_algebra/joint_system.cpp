@@ -1,6 +1,7 @@
 #include "engine/linear_algebra/joint_system.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "engine/linear_algebra/elimination_order.h"
@@ -26,6 +27,12 @@ JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const 
                                std::span<const Real> inverse_inertia)
     : inverse_mass_(inverse_mass.begin(), inverse_mass.end()),
       inverse_inertia_(inverse_inertia.begin(), inverse_inertia.end()) {
+  assert(inverse_mass.size() == inverse_inertia.size());
+  assert(std::all_of(rows.begin(), rows.end(), [&](const Row<Real>& row) {
+    const int count = static_cast<int>(inverse_mass.size());
+    return row.a < count && row.b < count && (row.a == kFixedFrame || row.a >= 0) &&
+           (row.b == kFixedFrame || row.b >= 0);
+  }));
   const auto moving = [&](int body) {
     return body != kFixedFrame && (inverse_mass_[body] > 0 || inverse_inertia_[body] > 0) ? body : -1;
   };
@@ -134,6 +141,7 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
 //     L(0..k-1, 0..k-1) y = A(0..k-1, k),  L(k, j) = y(j) / D(j),  D(k) = A(k, k) - sum of L(k, j) y(j).
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
+  assert(rows.size() == row_count());
   weakest_ = 1;
   weakest_place_ = order_.size();
   if (!hinges_.empty()) return factor_hinges(rows);
@@ -156,6 +164,7 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
       for (std::size_t p = column_start_[j]; p < filled_[j]; ++p) work_[row_of_[p]] -= lower_[p] * y;
       const Real l = y * inverse_diagonal_[j];
       pivot -= l * y;
+      assert(filled_[j] < column_start_[j + 1]);
       lower_[filled_[j]++] = l;
     }
     dependent += take_pivot(pivot, own, k) ? 0 : 1;
@@ -177,6 +186,7 @@ bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
 
 template <class Real>
 void JointSystem<Real>::set_least_share(Real share) {
+  assert(share >= 0 && share < 1);
   least_share_ = share;
 }
 
@@ -200,6 +210,7 @@ std::vector<char> JointSystem<Real>::dependent() const {
 template <class Real>
 void JointSystem<Real>::solve(std::span<Real> right_side) const {
   const std::size_t n = order_.size();
+  assert(right_side.size() == n);
   for (std::size_t k = 0; k < n; ++k) work_[k] = right_side[order_[k]];
   if (!hinges_.empty()) {
     solve_hinges();
@@ -224,6 +235,7 @@ void JointSystem<Real>::solve(std::span<Real> right_side) const {
 template <class Real>
 void JointSystem<Real>::refine(std::span<const Row<Real>> rows, std::span<const Real> right_side,
                                std::span<Real> x) const {
+  assert(rows.size() == row_count() && right_side.size() == rows.size() && x.size() == rows.size());
   std::fill(response_.begin(), response_.end(), Twist<Real>{});
   const auto pull = [&](int body, Vec2<Real> linear, Real angular, Real multiplier) {
     if (body == kFixedFrame) return;

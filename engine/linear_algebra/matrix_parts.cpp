@@ -1,10 +1,12 @@
 #include "engine/linear_algebra/matrix_parts.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace plumb {
 
 void MatrixParts::find(std::size_t size, std::span<const double> matrix) {
+  assert(matrix.size() == size * size);
   size_ = size;
   found_.assign(size, 0);
   rows_.clear();
@@ -27,6 +29,7 @@ void MatrixParts::find(std::size_t size, std::span<const double> matrix) {
 }
 
 void MatrixParts::take(std::size_t p, std::span<const double> matrix, std::vector<double>& out) const {
+  assert(p < count() && matrix.size() == size_ * size_);
   if (count() == 1) return out.assign(matrix.begin(), matrix.end());
   out.clear();
   for (const std::size_t i : part(p)) {

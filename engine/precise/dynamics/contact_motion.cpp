@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,10 @@ Row<double> sum(const Row<double>& a, double factor, const Row<double>& b) {
 }  // namespace
 
 void EquationsOfMotion::hold_contacts(std::vector<ActiveContact> patches) {
+  assert(std::all_of(patches.begin(), patches.end(), [](const ActiveContact& patch) {
+    return patch.a != nullptr && patch.b != nullptr && patch.count >= 1 && patch.count <= 2 &&
+           std::abs(patch.mode) <= 1;
+  }));
   patches_ = std::move(patches);
   for (const ActiveContact& patch : patches_) {
     for (const std::size_t body : {patch.a->body, patch.b->body}) {
@@ -167,6 +172,7 @@ std::vector<double> EquationsOfMotion::decided_forces() const {
   for (const ActiveContact& patch : patches_) {
     if (patch.sticks()) forces.push_back(patch.grip);
   }
+  assert(forces.size() <= constraints_.size());
   forces.resize(constraints_.size(), 0.0);  // held stops
   return forces;
 }

@@ -1,5 +1,6 @@
 #include "engine/precise/dynamics/flight.h"
 
+#include <cassert>
 #include <variant>
 
 namespace plumb::precise {
@@ -45,6 +46,7 @@ Flight::Flight(const Scene& scene, const Parts& parts)
 }
 
 Motion Flight::at(std::size_t body, double time) const {
+  assert(holds(body));
   const Arc& arc = arcs_[slot_[body]];
   const double s = time - arc.start;
   Motion now = arc.motion;
@@ -56,6 +58,7 @@ Motion Flight::at(std::size_t body, double time) const {
 }
 
 void Flight::restart(std::size_t body, double time, const BodyState& state) {
+  assert(holds(body));
   Arc& arc = arcs_[slot_[body]];
   arc.start = time;
   arc.motion.state = state;

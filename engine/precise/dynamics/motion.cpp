@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -143,11 +144,13 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
 }
 
 BodyState EquationsOfMotion::state(std::span<const double> y, std::size_t slot) {
+  assert(kPerBody * (slot + 1) <= y.size());
   const double* p = y.data() + kPerBody * slot;
   return {{p[0], p[1]}, p[2], {p[3], p[4]}, p[5]};
 }
 
 void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodyState& state) {
+  assert(kPerBody * (slot + 1) <= y.size());
   const double values[kPerBody] = {state.position.x, state.position.y, state.angle,
                                    state.velocity.x, state.velocity.y, state.angular_velocity};
   for (std::size_t i = 0; i < kPerBody; ++i) y.set(kPerBody * slot + i, values[i]);
@@ -174,6 +177,7 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
 
 /// Computes residuals, Jacobian and bias accelerations at the bodies' poses.
 void EquationsOfMotion::find_rows(std::span<Row<double>> out) const {
+  assert(out.size() == rows_.size());
   joints_.rows(poses_, twists_, out);
   if (kind_joints_.row_count() > 0) kind_joints_.rows(bodies_now(), out.subspan(joints_.row_count()));
 }
@@ -288,6 +292,7 @@ void EquationsOfMotion::accelerate_joints() {
 }
 
 void EquationsOfMotion::write_rate(std::span<const double> y, std::span<double> out) const {
+  assert(y.size() == dimension() && out.size() == dimension());
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& acceleration = accelerations_[bodies_[slot]];
     const double* motion = y.data() + kPerBody * slot;

@@ -1,6 +1,7 @@
 #include "engine/precise/event_search/events.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace plumb::precise {
@@ -26,6 +27,7 @@ class Watch {
   /// Returns the root of a function that is not negative at `low` and negative at `high`: the bound on the
   /// negative side.
   double locate(std::size_t index, double low, double f_low, double high, double f_high) {
+    assert(low <= high && f_low >= 0 && f_high < 0);
     int side = 0;
     for (int i = 0; i < 100; ++i) {
       double next = f_low > f_high ? low + (high - low) * (f_low / (f_low - f_high)) : 0.5 * (low + high);
@@ -78,6 +80,7 @@ std::optional<Fall> first_zero_crossing(const std::function<void(double, std::sp
                                         std::span<const double> tolerance, double start, double end,
                                         int samples) {
   if (tolerance.empty()) return std::nullopt;
+  assert(start <= end && samples > 0);
   Watch watch(evaluate, tolerance);
   std::vector<Sample> known{{start, watch.at(start)}};
   std::optional<Fall> first;

@@ -1,6 +1,7 @@
 #include "engine/precise/events/contacts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -296,6 +297,7 @@ void Contacts::activate(std::span<const ContactCandidate> touches, const TouchPr
       patch.features[patch.count++] = touch.features[p.index_of[i]];
       force_scale_ = std::max(force_scale_, solution.force[i]);
     }
+    assert(patch.count <= 2);
     if (patch.count == 0) continue;
     patches.push_back(patch);
     held_.push_back(touch.pair);

@@ -1,6 +1,7 @@
 #include "engine/precise/events/coulomb.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "engine/linear_algebra/complementarity.h"
@@ -15,6 +16,10 @@ class Pivoting {
  public:
   explicit Pivoting(const CoulombProblem& problem)
       : problem_(problem), n_(problem.points()), size_(problem.size()), scale_(size_, 1.0) {
+    assert(problem.response.size() == size_ * size_ && problem.rate.size() == size_);
+    assert(std::all_of(problem.patch_of.begin(), problem.patch_of.end(), [&](int patch) {
+      return patch >= 0 && patch < static_cast<int>(problem.patches.size());
+    }));
     for (std::size_t i = 0; i < size_; ++i) {
       const double own = problem.response[i * size_ + i];
       if (own > 0) scale_[i] = 1 / std::sqrt(own);

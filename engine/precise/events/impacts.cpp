@@ -1,6 +1,7 @@
 #include "engine/precise/events/impacts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "engine/core/text.h"
@@ -63,6 +64,7 @@ TouchProblem TouchProblem::of(std::span<const ContactCandidate> touches,
 
 void ImpactLaw::apply(const ContactResponse& response, std::span<const double> impulses,
                       std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y) {
+  assert(impulses.size() == response.rows.size());
   equations_.push(response, impulses, y);
   for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
     states[equations_.bodies()[slot]] = EquationsOfMotion::state(y.value(), slot);
@@ -102,6 +104,7 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
     second += solution.force[i] * (solution.rate[i] - p.problem.rate[i]) / 2;
   }
   if (first + second > 0 && second > 0) {
+    assert(first < 0);  // an approach: the impulses brake at first
     for (double& impulse : solution.force) impulse *= -first / second;
   }
   apply(p.response, solution.force, touches, states, y);
