@@ -74,11 +74,10 @@ std::string missing_file(const std::string& folder) {
 
 std::vector<MeasuredImpact> read_impacts(const std::string& path) {
   std::vector<MeasuredImpact> out;
-  read_table(
-      path, {"x", "vx", "vy", "w", "vx1", "vy1", "w1", "lever_normal", "lever_tangent", "flagged"},
-      [&](const std::vector<double>& v) {
-        out.push_back({{v[1], v[2]}, {v[4], v[5]}, v[3], v[6], v[7], v[8], v[0] + v[7], v[9] != 0});
-      });
+  read_table(path, {"x", "vx", "vy", "w", "vx1", "vy1", "w1", "lever_normal", "lever_tangent", "flagged"},
+             [&](const std::vector<double>& v) {
+               out.push_back({{v[1], v[2]}, {v[4], v[5]}, v[3], v[6], v[7], v[8], v[0] + v[7], v[9] != 0});
+             });
   return out;
 }
 

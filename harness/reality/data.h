@@ -11,7 +11,7 @@ namespace plumb::harness::reality {
 
 /// One impact of an ellipse on a floor, by motion capture. SI units, y up, angles counter-clockwise.
 struct MeasuredImpact {
-  Vec2d velocity{}, velocity_after{};                      ///< m/s, of the centre
+  Vec2d velocity{}, velocity_after{};                       ///< m/s, of the centre
   double angular_velocity = 0, angular_velocity_after = 0;  ///< rad/s
   double lever_normal = 0;   ///< m: the contact's rate across the floor is v.y + lever_normal w
   double lever_tangent = 0;  ///< m: its slip along the floor is v.x + lever_tangent w

@@ -62,9 +62,10 @@ std::vector<DropStart> starts_of(std::span<const MeasuredDrop> drops) {
       angle.push_back(frame.angle);
     }
     const Line along_x = line_through(x), along_y = line_through(y), turned = line_through(angle);
-    DropStart start{drop.number,
-                    {{along_x.value, along_y.value}, turned.value, {along_x.slope, along_y.slope}, turned.slope},
-                    {drop.frames.begin() + last, drop.frames.end()}};
+    DropStart start{
+        drop.number,
+        {{along_x.value, along_y.value}, turned.value, {along_x.slope, along_y.slope}, turned.slope},
+        {drop.frames.begin() + last, drop.frames.end()}};
     out.push_back(std::move(start));
   }
   return out;

@@ -14,7 +14,8 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Tolerances: of the exact motion that engines are held against, and of fits, whose figures have three digits.
+/// Tolerances: of the exact motion that engines are held against, and of fits, whose figures have three
+/// digits.
 constexpr double kExact = 1e-9, kFitted = 1e-5;
 
 /// Drops that a law is fitted on, of the training half, and evaluations of all of them.
@@ -109,7 +110,8 @@ Poses measured(const DropStart& start, const DropLaw& law, std::span<const doubl
     if (before + 1 >= start.frames.size()) return {};
     const double share = place - static_cast<double>(before);
     const MeasuredPose &a = start.frames[before], &b = start.frames[before + 1];
-    out[i] = {a.position + share * (b.position - a.position), a.angle + share * (b.angle - a.angle) + values[2]};
+    out[i] = {a.position + share * (b.position - a.position),
+              a.angle + share * (b.angle - a.angle) + values[2]};
   }
   return out;
 }

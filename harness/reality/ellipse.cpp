@@ -54,7 +54,8 @@ double least_error(const MeasuredImpact& impact, std::span<const double> values)
   const double nn = 1 + kUniform * n * n, nt = kUniform * n * t, tt = 1 + kUniform * t * t;
   const double b_n = change.y + kUniform * n * turned, b_t = change.x + kUniform * t * turned;
   const double determinant = nn * tt - nt * nt;
-  return error_of(impact, {(tt * b_n - nt * b_t) / determinant, (nn * b_t - nt * b_n) / determinant}, inertia);
+  return error_of(impact, {(tt * b_n - nt * b_t) / determinant, (nn * b_t - nt * b_n) / determinant},
+                  inertia);
 }
 
 std::vector<double> errors_of(const Law& law, const Rows& rows, std::span<const double> values) {

@@ -40,9 +40,9 @@ struct EllipseFinding {
 };
 
 struct EllipseFindings {
-  int impacts = 0, doubted = 0;       ///< measured; of these left out
-  std::vector<EllipseFinding> laws;   ///< in the order of `ellipse_laws`
-  EllipseFinding bound;               ///< the best impulse at the contact, with the best inertia
+  int impacts = 0, doubted = 0;                  ///< measured; of these left out
+  std::vector<EllipseFinding> laws;              ///< in the order of `ellipse_laws`
+  EllipseFinding bound;                          ///< the best impulse at the contact, with the best inertia
   std::size_t best = 0, best_of_all_floors = 0;  ///< laws with the least `validated`
 };
 

@@ -31,14 +31,20 @@ constexpr double kMiddle = 0.38;
 using Rule = ContactImpulse (*)(const ImpactPoint&, const ImpactCoefficients&);
 
 EllipseLaw simple(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution}, false,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution},
+          false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
             return rule(point, {v[2], v[1], v[1], 0});
           }};
 }
 
 EllipseLaw tangential(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution, kTangential}, false,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kTangential},
+          false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
             const ImpactCoefficients c{v[2], v[1], v[1], v[3]};
             return precise::with_tangential_restitution(point, c, rule(point, c));
@@ -46,7 +52,10 @@ EllipseLaw tangential(const char* name, const char* text, Rule rule) {
 }
 
 EllipseLaw falling(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution, kExponent}, false,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kExponent},
+          false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
             const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[3]);
             return rule(point, {e, v[1], v[1], 0});
@@ -54,14 +63,20 @@ EllipseLaw falling(const char* name, const char* text, Rule rule) {
 }
 
 EllipseLaw later(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution, kLater}, false,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater},
+          false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
             return rule(point, {v[2], v[1], v[3], 0});
           }};
 }
 
 EllipseLaw later_falling(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution, kLater, kExponent}, false,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater, kExponent},
+          false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
             const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[4]);
             return rule(point, {e, v[1], v[3], 0});
@@ -69,7 +84,10 @@ EllipseLaw later_falling(const char* name, const char* text, Rule rule) {
 }
 
 EllipseLaw along_floor(const char* name, const char* text, Rule rule) {
-  return {name, text, {kInertia, kFriction, kRestitution, kLater, kSlope}, true,
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater, kSlope},
+          true,
           [rule](const ImpactPoint& point, const MeasuredImpact& impact, Values v) {
             const double e = std::clamp(v[2] + v[4] * (impact.place - kMiddle), 0.0, 1.0);
             return rule(point, {e, v[1], v[3], 0});

@@ -87,7 +87,8 @@ Fit minimise(std::span<const Parameter> parameters, int evaluations,
   for (int i = 0; i < kStarts; ++i) {
     // Each simplex is smaller than the one before, and points the other way.
     const double scale = (i % 2 == 0 ? 1.0 : -1.0) / (1 << (i / 2));
-    const Fit found = Simplex(parameters, evaluations / kStarts, loss).search(i == 0 ? start : best.values, scale);
+    const Fit found =
+        Simplex(parameters, evaluations / kStarts, loss).search(i == 0 ? start : best.values, scale);
     if (i == 0 || found.loss < best.loss) best = found;
   }
   return best;

@@ -25,9 +25,9 @@ class SlipPath {
   double after_work(double work) const;
 
  private:
-  double start_;                        ///< m/s, gap rate at p = 0
-  double first_slope_, second_slope_;   ///< 1/kg, of the gap rate before and after the bend
-  double first_share_, second_share_;   ///< tangential impulse a normal one
+  double start_;                       ///< m/s, gap rate at p = 0
+  double first_slope_, second_slope_;  ///< 1/kg, of the gap rate before and after the bend
+  double first_share_, second_share_;  ///< tangential impulse a normal one
   double bend_;
 };
 
