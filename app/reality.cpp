@@ -1,7 +1,6 @@
 #include "harness/reality/reality.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,6 +16,7 @@
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "harness/reality/published/published_law.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -27,7 +27,8 @@ namespace reality = harness::reality;
 struct Options {
   std::string data = "impacts", out, format = "console";
   EngineOptions engines;
-  std::uint64_t seed = 1;
+  int seed = 1;
+  bool published = false;
 };
 
 void write_files(const std::string& folder, const reality::Findings& findings) {
@@ -41,7 +42,20 @@ void write_files(const std::string& folder, const reality::Findings& findings) {
   harness::write_whole((path / "engines.svg").string(), reality::engine_picture(findings));
 }
 
+int run_published(const std::vector<const reference::Backend*>& engines, const std::string& format) {
+  harness::catch_interrupts();
+  const std::vector<reality::PublishedFinding> findings = reality::examine_published(engines);
+  print(format == "json"  ? reality::published_json(findings)
+        : format == "csv" ? reality::published_csv(findings)
+                          : reality::published_text(findings));
+  flush();
+  return harness::interrupted() ? kInterrupted : kOk;
+}
+
 int start(const Options& options) {
+  std::vector<std::unique_ptr<reference::Backend>> programs;
+  const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
+  if (options.published) return run_published(engines, options.format);
   if (const std::string missing = reality::missing_file(options.data); !missing.empty()) {
     notice(fmt::format(
         "there is no '{}' in '{}': the measurements are not part of plumb; docs/reality.md says where "
@@ -49,10 +63,9 @@ int start(const Options& options) {
         missing, options.data));
     return kNoData;
   }
-  std::vector<std::unique_ptr<reference::Backend>> programs;
-  const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
   harness::catch_interrupts();
-  const reality::Findings findings = reality::examine(options.data, engines, options.seed);
+  const reality::Findings findings =
+      reality::examine(options.data, engines, static_cast<std::uint64_t>(options.seed));
   if (harness::interrupted()) {
     notice("interrupted; nothing was written");
     return kInterrupted;
@@ -89,7 +102,12 @@ void add_reality(CLI::App& app, Action& chosen) {
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
-  command->add_option("--seed", options->seed, "of the random halves (default 1)")->type_name("N");
+  command->add_option("--seed", options->seed, "of the random halves (default 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  command->add_flag(
+      "--published", options->published,
+      "published laws of real matter instead, which need no measurements: column collapse, rocking block");
   command->footer(
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"

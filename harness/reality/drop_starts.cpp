@@ -105,8 +105,24 @@ const std::vector<DropLaw>& drop_laws() {
       }
     }
   };
+  static const auto with_rule = [](ImpactRule rule) {
+    return [rule](Scene& scene, std::span<const double> values) {
+      coefficients(scene, values);
+      scene.contact_rules.impact = rule;
+      if (values.size() > 6) scene.contact_rules.friction_after_stop = values[6];
+    };
+  };
+  static const std::vector<Parameter> later = [] {
+    std::vector<Parameter> out = simple;
+    out.push_back({"friction after the stop", "", 0.9, 0.1, 0, 1});
+    return out;
+  }();
   static const std::vector<DropLaw> laws{
-      {"newton", "Newton's restitution, Coulomb's friction for the impulses", simple, coefficients}};
+      {"newton", "Newton's restitution, Coulomb's friction for the impulses", simple, coefficients},
+      {"poisson", "Poisson's restitution by Routh's method", simple, with_rule(ImpactRule::Poisson)},
+      {"stronge", "Stronge's energetic restitution", simple, with_rule(ImpactRule::Stronge)},
+      {"stronge-later", "Stronge's, less friction once the slip has stopped", later,
+       with_rule(ImpactRule::Stronge)}};
   return laws;
 }
 

@@ -20,8 +20,8 @@ std::string with_interval(const Estimate& estimate, double scale) {
 std::string fitted(std::span<const Parameter> parameters, std::span<const double> values) {
   std::string out;
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    out +=
-        fmt::format("{}{} {:.3g} {}", i == 0 ? "" : "; ", parameters[i].name, values[i], parameters[i].unit);
+    out += fmt::format("{}{} {:.3g}{}{}", i == 0 ? "" : "; ", parameters[i].name, values[i],
+                       *parameters[i].unit == '\0' ? "" : " ", parameters[i].unit);
   return out;
 }
 

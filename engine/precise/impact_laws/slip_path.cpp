@@ -13,7 +13,8 @@ SlipPath::SlipPath(const ImpactPoint& point, const ImpactCoefficients& c) : star
   bend_ = 0;
   if (point.slip != 0)
     bend_ = way * slowing < 0 ? -point.slip / slowing : std::numeric_limits<double>::infinity();
-  // What keeps the contact from slipping; where that is more than friction holds, it slips back.
+  // Sticking takes this share of the normal impulse; if friction does not hold so much, the contact slips
+  // back.
   const double sticking = -point.cross_response / point.tangent_response;
   second_share_ = std::clamp(sticking, -c.later_friction, c.later_friction);
   first_slope_ = point.normal_response + first_share_ * point.cross_response;
