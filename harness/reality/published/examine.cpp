@@ -6,6 +6,12 @@
 #include "harness/reality/published/published_law.h"
 
 namespace plumb::harness::reality {
+namespace {
+
+/// Bodies that touch for minutes of computation a second of motion in engines that step to a tolerance.
+constexpr std::size_t kMostAdaptive = 50;
+
+}  // namespace
 
 Body fixed_box(const char* name, Vec2d at, Box box, double friction) {
   Body body{.name = name, .type = BodyType::Static, .position = at};
@@ -29,6 +35,11 @@ std::vector<PublishedFinding> examine_published(std::span<const reference::Backe
                                law.low,  law.high,     0,          {}};
       const reference::Identity identity = engine->identity();
       finding.why_not = identity.available ? engine->unsupported(law.scene, {.dt = law.dt}) : identity.reason;
+      // Each evaluation of a motion to a tolerance involves all contacts at once.
+      const bool adaptive =
+          finding.why_not.empty() && engine->method({.dt = law.dt}).scheme == reference::Scheme::Adaptive;
+      if (adaptive && law.scene.bodies.size() > kMostAdaptive)
+        finding.why_not = "too many bodies touch for steps to a tolerance";
       if (finding.why_not.empty()) {
         try {
           const auto simulator = engine->create(law.scene, {.dt = law.dt});
