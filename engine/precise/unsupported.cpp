@@ -43,7 +43,6 @@ std::string precise_unsupported(const Scene& scene) {
            "through an impact: use impact \"poisson\" or \"stronge\"";
   Scene bodies = scene;
   bodies.joints.clear();
-  bodies.contact_rules = {};
   if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
   for (const Joint& joint : scene.joints) {
     const std::string missing = missing_in(joint);

@@ -78,7 +78,6 @@ std::string unusual_rule(const Scene& scene) {
 }
 
 std::string unusual_field(const Scene& scene) {
-  if (const std::string rule = unusual_rule(scene); !rule.empty()) return rule;
   for (const Body& body : scene.bodies) {
     if (const std::string field = unusual_field_of(body); !field.empty()) return body_called(body) + field;
   }
