@@ -25,6 +25,7 @@ void add_stress(CLI::App& app, Action& chosen);
 void add_hunt(CLI::App& app, Action& chosen);
 void add_limits(CLI::App& app, Action& chosen);
 void add_thresholds(CLI::App& app, Action& chosen);
+void add_reality(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view

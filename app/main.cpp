@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
       "  plumb run free_fall/vacuum --engine plumb-precise --rate 10\n  plumb explain "
       "elastic_collision/oblique\n  plumb check -- python3 my_engine.py\n"
       "Each subcommand has its own --help. Exit codes: 0 ok, 1 a check failed, 2 usage or bad input,\n"
-      "130 interrupted.");
+      "3 no measurements for reality, 130 interrupted.");
   Action action;
   add_list(app, action);
   add_new(app, action);
@@ -98,6 +98,7 @@ int main(int argc, char** argv) {
   add_hunt(app, action);
   add_thresholds(app, action);
   add_limits(app, action);
+  add_reality(app, action);
   add_report(app, action);
   add_bench(app);
   add_window(app);

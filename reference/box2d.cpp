@@ -18,6 +18,7 @@
 #include "engine/core/text.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/scene/features.h"
 #include "reference/backend.h"
 #include "reference/box2d/joints.h"
 #include "reference/support/applied_forces.h"
@@ -253,6 +254,8 @@ class Box2dBackend final : public Backend {
 
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
+    if (const std::string rule = unusual_rule(scene); !rule.empty())
+      return rule + ", which Box2D does not have; 'plumb-precise' runs it";
     for (const Body& body : scene.bodies) {
       if (const std::string reason = missing(body); !reason.empty())
         return "body " + plumb::quoted(body.name) + ": " + reason;

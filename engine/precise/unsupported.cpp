@@ -32,6 +32,16 @@ std::string missing_in(const Joint& joint) {
 
 std::string precise_unsupported(const Scene& scene) {
   constexpr const char* kElsewhere = ", which Precise does not have; 'plumb' runs it";
+  const ContactRules& rules = scene.contact_rules;
+  if (rules.impact != ImpactRule::Newton && rules.simultaneous == Simultaneous::Together)
+    return "contact_rules.simultaneous is \"together\": only Newton's law resolves impacts as one problem; "
+           "use "
+           "\"sequence\"";
+  if (rules.impact == ImpactRule::Newton &&
+      (rules.tangential_restitution != 0 || rules.friction_after_stop != 1))
+    return "contact_rules has tangential_restitution or friction_after_stop, which belong to laws that "
+           "follow the slip "
+           "through an impact: use impact \"poisson\" or \"stronge\"";
   Scene bodies = precise::with_body_laws(scene);
   bodies.joints.clear();
   if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;

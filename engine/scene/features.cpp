@@ -66,6 +66,17 @@ std::string unusual_kind(const Scene& scene) {
   return "";
 }
 
+std::string unusual_rule(const Scene& scene) {
+  const ContactRules& rules = scene.contact_rules;
+  const std::string has = "contact_rules has ";
+  if (rules.impact != ImpactRule::Newton)
+    return has + "impact " + quoted(kImpactNames[static_cast<std::size_t>(rules.impact)]);
+  if (rules.yield_speed != 0) return has + "yield_speed";
+  if (rules.tangential_restitution != 0) return has + "tangential_restitution";
+  if (rules.friction_after_stop != 1) return has + "friction_after_stop";
+  return "";
+}
+
 std::string unusual_field(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (const std::string field = unusual_field_of(body); !field.empty()) return body_called(body) + field;

@@ -15,7 +15,10 @@ std::string unusual_kind(const Scene& scene);
 /// A field that is not at its default: "body 'kite' has linear_damping", "joint 'hip' has limits".
 std::string unusual_field(const Scene& scene);
 
-/// Either of the two.
+/// A contact rule that Precise alone has: "contact_rules has impact 'stronge'".
+std::string unusual_rule(const Scene& scene);
+
+/// An unusual kind or an unusual field.
 std::string unusual_feature(const Scene& scene);
 
 }  // namespace plumb

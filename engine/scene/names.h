@@ -10,6 +10,7 @@ inline constexpr std::array<std::string_view, 3> kBodyTypeNames{"static", "kinem
 inline constexpr std::array<std::string_view, 5> kCombineNames{"geometric_mean", "product", "maximum",
                                                                "minimum", "average"};
 inline constexpr std::array<std::string_view, 2> kSimultaneousNames{"sequence", "together"};
+inline constexpr std::array<std::string_view, 3> kImpactNames{"newton", "poisson", "stronge"};
 inline constexpr std::array<std::string_view, 2> kFrameNames{"world", "body"};
 inline constexpr std::array<std::string_view, 6> kGeometryNames{"circle",  "box",     "capsule",
                                                                 "polygon", "segment", "chain"};

@@ -153,11 +153,24 @@ enum class Simultaneous {
   Together,  ///< all at once, as one complementarity problem: none approaches, and order does not matter
 };
 
+/// Law of an impact at one contact point (engine/precise/impact_laws), in engines that offer a choice.
+enum class ImpactRule {
+  Newton,   ///< restitution is a ratio of velocities; gains energy in some impacts with friction
+  Poisson,  ///< a ratio of impulses, with the slip followed through the impact (Routh's method)
+  Stronge,  ///< the square root of a ratio of works, along the same path; never gains energy
+};
+
 struct ContactRules {
   Combine friction = Combine::GeometricMean;
   Combine restitution = Combine::Maximum;
   double restitution_threshold = 0;  ///< m/s; slower impacts do not bounce
   Simultaneous simultaneous = Simultaneous::Sequence;
+  ImpactRule impact = ImpactRule::Newton;
+  double yield_speed = 0;  ///< m/s, >= 0: restitution falls with the fourth root of faster ones; 0: never
+  double tangential_restitution =
+      0;  ///< 0..1, share of the slip that comes back where friction has stopped it
+  double friction_after_stop =
+      1;  ///< 0..1, share of the friction that is left in an impact whose slip has stopped
   friend bool operator==(const ContactRules&, const ContactRules&) = default;
 };
 

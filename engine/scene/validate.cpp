@@ -127,6 +127,12 @@ class Checker {
     number("contact_rules.restitution_threshold", scene_.contact_rules.restitution_threshold,
            Limits::NonNegative, "m/s");
     member("contact_rules.simultaneous", scene_.contact_rules.simultaneous, kSimultaneousNames);
+    member("contact_rules.impact", scene_.contact_rules.impact, kImpactNames);
+    number("contact_rules.yield_speed", scene_.contact_rules.yield_speed, Limits::NonNegative, "m/s");
+    number("contact_rules.tangential_restitution", scene_.contact_rules.tangential_restitution,
+           Limits::ZeroToOne, "");
+    number("contact_rules.friction_after_stop", scene_.contact_rules.friction_after_stop, Limits::ZeroToOne,
+           "");
   }
 
   void check_body(const Body& body) {

@@ -51,6 +51,8 @@ class BulletBackend final : public Backend {
 
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
+    if (const std::string rule = unusual_rule(scene); !rule.empty())
+      return rule + ", which Bullet does not have; 'plumb-precise' runs it";
     if (const std::string feature = unusual_feature(scene); !feature.empty())
       return feature + ", which this adapter does not translate; 'plumb' runs it";
     for (const Joint& joint : scene.joints) {

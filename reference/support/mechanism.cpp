@@ -181,6 +181,8 @@ std::string ill_fitting(const Scene& scene, const Link& link, const std::vector<
 std::vector<Link> links_of(const Scene& scene) { return Walk(scene).links; }
 
 std::string not_a_mechanism(const Scene& scene) {
+  if (const std::string rule = unusual_rule(scene); !rule.empty())
+    return rule + ", which this engine does not have; 'plumb-precise' runs it";
   if (const std::string field = unusual_field(scene); !field.empty())
     return field + ", which this engine does not have; 'plumb' runs it";
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {

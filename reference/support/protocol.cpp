@@ -432,6 +432,8 @@ std::optional<std::pair<std::string, std::string>> pair_that_may_touch(const Sce
 
 std::string missing_capability(const Scene& scene, const Hello& hello) {
   const std::string lacks = ", which it does not declare";
+  if (const std::string rule = unusual_rule(scene); !rule.empty())
+    return rule + ", which the protocol's engines do not have; 'plumb-precise' runs it";
   if (const std::string field = unusual_field(scene); !field.empty())
     return field + ", which the protocol's engines do not have; 'plumb' runs it";
   for (const Body& body : scene.bodies) {

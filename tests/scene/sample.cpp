@@ -217,8 +217,14 @@ Scene random_scene(std::mt19937_64& random) {
   Scene scene;
   scene.name = name(random, 0);
   scene.gravity = vector(random);
-  scene.contact_rules = {static_cast<Combine>(up_to(random, 4)), static_cast<Combine>(up_to(random, 4)),
-                         non_negative(random), static_cast<Simultaneous>(up_to(random, 1))};
+  scene.contact_rules = {static_cast<Combine>(up_to(random, 4)),
+                         static_cast<Combine>(up_to(random, 4)),
+                         non_negative(random),
+                         static_cast<Simultaneous>(up_to(random, 1)),
+                         static_cast<ImpactRule>(up_to(random, 2)),
+                         non_negative(random),
+                         0.25 * up_to(random, 4),
+                         0.25 * up_to(random, 4)};
   for (int i = up_to(random, 4); i > 0; --i) scene.bodies.push_back(random_body(random, i));
   for (const Body& body : scene.bodies) {
     const int index = static_cast<int>(scene.joints.size());

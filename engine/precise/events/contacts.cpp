@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "engine/core/text.h"
+#include "engine/precise/impact_laws/impact_law.h"
 #include "engine/scene/error.h"
 
 // Handles events: resolves impacts, then decides which contacts persist.
@@ -172,7 +173,10 @@ void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
   bool ends = false;
   const auto restitution = [&](const ContactCandidate& touch, int point) {
     const double speed = -touch.closing[point];
-    const double e = speed >= finder_.rules().restitution_threshold ? touch.restitution : 0;
+    const ContactRules& rules = finder_.rules();
+    const double e = speed < rules.restitution_threshold
+                         ? 0
+                         : falling_restitution(touch.restitution, speed, rules.yield_speed);
     if (e == 0 || e == 1) return e;
     const auto place = std::find_if(before.begin(), before.end(), [&](const ContactCandidate& t) {
       return !t.stop && t.pair == touch.pair;

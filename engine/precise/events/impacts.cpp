@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "engine/core/text.h"
+#include "engine/precise/impact_laws/impact_law.h"
 #include "engine/scene/error.h"
 
 namespace plumb::precise {
@@ -110,6 +112,53 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
   apply(p.response, solution.force, touches, states, y);
 }
 
+void ImpactLaw::strike_point(double time, std::size_t struck, std::span<ContactCandidate> touches,
+                             std::span<BodyState> states, Compensated& y, const Restitution& restitution) {
+  const ContactCandidate& touch = touches[struck];
+  const auto part = [&](std::size_t t, int point) { return t == struck && closes(touch, point); };
+  TouchProblem p = TouchProblem::of(touches, part, {}, equations_, time, y.value());
+  const std::size_t n = p.problem.points(), size = n + 1;
+  // Shares of the points in the normal impulse: as in the impulse that stops them all.
+  std::vector<double> share(n, 1);
+  for (std::size_t i = 0; i < n; ++i) p.problem.rate.push_back(touch.closing[p.index_of[i]]);
+  p.problem.rate.push_back(touch.slip);
+  if (n > 1) {
+    const CoulombSolution stopped = solve_coulomb(p.problem);
+    const double sum =
+        std::accumulate(stopped.force.begin(), stopped.force.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
+    if (stopped.solved && sum > 0) {
+      for (std::size_t i = 0; i < n; ++i) share[i] = stopped.force[i] / sum;
+    } else {
+      std::fill(share.begin(), share.end(), 1.0 / static_cast<double>(n));
+    }
+  }
+  const std::vector<double>& response = p.problem.response;
+  ImpactPoint point{0, touch.slip, 0, 0, response[size * size - 1]};
+  const ContactRules& rules = finder_.rules();
+  ImpactCoefficients c{0, touch.friction, touch.friction * rules.friction_after_stop,
+                       rules.tangential_restitution};
+  for (std::size_t i = 0; i < n; ++i) {
+    point.closing += share[i] * touch.closing[p.index_of[i]];
+    c.restitution += share[i] * restitution(touch, static_cast<int>(p.index_of[i]));
+    point.cross_response += share[i] * response[i * size + n];
+    for (std::size_t j = 0; j < n; ++j) point.normal_response += share[i] * share[j] * response[i * size + j];
+  }
+  if (!(point.normal_response > 0)) {
+    throw Error(Error::Kind::Run, subject(touch), "effective mass", "infinite",
+                "an impact meets what joints and other contacts hold everything fast: nothing can give way");
+  }
+  // Without a response along the tangent nothing slips, and nothing couples to it.
+  if (!(point.tangent_response > 0))
+    point.tangent_response = 1, point.cross_response = 0, c.friction = c.later_friction = 0;
+  const ContactImpulse along =
+      rules.impact == ImpactRule::Poisson ? poisson_impulse(point, c) : stronge_impulse(point, c);
+  const ContactImpulse impulse = with_tangential_restitution(point, c, along);
+  std::vector<double> impulses;
+  for (std::size_t i = 0; i < n; ++i) impulses.push_back(share[i] * impulse.normal);
+  impulses.push_back(impulse.tangential);
+  apply(p.response, impulses, touches, states, y);
+}
+
 std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touches,
                                 std::span<BodyState> states, Compensated& y, const Restitution& restitution) {
   std::int64_t count = 0;
@@ -141,6 +190,10 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touc
       continue;
     }
     ++count;
+    if (finder_.rules().impact != ImpactRule::Newton && !touches[worst].stop) {
+      strike_point(time, worst, touches, states, y, restitution);
+      continue;
+    }
     // Corners of one shape that approach together are one impact. If one of them opens, it is resolved after
     // the other, and so on in turn: the limit of corners that touch at slightly different times.
     const ContactCandidate& struck = touches[worst];

@@ -41,6 +41,9 @@ struct TouchProblem {
 /// and end at its limit. Simultaneous touches are a sequence, the fastest first, until none approaches, or
 /// one problem (`ContactRules::simultaneous`). Limits of joints that are reached take part in every impact as
 /// joints do, but only push, and have no restitution.
+/// With another law of impact (`ContactRules::impact`) each pair is one point: of two corners that approach
+/// together the centre of the impulse that would stop both. Joints take part; limits that are reached are
+/// struck in turn.
 class ImpactLaw {
  public:
   ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
@@ -63,6 +66,9 @@ class ImpactLaw {
   void strike(double time, const std::function<bool(std::size_t touch, int point)>& takes_part,
               std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y,
               const Restitution& restitution);
+  /// Resolves the approaching points of one touch by a law that follows the slip.
+  void strike_point(double time, std::size_t touch, std::span<ContactCandidate> touches,
+                    std::span<BodyState> states, Compensated& y, const Restitution& restitution);
   std::string subject(const ContactCandidate& touch) const;
   void apply(const ContactResponse& response, std::span<const double> impulses,
              std::span<ContactCandidate> touches, std::span<BodyState> states, Compensated& y);

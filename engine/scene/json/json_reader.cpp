@@ -41,12 +41,17 @@ void read_version(const Fields& fields) {
 
 ContactRules read_contact_rules(const View& view) {
   const Fields fields(view, "contact_rules",
-                      {"friction", "restitution", "restitution_threshold", "simultaneous"});
+                      {"friction", "restitution", "restitution_threshold", "simultaneous", "impact",
+                       "yield_speed", "tangential_restitution", "friction_after_stop"});
   ContactRules rules;
   fields.read("friction", rules.friction, kCombineNames);
   fields.read("restitution", rules.restitution, kCombineNames);
   fields.read("restitution_threshold", rules.restitution_threshold);
   fields.read("simultaneous", rules.simultaneous, kSimultaneousNames);
+  fields.read("impact", rules.impact, kImpactNames);
+  fields.read("yield_speed", rules.yield_speed);
+  fields.read("tangential_restitution", rules.tangential_restitution);
+  fields.read("friction_after_stop", rules.friction_after_stop);
   return rules;
 }
 

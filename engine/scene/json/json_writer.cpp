@@ -62,9 +62,13 @@ class Writer {
     write("friction", rules.friction, kCombineNames);
     write("restitution", rules.restitution, kCombineNames);
     write("restitution_threshold", rules.restitution_threshold);
-    // Omitted when default, so that the hashes of scenes from before this option stay the same.
+    // Omitted when default, so that the hashes of scenes from before these options stay the same.
     if (rules.simultaneous != Simultaneous::Sequence)
       write("simultaneous", rules.simultaneous, kSimultaneousNames);
+    if (rules.impact != ImpactRule::Newton) write("impact", rules.impact, kImpactNames);
+    if (rules.yield_speed != 0) write("yield_speed", rules.yield_speed);
+    if (rules.tangential_restitution != 0) write("tangential_restitution", rules.tangential_restitution);
+    if (rules.friction_after_stop != 1) write("friction_after_stop", rules.friction_after_stop);
     out_.end('}');
   }
 

@@ -9,6 +9,7 @@
 #include "engine/joints/kind_of.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/scene/features.h"
 #include "engine/scene/subject.h"
 #include "engine/scene/validate.h"
 #include "engine/world/state/naming.h"
@@ -103,6 +104,8 @@ WorldDefinition world_definition(const Scene& scene) {
 }
 
 std::string world_unsupported(const Scene& scene) {
+  if (const std::string rule = unusual_rule(scene); !rule.empty())
+    return rule + ", which only Precise has; 'plumb-precise' runs it";
   if (scene.contact_rules.restitution_threshold > 0)
     return "restitution_threshold is " + shortest(scene.contact_rules.restitution_threshold) +
            ": a World's own follows from gravity and the step";

@@ -1,0 +1,14 @@
+#include <cmath>
+
+#include "engine/precise/impact_laws/impact_law.h"
+
+namespace plumb::precise {
+
+double falling_restitution(double restitution, double speed, double yield_speed, double exponent) {
+  if (yield_speed <= 0 || speed <= yield_speed) return restitution;
+  const double ratio = yield_speed / speed;
+  // Two roots are rounded correctly everywhere, as the library's power is not.
+  return restitution * (exponent == 0.25 ? std::sqrt(std::sqrt(ratio)) : std::pow(ratio, exponent));
+}
+
+}  // namespace plumb::precise

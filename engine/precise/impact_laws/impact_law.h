@@ -1,0 +1,60 @@
+#pragma once
+
+/// Laws of one impact at one contact point, in closed form: a file each. A law sees of the bodies only how
+/// fast gap and slip change and what unit impulses do to that, so that it holds for any shapes and joints.
+namespace plumb::precise {
+
+/// A contact point in an impact. Rates are those before it.
+struct ImpactPoint {
+  double closing = 0;           ///< m/s, of the gap, negative
+  double slip = 0;              ///< m/s, along the tangent
+  double normal_response = 1;   ///< 1/kg, of the gap's rate to a normal impulse, > 0
+  double cross_response = 0;    ///< 1/kg, of the slip to a normal impulse, and the other way round
+  double tangent_response = 1;  ///< 1/kg, of the slip to a tangential impulse, > 0
+};
+
+struct ImpactCoefficients {
+  double restitution = 0;             ///< 0..1; each law has its own definition
+  double friction = 0;                ///< Coulomb's coefficient of the slip that the impact begins with
+  double later_friction = 0;          ///< after that slip has stopped: of sticking and of reversed slip
+  double tangential_restitution = 0;  ///< 0..1, see `with_tangential_restitution`
+};
+
+struct ContactImpulse {
+  double normal = 0;      ///< N s, >= 0
+  double tangential = 0;  ///< N s
+};
+
+/// Newton's law: the gap opens at `restitution` times the rate at which it closed; friction obeys Coulomb's
+/// law for the impulses and the slip that is left. With friction it may gain energy, because the opening rate
+/// is prescribed whatever friction does (Kane and Levinson 1985). `later_friction` is not used.
+ContactImpulse newton_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
+
+/// Poisson's law by Routh's method: the slip is followed along the growing normal impulse, with Coulomb's
+/// friction at each instant; the impulse of restitution is `restitution` times that of compression. Source:
+/// Routh, Dynamics of a System of Rigid Bodies (1860); Wang and Mason, J. Appl. Mech. 59 (1992) 635.
+ContactImpulse poisson_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
+
+/// Stronge's law: along the same path, the normal impulse does in restitution `restitution`^2 times the work
+/// that it took in compression. Never gains energy. Source: Stronge, Proc. R. Soc. A 431 (1990) 169.
+ContactImpulse stronge_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
+
+/// Returns the coefficient of restitution at an impact of `speed`: `restitution` up to `yield_speed`, beyond
+/// that restitution (speed / yield_speed)^-exponent. Exponent 1/4: a body that yields plastically (Johnson,
+/// Contact Mechanics (1985), 11.5). Speeds in m/s; a `yield_speed` of 0 means that it does not fall.
+double falling_restitution(double restitution, double speed, double yield_speed, double exponent = 0.25);
+
+/// Adds the part of the slip that comes back where friction has stopped it: the tangential impulse that
+/// leaves a slip of -tangential_restitution times that before, as far as friction holds, the gap does not
+/// close again and the whole impact has lost energy. Unchanged where the contact slips at the end.
+ContactImpulse with_tangential_restitution(const ImpactPoint& point, const ImpactCoefficients& coefficients,
+                                           const ContactImpulse& impulse);
+
+/// Returns the change of the kinetic energy by an impulse, J.
+double energy_change(const ImpactPoint& point, const ContactImpulse& impulse);
+
+/// Returns the rate of the gap, or the slip, after an impulse, m/s.
+double closing_after(const ImpactPoint& point, const ContactImpulse& impulse);
+double slip_after(const ImpactPoint& point, const ContactImpulse& impulse);
+
+}  // namespace plumb::precise

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "engine/precise/impact_laws/impact_law.h"
+
+namespace plumb::precise {
+
+/// The course of an impact along its growing normal impulse p, by Routh's method: gap rate and slip are
+/// linear in p, with at most one bend, where the slip with which the impact begins has stopped. After that
+/// the contact sticks or slips the other way for good.
+class SlipPath {
+ public:
+  SlipPath(const ImpactPoint& point, const ImpactCoefficients& coefficients);
+
+  double bend() const { return bend_; }  ///< N s, infinite if the slip does not stop
+  double closing(double p) const;        ///< m/s, of the gap
+  ContactImpulse impulse(double p) const;
+
+  /// Returns the normal impulse at which the gap stops closing, N s.
+  double compression() const;
+
+  /// Returns the work of the normal impulse from p to q, J.
+  double work(double p, double q) const;
+
+  /// Returns the normal impulse at which it has done `work` >= 0 since compression ended, N s.
+  double after_work(double work) const;
+
+ private:
+  double start_;                       ///< m/s, gap rate at p = 0
+  double first_slope_, second_slope_;  ///< 1/kg, of the gap rate before and after the bend
+  double first_share_, second_share_;  ///< tangential impulse a normal one
+  double bend_;
+};
+
+}  // namespace plumb::precise

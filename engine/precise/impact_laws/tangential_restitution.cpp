@@ -1,0 +1,30 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/precise/impact_laws/impact_law.h"
+
+namespace plumb::precise {
+namespace {
+
+/// Slip at the end, as a fraction of that before, below which the contact counts as stopped: rounding.
+constexpr double kStopped = 1e-9;
+
+}  // namespace
+
+ContactImpulse with_tangential_restitution(const ImpactPoint& point, const ImpactCoefficients& c,
+                                           const ContactImpulse& impulse) {
+  if (c.tangential_restitution == 0 || std::abs(slip_after(point, impulse)) > kStopped * std::abs(point.slip))
+    return impulse;
+  const double way = point.slip > 0 ? -1 : 1;
+  double more = c.tangential_restitution * std::abs(point.slip) / point.tangent_response;
+  const double cone = std::max(c.friction, c.later_friction) * impulse.normal;
+  more = std::min(more, std::max(0.0, cone - way * impulse.tangential));
+  // Without slip the addition costs tangent_response more^2 / 2, which what was lost must cover.
+  const double lost = std::max(0.0, -energy_change(point, impulse));
+  more = std::min(more, std::sqrt(2 * lost / point.tangent_response));
+  const double opening = closing_after(point, impulse), change = way * point.cross_response;
+  if (change < 0) more = std::min(more, std::max(0.0, opening) / -change);
+  return {impulse.normal, impulse.tangential + way * more};
+}
+
+}  // namespace plumb::precise

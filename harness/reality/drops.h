@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "harness/reality/data.h"
+#include "harness/reality/fit.h"
+#include "harness/reality/sample.h"
+#include "reference/backend.h"
+
+namespace plumb::harness::reality {
+
+/// Times after the first impact at which motions are compared, s.
+inline constexpr std::array<double, 4> kTimes{0.02, 0.06, 0.1, 0.2};
+
+/// A drop as it is computed: from the frame before it first touches the floor.
+struct DropStart {
+  int number = 0;
+  BodyState state{};
+  std::vector<MeasuredPose> frames{};  ///< measured, from the start on
+};
+
+/// Returns the drops whose motion before the first impact is known from four frames or more. The state at the
+/// start is the parabola through these frames, which are noisier one by one.
+std::vector<DropStart> starts_of(std::span<const MeasuredDrop> drops);
+
+/// Law of the drops: the contact rules and coefficients of a scene from fitted values. The first two
+/// parameters are half the square's side and the delay of what was measured.
+struct DropLaw {
+  std::string name, text;
+  std::vector<Parameter> parameters;
+  std::function<void(Scene&, std::span<const double>)> apply;
+};
+const std::vector<DropLaw>& drop_laws();
+
+/// Returns the scene of a drop: a square of uniform density over a floor at y = 0.
+Scene scene_of(const DropStart& start, const DropLaw& law, std::span<const double> values);
+
+/// Differences of two motions at each of `kTimes`.
+struct Differences {
+  std::array<Estimate, kTimes.size()> position;  ///< m, median with its interval
+  std::array<double, kTimes.size()> ninetieth;   ///< m, 90th percentile
+  std::array<Estimate, kTimes.size()> angle;     ///< rad, median
+};
+
+/// A law solved to a tolerance, against the measurement.
+struct DropFinding {
+  std::string name, text;
+  std::vector<Parameter> parameters;
+  std::vector<double> values;
+  Differences model;  ///< exact motion under the law, against the measured one
+};
+
+/// An engine at a step, under the first law that it has.
+struct EngineFinding {
+  std::string engine, law;
+  double dt = 0;          ///< s; 0: to a tolerance
+  std::string why_not{};  ///< reason if it was not run
+  int failed = 0;         ///< drops that it did not finish
+  Differences numerical;  ///< against the same law solved to a tolerance
+  Differences measured;   ///< against the measurement
+};
+
+struct DropFindings {
+  int drops = 0, left_out = 0;  ///< measured; of these without enough frames before the first impact
+  int tested = 0;
+  std::vector<DropFinding> laws;
+  std::vector<EngineFinding> engines;
+};
+
+/// Fits every law on one half of the drops, tests it on the other, and runs the engines on that.
+DropFindings examine_drops(std::span<const MeasuredDrop> drops,
+                           std::span<const reference::Backend* const> engines, std::uint64_t seed);
+
+}  // namespace plumb::harness::reality

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/reality/ellipse.h"
+
+namespace plumb::harness::reality {
+namespace {
+
+using precise::ContactImpulse;
+using precise::ImpactCoefficients;
+using precise::ImpactPoint;
+using Values = std::span<const double>;
+
+// The ellipse of 70 mm x 50 mm: a uniform disc has 4.6e-4 m^2, a mass nearer to the centre less.
+const Parameter kInertia{"inertia / mass", "m^2", 4e-4, 3e-5, 2e-4, 7e-4};
+const Parameter kFriction{"friction", "", 0.2, 0.03, 0, 1};
+const Parameter kRestitution{"restitution", "", 0.55, 0.03, 0, 1};
+const Parameter kLater{"later friction", "", 0.2, 0.03, 0, 1};
+const Parameter kTangential{"tangential restitution", "", 0.1, 0.05, 0, 1};
+const Parameter kExponent{"exponent", "", 0.25, 0.1, 0, 2};
+const Parameter kSlope{"restitution along the floor", "1/m", 0, 0.3, -4, 4};
+
+/// Speed beyond which restitution falls, m/s: below all that were measured, so that only the exponent and the
+/// coefficient at this speed are left to fit.
+constexpr double kYieldSpeed = 2;
+
+/// Place from which restitution along the floor is counted, m: about the middle of the impacts, so that the
+/// two parameters can be told apart.
+constexpr double kMiddle = 0.38;
+
+using Rule = ContactImpulse (*)(const ImpactPoint&, const ImpactCoefficients&);
+
+EllipseLaw simple(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            return rule(point, {v[2], v[1], v[1], 0});
+          }};
+}
+
+EllipseLaw tangential(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kTangential},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            const ImpactCoefficients c{v[2], v[1], v[1], v[3]};
+            return precise::with_tangential_restitution(point, c, rule(point, c));
+          }};
+}
+
+EllipseLaw falling(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kExponent},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[3]);
+            return rule(point, {e, v[1], v[1], 0});
+          }};
+}
+
+EllipseLaw later(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            return rule(point, {v[2], v[1], v[3], 0});
+          }};
+}
+
+EllipseLaw later_falling(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater, kExponent},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[4]);
+            return rule(point, {e, v[1], v[3], 0});
+          }};
+}
+
+EllipseLaw along_floor(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater, kSlope},
+          true,
+          [rule](const ImpactPoint& point, const MeasuredImpact& impact, Values v) {
+            const double e = std::clamp(v[2] + v[4] * (impact.place - kMiddle), 0.0, 1.0);
+            return rule(point, {e, v[1], v[3], 0});
+          }};
+}
+
+}  // namespace
+
+const std::vector<EllipseLaw>& ellipse_laws() {
+  static const std::vector<EllipseLaw> laws{
+      simple("newton", "Newton's restitution, Coulomb's friction for the impulses", precise::newton_impulse),
+      simple("poisson", "Poisson's restitution by Routh's method", precise::poisson_impulse),
+      simple("stronge", "Stronge's energetic restitution", precise::stronge_impulse),
+      tangential("stronge-tangential", "Stronge's, a part of the slip comes back", precise::stronge_impulse),
+      falling("stronge-falling", "Stronge's, restitution falls with speed", precise::stronge_impulse),
+      later("poisson-later", "Poisson's, a second friction once the slip has stopped",
+            precise::poisson_impulse),
+      later("stronge-later", "Stronge's, a second friction once the slip has stopped",
+            precise::stronge_impulse),
+      later_falling("stronge-later-falling", "Stronge's, second friction, restitution falls with speed",
+                    precise::stronge_impulse),
+      along_floor("stronge-later-floor", "Stronge's, second friction, restitution changes along this floor",
+                  precise::stronge_impulse)};
+  return laws;
+}
+
+}  // namespace plumb::harness::reality

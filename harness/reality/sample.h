@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plumb::harness::reality {
+
+/// A statistic of a sample, and the interval that holds 95 % of what bootstrap samples give.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+
+/// A random half of 0 .. count - 1, and the other. The same for a seed on every machine.
+struct Halves {
+  std::vector<std::size_t> train, test;
+};
+Halves halves_of(std::size_t count, std::uint64_t seed);
+
+/// Returns the quantile `share` (0..1) of `values`, between two of them linearly. Nan for none.
+double quantile(std::vector<double> values, double share);
+
+/// Returns the mean of the middle half: it ignores outliers as the median does, and does not jump from one
+/// value to the next when all change a little. Nan for none.
+double middle_mean(std::vector<double> values);
+
+/// Returns the quantile with its interval from 1000 bootstrap samples (percentiles 2.5 and 97.5 of theirs).
+/// Source: Efron and Tibshirani, An Introduction to the Bootstrap (1993), 13.3.
+Estimate estimate(std::span<const double> values, double share, std::uint64_t seed);
+
+}  // namespace plumb::harness::reality
