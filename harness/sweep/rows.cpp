@@ -62,6 +62,30 @@ std::vector<Result> latest(std::vector<Result> rows) {
   return out;
 }
 
+void keep_costs_of_one_machine(std::vector<Result>& rows) {
+  std::map<std::string, std::vector<std::pair<std::string, int>>> machines;  // by scene: kind, costs
+  for (const Result& row : rows) {
+    if (!row.cost || row.machine.empty()) continue;
+    auto& kinds = machines[row.label];
+    const auto known =
+        std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == row.machine; });
+    if (known == kinds.end()) {
+      kinds.emplace_back(row.machine, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  for (Result& row : rows) {
+    if (!row.cost || row.machine.empty()) continue;
+    const auto& kinds = machines[row.label];
+    const auto most = std::max_element(kinds.begin(), kinds.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most->first == row.machine) continue;
+    row.cost.reset();
+    row.cost_left_out = true;
+  }
+}
+
 std::vector<Result> read_rows(const std::string& folder_or_file) {
   const std::string path = file_of(folder_or_file);
   std::istringstream file(read_text(path, "`plumb compare` and `plumb sweep` write such files"));
@@ -77,7 +101,9 @@ std::vector<Result> read_rows(const std::string& folder_or_file) {
       throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
     }
   }
-  return latest(std::move(rows));
+  rows = latest(std::move(rows));
+  keep_costs_of_one_machine(rows);
+  return rows;
 }
 
 bool holds_rows(const std::string& folder_or_file) {
