@@ -10,6 +10,7 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <set>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -157,6 +158,23 @@ std::unique_ptr<Claim> Claim::take(const std::string& folder, int number, double
 
 Claim::~Claim() {
   if (nonce_of(text_of(path_)) == nonce_) unlink(path_.c_str());
+}
+
+void remove_dead_claims(const std::string& folder, double expiry) {
+  const double now =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  std::error_code code;
+  const std::set<int> done = numbers_in(folder, "done");
+  for (const int number : numbers_in(folder, "claims")) {
+    const std::string path = path_in(folder, "claims", number);
+    if (done.contains(number) && is_over(path, text_of(path), now, expiry)) unlink(path.c_str());
+  }
+  for (fs::directory_iterator at(fs::path(folder) / "doing", code), end; !code && at != end;
+       at.increment(code)) {
+    const std::string path = at->path().string();
+    if (!path.ends_with(".claim") && !path.ends_with(".expired")) continue;
+    if (is_over(path, text_of(path), now, expiry)) unlink(path.c_str());
+  }
 }
 
 bool is_claimed(const std::string& folder, int number, double expiry) {

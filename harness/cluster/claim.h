@@ -26,6 +26,9 @@ class Claim {
   std::string path_, nonce_;
 };
 
+/// Removes what dead processes have left of claims: to units that are done, and while they took one.
+void remove_dead_claims(const std::string& folder, double expiry);
+
 /// Returns true if a unit is claimed by a process that lives, as far as this machine's clock can tell.
 bool is_claimed(const std::string& folder, int number, double expiry);
 

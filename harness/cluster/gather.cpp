@@ -33,6 +33,11 @@ std::string dump(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Thrown when results cannot be written, apart from what is wrong with a unit.
+class CannotWrite : public Error {
+  using Error::Error;
+};
+
 /// A file that replaces another when it is complete.
 class Replacement {
  public:
@@ -52,13 +57,15 @@ class Replacement {
   }
 
   void finish() {
-    if (std::fflush(file_.get()) != 0 || rename(own_.c_str(), path_.c_str()) != 0) fail();
+    if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0 ||
+        rename(own_.c_str(), path_.c_str()) != 0)
+      fail();
   }
 
  private:
   [[noreturn]] void fail() {
-    throw Error(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
-                fmt::format("cannot be written: {}; what was there stays", std::strerror(errno)));
+    throw CannotWrite(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
+                      fmt::format("cannot be written: {}; what was there stays", std::strerror(errno)));
   }
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -146,6 +153,8 @@ class Merger {
     };
     try {
       if (for_each_line(path, take)) ++gathered_.cut_short;
+    } catch (const CannotWrite&) {
+      throw;
     } catch (const std::exception& error) {
       gathered_.survey.damaged[done.number] = fmt::format("{}: {}", format_.file, error.what());
     }
@@ -308,6 +317,7 @@ Gathered gather(const std::string& folder, const Plan& plan, const std::string& 
   const std::unique_ptr<const int, void (*)(const int*)> unlock(&lock, [](const int* file) {
     if (*file >= 0) close(*file);
   });
+  remove_dead_claims(folder, expiry);
   Gathered gathered{.survey = survey(folder, plan, expiry)};
   for (const Format& format : kFormats) {
     Merger merger(format, folder, out, gathered);

@@ -246,6 +246,7 @@ std::optional<int> Queue::next(Worked& worked) {
     worked = do_unit(folder_, plan_, *unit, options_, false);
     if (worked != Worked::Elsewhere && worked != Worked::Before) return unit->number;
   }
+  remove_dead_claims(folder_, options_.expiry);
   return {};
 }
 
