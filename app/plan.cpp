@@ -363,7 +363,7 @@ int start(const Options& options, const std::vector<std::string>& words) {
     longest = std::max(longest, unit.seconds);
   }
   const int added = cluster::add_to_plan(folder, std::move(plan));
-  print(fmt::format("{} units, about {:.0f} s in all, {:.0f} s the longest", wanted, seconds, longest));
+  print(fmt::format("{} units, about {:.3g} s in all, {:.2g} s the longest", wanted, seconds, longest));
   if (added != static_cast<int>(wanted)) print(fmt::format("; {} of them are new", added));
   print(fmt::format(
       "\n`plumb submit {0} --on local` does them here, `--on slurm` and `--on parallel` elsewhere\n",

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -46,11 +47,13 @@ struct Options {
   _exit(127);
 }
 
-pid_t start_plumb(const std::vector<std::string>& words) {
+pid_t start_worker(const std::vector<std::string>& words) {
   const pid_t child = fork();
   if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    // Each unit's line would come between the progress; failures are on stderr.
+    if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0) dup2(nothing, STDOUT_FILENO);
     become(words);
   }
   return child;
@@ -75,7 +78,7 @@ int run_script(const std::string& script) {
 int run_here(const std::string& folder, const cluster::Plan& plan, const Options& options, int jobs) {
   std::vector<pid_t> workers;
   harness::catch_interrupts();
-  for (int i = 0; i < jobs; ++i) workers.push_back(start_plumb({"work", folder, "--all"}));
+  for (int i = 0; i < jobs; ++i) workers.push_back(start_worker({"work", folder, "--all"}));
   ProgressLine progress;
   bool passed_on = false;
   while (!workers.empty()) {

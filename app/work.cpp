@@ -1,5 +1,6 @@
 #include "harness/cluster/work.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@ namespace plumb::app {
 namespace {
 
 namespace cluster = harness::cluster;
+
+constexpr useconds_t kShortest = 100'000, kLongest = 3'000'000;  // us between looks at others' claims
 
 struct Options {
   std::string folder, kind, calibration, expiry;
@@ -52,14 +55,17 @@ int tell(const std::string& folder, int number, cluster::Worked worked) {
 
 int do_all(const std::string& folder, const cluster::Plan& plan, const cluster::WorkOptions& how) {
   cluster::Queue queue(folder, plan, how);
+  useconds_t pause = kShortest;
   while (!harness::interrupted()) {
     cluster::Worked worked{};
     if (const std::optional<int> number = queue.next(worked)) {
       if (tell(folder, *number, worked) == kInterrupted) return kInterrupted;
+      pause = kShortest;
       continue;
     }
     if (!queue.waits()) return kOk;
-    usleep(500'000);  // others are at work, and their claims may expire
+    usleep(pause);  // others are at work, and their claims may expire
+    pause = std::min(2 * pause, kLongest);
   }
   return kInterrupted;
 }

@@ -273,7 +273,7 @@ Survey survey(const std::string& folder, const Plan& plan, double expiry) {
   Survey out;
   const std::set<int> done = numbers_in(folder, "done"), claimed = numbers_in(folder, "claims"),
                       failed = numbers_in(folder, "failed");
-  double estimated = 0, left = 0;
+  double estimated = 0, left = 0, calibrating = 0;
   for (const Unit& unit : plan.units) {
     if (done.contains(unit.number)) {
       try {
@@ -289,6 +289,8 @@ Survey survey(const std::string& folder, const Plan& plan, double expiry) {
       use_machine(one, out);
       out.seconds_done += one.seconds;
       estimated += unit.seconds;
+      calibrating += 1e-3 * (one.before.median_ms * one.before.repetitions +
+                             one.after.median_ms * one.after.repetitions);
       continue;
     }
     left += unit.seconds;
@@ -302,6 +304,8 @@ Survey survey(const std::string& folder, const Plan& plan, double expiry) {
     }
   }
   out.seconds_left = estimated > 0 ? left * out.seconds_done / estimated : left;
+  const auto open = static_cast<double>(plan.units.size() - out.done.size());
+  if (!out.done.empty()) out.seconds_left += open * calibrating / static_cast<double>(out.done.size());
   return out;
 }
 

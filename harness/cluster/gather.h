@@ -26,7 +26,7 @@ struct Survey {
   std::vector<int> noisy;                          ///< done while others used the machine
   std::map<std::string, MachineUse> machines;      ///< by kind
   double seconds_done = 0;                         ///< wall time of all units that are done
-  double seconds_left = 0;                         ///< estimate, corrected by what those done have taken
+  double seconds_left = 0;  ///< estimate, corrected by what those done have taken, with calibrations
 
   std::vector<int> missing() const;  ///< in order
 };

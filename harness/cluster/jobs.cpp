@@ -65,7 +65,7 @@ std::string array_script(const Plan& plan, const std::vector<int>& units, const 
 #SBATCH --job-name=plumb
 #SBATCH --array=1-{tasks}{throttle}
 #SBATCH --time={time}
-#   that is 3 times the {longest:.0f} s estimated for the longest task, and two minutes
+#   that is 3 times the {longest:.1f} s estimated for the longest task, and two minutes
 #SBATCH --mem={memory}M
 {alone}{partition}#SBATCH --requeue
 #SBATCH --open-mode=append

@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kMessages = "messages.txt";
 constexpr int kInterruptedCode = 130;
+constexpr std::size_t kLookedAt = 16;  // claims of others, of which some may be dead ones'
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -228,30 +229,44 @@ Queue::Queue(const std::string& folder, const Plan& plan, const WorkOptions& opt
                    [](const Unit* a, const Unit* b) { return a->seconds > b->seconds; });
 }
 
-bool Queue::is_open(const Unit& unit) const {
-  std::error_code code;
-  if (fs::exists(path_in(folder_, "done", unit.number), code)) return false;
-  const std::optional<Failure> failure = read_failure(folder_, unit.number);
-  return !failure || failure->attempts < options_.attempts;
+// Leaves out the units that are done, and those that have failed too often.
+void Queue::leave_out_closed() {
+  const std::set<int> done = numbers_in(folder_, "done"), failed = numbers_in(folder_, "failed");
+  std::erase_if(open_, [&](const Unit* unit) {
+    if (done.contains(unit->number)) return true;
+    if (!failed.contains(unit->number)) return false;
+    const std::optional<Failure> failure = read_failure(folder_, unit->number);
+    return failure && failure->attempts >= options_.attempts;
+  });
+}
+
+bool Queue::attempt(const Unit& unit, Worked& worked) const {
+  worked = do_unit(folder_, plan_, unit, options_, false);
+  return worked != Worked::Elsewhere && worked != Worked::Before;
 }
 
 std::optional<int> Queue::next(Worked& worked) {
-  std::erase_if(open_, [&](const Unit* unit) {
-    std::error_code code;
-    return fs::exists(path_in(folder_, "done", unit->number), code);
-  });
+  leave_out_closed();
+  const std::set<int> claims = numbers_in(folder_, "claims");
+  std::vector<const Unit*> claimed;
   for (const Unit* unit : open_) {
-    if (interrupted()) break;
-    if (!is_open(*unit)) continue;
-    worked = do_unit(folder_, plan_, *unit, options_, false);
-    if (worked != Worked::Elsewhere && worked != Worked::Before) return unit->number;
+    if (interrupted()) return {};
+    if (claims.contains(unit->number)) {
+      claimed.push_back(unit);
+    } else if (attempt(*unit, worked)) {
+      return unit->number;
+    }
+  }
+  // A few, drawn anew each time: a thousand that wait together look at all of them.
+  std::shuffle(claimed.begin(), claimed.end(), random_);
+  claimed.resize(std::min(claimed.size(), kLookedAt));
+  for (const Unit* unit : claimed) {
+    if (interrupted()) return {};
+    if (attempt(*unit, worked)) return unit->number;
   }
   remove_dead_claims(folder_, options_.expiry);
+  leave_out_closed();
   return {};
-}
-
-bool Queue::waits() const {
-  return std::any_of(open_.begin(), open_.end(), [&](const Unit* unit) { return is_open(*unit); });
 }
 
 }  // namespace plumb::harness::cluster

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ enum class Worked {
 Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
                bool force);
 
-/// Chooses units one after the other, the longest first.
+/// Chooses units one after the other, the longest first; then those whose claims may be dead ones'.
 class Queue {
  public:
   Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);
@@ -39,15 +40,17 @@ class Queue {
   std::optional<int> next(Worked& worked);
 
   /// Returns true if a unit is neither done nor given up: another does it, and may die.
-  bool waits() const;
+  bool waits() const { return !open_.empty(); }
 
  private:
-  bool is_open(const Unit& unit) const;
+  void leave_out_closed();
+  bool attempt(const Unit& unit, Worked& worked) const;
 
   std::string folder_;
   const Plan& plan_;
   WorkOptions options_;
   std::vector<const Unit*> open_;
+  std::mt19937 random_{std::random_device{}()};
 };
 
 }  // namespace plumb::harness::cluster

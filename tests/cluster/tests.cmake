@@ -20,3 +20,5 @@ foreach(test IN ITEMS
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/cluster_test.py $<TARGET_FILE:plumb_app> ${PROJECT_SOURCE_DIR} ${test})
   set_tests_properties(cluster/${test} PROPERTIES LABELS process SKIP_RETURN_CODE 77 TIMEOUT 600)
 endforeach()
+add_test(NAME cluster/simulate_self_test COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/simulate.py --self-test)
+set_tests_properties(cluster/simulate_self_test PROPERTIES LABELS unit)
