@@ -54,7 +54,7 @@ struct Given {
   }
 };
 
-/// What a unit consists of.
+/// Smallest part that a unit can consist of.
 struct Piece {
   std::string name, engine;  ///< engine: empty if all of the command's
   double seconds = 0;
@@ -301,6 +301,7 @@ class Splitter {
   std::vector<cluster::Unit> grouped(const std::vector<Piece>& pieces) const {
     const double enough =
         options_.unit_seconds.empty() ? 60 : parse_number("--unit-seconds", options_.unit_seconds);
+    if (enough < 0) throw UsageError("--unit-seconds is negative: give a number from 0");
     std::vector<cluster::Unit> out;
     for (std::size_t i = 0; i < pieces.size();) {
       cluster::Unit unit{.number = 0, .arguments = {given_.command}, .seconds = 0, .measured = true};

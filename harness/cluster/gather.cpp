@@ -74,7 +74,7 @@ class Replacement {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// What identifies a line, and what must be the same when it is done again.
+/// Identity of a line, and the part of it that must be the same when it is done again.
 struct Entry {
   std::string key, essence, status;
 };

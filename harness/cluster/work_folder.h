@@ -43,7 +43,7 @@ struct Plan {
   const Unit& unit(int number) const;  ///< throws `Error` (Value)
 };
 
-/// What a complete unit has beside its results.
+/// Facts about a complete unit, beside its results.
 struct Done {
   int number = 0;
   double seconds = 0;  ///< wall time

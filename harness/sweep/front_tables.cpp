@@ -142,8 +142,9 @@ std::string front_table(std::span<const Result> rows, const MetricField* metric,
   const auto elsewhere =
       std::count_if(rows.begin(), rows.end(), [](const Result& row) { return row.cost_left_out; });
   if (elsewhere > 0)
-    out += fmt::format("  the costs of {} runs are left out: measured on another kind of machine than the others\n",
-                       elsewhere);
+    out += fmt::format(
+        "  the costs of {} runs are left out: measured on another kind of machine than the others\n",
+        elsewhere);
   return out;
 }
 

@@ -122,6 +122,9 @@ def what_cannot_be_planned_is_refused(tmp):
                   ["compare", "free_fall", "--out", "x"]):
         run = plumb("plan", tmp / "work", *words, code=2)
         assert run.stderr.startswith("plumb: ") and run.stderr.count("\n") == 1, run.stderr
+    for option in ("--unit-seconds=nan", "--unit-seconds=-1", "--seeds=0", "--earlier=nowhere"):
+        plumb("plan", tmp / "work", option, *SMALL, code=2)
+    assert not (tmp / "work/plan.json").exists()
     plumb("work", tmp / "work", "--next", code=2)
     plumb("plan", tmp / "work", *SMALL)
     plumb("work", tmp / "work", code=2)

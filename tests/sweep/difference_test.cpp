@@ -115,7 +115,10 @@ TEST(Difference, ErrorsAreHeldBitByBit) {
 
 TEST(Difference, CostsOfDifferentMachinesAreNotCompared) {
   std::vector<Result> before{timed(0.1, 1), timed(0.2, 1), timed(0.3, 1)}, after = before;
-  for (Result& result : after) result.cost->each_ns_per_step = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  for (Result& result : after) {
+    result.cost->each_ns_per_step = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    result.cost->ns_per_step = 5;
+  }
   before[0].machine = before[1].machine = after[1].machine = after[2].machine = "a processor";
   after[0].machine = "another";
   const std::vector<Difference> rows = differences(before, after);
