@@ -108,10 +108,8 @@ void note_failure(const std::string& folder, int number, const std::string& kind
   failure.kind = kind;
   failure.message = message;
   failure.host = this_machine().host;
-  try {
-    write_whole(path_in(folder, "failed", number) + ".json", to_json(failure));
-  } catch (const Error&) {  // the disk is full: the unit is merely not done
-  }
+  // Throws where the disk is full: who cannot write down a failure would try for ever.
+  write_whole(path_in(folder, "failed", number) + ".json", to_json(failure));
 }
 
 void sync(const std::string& path, int flags) {
