@@ -73,7 +73,7 @@ std::string missing_text(const std::string& folder, const cluster::Survey& surve
          Ink::Red);
   if (!survey.noisy.empty())
     line(fmt::format(
-             "others used the machine during: {}; their costs are noisy, `plumb work {} --unit K --again` "
+             "others used the machine during: {}; where times matter, `plumb work {} --unit K --again` "
              "measures again",
              cluster::ranges(survey.noisy), folder),
          Ink::Yellow);

@@ -27,7 +27,7 @@ enum class Worked {
 };
 
 /// Does one unit: in a folder of its own, renamed when complete. `force`: whoever has the claim. Throws
-/// `Error` (Io) if the folder of work cannot be written.
+/// `Error` (Io) if the folder of work cannot be written, not even that the unit failed.
 Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
                bool force);
 

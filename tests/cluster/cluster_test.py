@@ -184,6 +184,25 @@ def a_full_disk_is_said_and_loses_nothing(tmp):
     assert not [name for name in entries(tmp / "out") if name.endswith(".new")]
 
 
+def a_disk_without_room_for_anything_ends_the_worker(tmp):
+    small = tmp / "small"
+    small.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", small], capture_output=True).returncode != 0:
+        sys.exit(SKIPPED)  # only root may
+    try:
+        work = small / "work"
+        plumb("plan", work, "--unit-seconds", "0", *SMALL)
+        run = plumb("work", work, "--all", *QUICK, code=2)
+        assert "No space left on device" in run.stderr, run.stderr
+        assert 0 < state(work)["done"] < state(work)["units"]
+        subprocess.run(["mount", "-o", "remount,size=8m", small], check=True)
+        plumb("work", work, "--all", *QUICK, "--attempts", "99")
+        plumb("gather", work, "--out", tmp / "out", "--no-report")
+    finally:
+        subprocess.run(["umount", small], check=True)
+    assert rows_of(tmp / "out") == local(tmp / "local", *SMALL)
+
+
 def gatherings_at_once_give_whole_results(tmp):
     work = tmp / "work"
     plumb("plan", work, "--unit-seconds", "0", *SMALL)

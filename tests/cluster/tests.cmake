@@ -6,6 +6,7 @@ foreach(test IN ITEMS
     killed_at_any_instant_nothing_is_lost
     a_gathering_that_is_killed_leaves_whole_results
     a_full_disk_is_said_and_loses_nothing
+    a_disk_without_room_for_anything_ends_the_worker
     gatherings_at_once_give_whole_results
     what_is_done_twice_counts_once
     claims_of_the_dead_expire_whatever_the_clocks_say
