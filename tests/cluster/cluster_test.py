@@ -301,6 +301,9 @@ def costs_of_different_machines_do_not_meet(tmp):
     assert "the costs of 1 runs are left out: measured on another kind of machine" in front, front
     assert {row.split(",")[1] for row in plumb("front", tmp / "out", "--format", "csv").stdout.splitlines()[1:]} == {
         "plumb", "plumb-float"}, "the front of the kind of machine with the most costs"
+    assert {row.split(",")[1] for row in plumb("front", tmp / "out", "--format", "csv", "--machine",
+                                               "new").stdout.splitlines()[1:]} == {"box2d"}
+    plumb("front", tmp / "out", "--machine", "newest", code=2)
     report = (tmp / "out/report.html").read_text()
     assert '"cost_left_out":true' in report
     # Nor do old and new.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/scene/error.h"
 #include "harness/sweep/rank_test.h"
 #include "harness/sweep/rows.h"
 #include "tests/sweep/rows.h"
@@ -136,6 +137,10 @@ TEST(Rows, ASceneKeepsTheCostsOfTheKindOfMachineThatHasMost) {
     rows.back().machine = machine;
   }
   rows.back().label = "another scene";
+  std::vector<Result> chosen = rows;
+  keep_costs_of_one_machine(chosen, "old");
+  EXPECT_TRUE(chosen[0].cost && !chosen[1].cost && !chosen[2].cost && chosen[3].cost && chosen[4].cost);
+  EXPECT_THROW(keep_costs_of_one_machine(chosen, "older"), Error);
   keep_costs_of_one_machine(rows);
   EXPECT_FALSE(rows[0].cost);
   EXPECT_TRUE(rows[0].cost_left_out);
