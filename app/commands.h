@@ -26,6 +26,11 @@ void add_hunt(CLI::App& app, Action& chosen);
 void add_limits(CLI::App& app, Action& chosen);
 void add_thresholds(CLI::App& app, Action& chosen);
 void add_reality(CLI::App& app, Action& chosen);
+void add_plan(CLI::App& app, Action& chosen);
+void add_work(CLI::App& app, Action& chosen);
+void add_gather(CLI::App& app, Action& chosen);
+void add_status(CLI::App& app, Action& chosen);
+void add_submit(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view

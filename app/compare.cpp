@@ -33,7 +33,7 @@ struct Options {
   EngineOptions engines;
   std::string dt, timeout, out = "results", format = "console";
   int size = 0;
-  bool no_cost = false;
+  bool no_cost = false, no_report = false;
 };
 
 std::string as_text(std::span<const Result> results, const std::string& format, const Style& style) {
@@ -96,7 +96,7 @@ int start(const Options& options) {
     notice(fmt::format("interrupted; {} finished results are in {}", comparison.results.size(), log.path()));
     return kInterrupted;
   }
-  if (!report(options, what.engines)) return kUsage;
+  if (!options.no_report && !report(options, what.engines)) return kUsage;
   return comparison.as_expected() ? kOk : kCheckFailed;
 }
 
@@ -123,6 +123,7 @@ void add_compare(CLI::App& app, Action& chosen) {
   command->add_option("--format", options->format, "console, json (a result a line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->add_flag("--no-cost", options->no_cost, "leave out what a step costs");
+  command->add_flag("--no-report", options->no_report, "write results.jsonl alone; `plumb report` draws it");
   command->footer(
       "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain --size 20 --engine plumb,box2d\n"
       "  plumb compare elastic_collision/oblique --dt 1/240 --format json --out /tmp/oblique\n"

@@ -17,11 +17,11 @@ namespace {
 namespace sweep = harness::sweep;
 
 struct Options {
-  std::string folder, metric, format = "console";
+  std::string folder, metric, machine, format = "console";
 };
 
 int start(const Options& options) {
-  const std::vector<harness::Result> rows = sweep::read_rows(options.folder);
+  const std::vector<harness::Result> rows = sweep::read_rows(options.folder, options.machine);
   const harness::MetricField* metric = options.metric.empty() ? nullptr : &metric_by_name(options.metric);
   if (options.format != "console") {
     print(sweep::trade_data(rows, metric, options.format));
@@ -45,6 +45,10 @@ void add_front(CLI::App& app, Action& chosen) {
       ->type_name("DIR");
   add_metric(*command, options->metric,
              "that the fronts are of (default: position_error, or what the scene has)");
+  command
+      ->add_option("--machine", options->machine,
+                   "kind of machine whose costs are taken (default: in each scene that with the most)")
+      ->type_name("NAME");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->footer("Examples:\n  plumb front sweep\n  plumb front sweep --metric energy_drift --format json");

@@ -100,6 +100,11 @@ int main(int argc, char** argv) {
   add_limits(app, action);
   add_reality(app, action);
   add_report(app, action);
+  add_plan(app, action);
+  add_submit(app, action);
+  add_work(app, action);
+  add_status(app, action);
+  add_gather(app, action);
   add_bench(app);
   add_window(app);
   return reporting_errors([&] { return parse_and_run(app, action, argc, argv); });

@@ -141,6 +141,8 @@ Result result_from(const Json& json) {
   result.agrees_with = json.at("agrees_with").get<std::vector<std::string>>();
   result.disagrees_with = json.at("disagrees_with").get<std::vector<std::string>>();
   result.unexpected = json.at("unexpected").get<std::vector<std::string>>();
+  if (const auto where = json.find("environment"); where != json.end() && where->is_object())
+    result.machine = where->value("machine", where->value("cpu", ""));
   return result;
 }
 

@@ -54,6 +54,8 @@ struct Result {
   std::vector<Check> checks;
   std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
   std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences
+  std::string machine{};       ///< kind of machine that the cost was measured on; empty if unknown
+  bool cost_left_out = false;  ///< measured on another kind of machine than the scene's other costs
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;

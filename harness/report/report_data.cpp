@@ -90,6 +90,7 @@ Json row_json(const Result& row) {
             {"missed", missed_json(row)},
             {"unexpected", row.unexpected},
             {"disagrees_with", row.disagrees_with}};
+  if (row.cost_left_out) json["cost_left_out"] = true;
   if (row.cost)
     json["cost"] = {{"step", row.cost->ns_per_step},      {"low", row.cost->ns_per_step_low},
                     {"high", row.cost->ns_per_step_high}, {"second", row.cost->ns_per_simulated_second},

@@ -50,6 +50,12 @@ class Record {
     }
     for (std::size_t i = 1; i < journal_.lines().size(); ++i) {
       try {
+        // Gathered cells may have the environment of another machine before them.
+        if (const Json line = Json::parse(journal_.lines()[i], nullptr, false);
+            line.is_object() && line.value("kind", Json()) == "environment") {
+          require_same(line, now);
+          continue;
+        }
         keep(cell_from_json(journal_.lines()[i]));
       } catch (const Error& error) {
         throw Error(Error::Kind::Syntax, fmt::format("file '{}'", journal_.path()), "", "", error.what(),

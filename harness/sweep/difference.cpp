@@ -26,7 +26,12 @@ Difference named(const Result& row) {
 }
 
 void hold_costs(const Result& before, const Result& after, Difference& out) {
+  if (before.cost_left_out || after.cost_left_out) out.cost = Verdict::Elsewhere;
   if (!before.cost || !after.cost) return;
+  if (!before.machine.empty() && !after.machine.empty() && before.machine != after.machine) {
+    out.cost = Verdict::Elsewhere;
+    return;
+  }
   out.cost_before = before.cost->ns_per_step;
   out.cost_after = after.cost->ns_per_step;
   const std::vector<double>&a = before.cost->each_ns_per_step, &b = after.cost->each_ns_per_step;
@@ -72,6 +77,8 @@ std::string_view name_of(Verdict verdict) {
       return "cannot be told from noise";
     case Verdict::TooFew:
       return "too few repetitions";
+    case Verdict::Elsewhere:
+      return "measured on different kinds of machine";
     case Verdict::Unknown:
       break;
   }

@@ -17,6 +17,7 @@ enum class Verdict {
   CannotTell,  ///< the noise hides it
   TooFew,      ///< fewer than `kEnough` repetitions
   Unknown,     ///< not measured on both sides
+  Elsewhere,   ///< measured on different kinds of machine
 };
 
 std::string_view name_of(Verdict verdict);

@@ -43,7 +43,7 @@ void describe(const Difference& row, std::vector<Line>& out) {
 }
 
 std::string counts(std::span<const Difference> rows) {
-  int verdicts[5] = {}, same = 0, better = 0, worse = 0, gone = 0, fresh = 0;
+  int verdicts[6] = {}, same = 0, better = 0, worse = 0, gone = 0, fresh = 0;
   for (const Difference& row : rows) {
     if (!row.after) ++gone;
     if (!row.before) ++fresh;
@@ -60,6 +60,8 @@ std::string counts(std::span<const Difference> rows) {
   if (verdicts[3] > 0)
     out += fmt::format(", {} have fewer than {} repetitions, which a rank test needs", verdicts[3], kEnough);
   if (verdicts[4] > 0) out += fmt::format(", {} not measured", verdicts[4]);
+  if (verdicts[5] > 0)
+    out += fmt::format(", {} left out: measured on different kinds of machine", verdicts[5]);
   out += "\n";
   if (gone + fresh > 0)
     out += fmt::format("{} runs only in the old results, {} only in the new\n", gone, fresh);

@@ -139,6 +139,12 @@ std::string front_table(std::span<const Result> rows, const MetricField* metric,
       +[](double cost) { return duration_text(cost); }, +[](double error) { return figure(error); });
   if (const std::string text = orders(trade); !text.empty())
     out += "  " + wrap(text, style.width - 2, 4) + "\n";
+  const auto elsewhere =
+      std::count_if(rows.begin(), rows.end(), [](const Result& row) { return row.cost_left_out; });
+  if (elsewhere > 0)
+    out += fmt::format(
+        "  the costs of {} runs are left out: measured on another kind of machine than the others\n",
+        elsewhere);
   return out;
 }
 

@@ -20,6 +20,19 @@ std::string file_of(const std::string& folder_or_file) {
   return std::filesystem::is_directory(path, code) ? (path / "results.jsonl").string() : folder_or_file;
 }
 
+void require_machine(const std::vector<Result>& rows, const std::string& machine) {
+  std::string others;
+  for (const Result& row : rows) {
+    if (!row.cost || row.machine.empty()) continue;
+    if (row.machine == machine) return;
+    if (others.find("'" + row.machine + "'") == std::string::npos)
+      others += fmt::format("{}'{}'", others.empty() ? "" : ", ", row.machine);
+  }
+  throw Error(
+      Error::Kind::Name, "a kind of machine", "", machine,
+      others.empty() ? "has no costs here" : "has no costs here: those there are come from " + others);
+}
+
 }  // namespace
 
 std::string key_of(const Result& row) {
@@ -62,7 +75,32 @@ std::vector<Result> latest(std::vector<Result> rows) {
   return out;
 }
 
-std::vector<Result> read_rows(const std::string& folder_or_file) {
+void keep_costs_of_one_machine(std::vector<Result>& rows, const std::string& machine) {
+  std::map<std::string, std::vector<std::pair<std::string, int>>> machines;  // by scene: kind, costs
+  for (const Result& row : rows) {
+    if (!row.cost || row.machine.empty()) continue;
+    auto& kinds = machines[row.label];
+    const auto known =
+        std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == row.machine; });
+    if (known == kinds.end()) {
+      kinds.emplace_back(row.machine, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  if (!machine.empty()) require_machine(rows, machine);
+  for (Result& row : rows) {
+    if (!row.cost || row.machine.empty() || row.machine == machine) continue;
+    const auto& kinds = machines[row.label];
+    const auto most = std::max_element(kinds.begin(), kinds.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (machine.empty() && most->first == row.machine) continue;
+    row.cost.reset();
+    row.cost_left_out = true;
+  }
+}
+
+std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine) {
   const std::string path = file_of(folder_or_file);
   std::istringstream file(read_text(path, "`plumb compare` and `plumb sweep` write such files"));
   std::vector<Result> rows;
@@ -77,7 +115,9 @@ std::vector<Result> read_rows(const std::string& folder_or_file) {
       throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
     }
   }
-  return latest(std::move(rows));
+  rows = latest(std::move(rows));
+  keep_costs_of_one_machine(rows, machine);
+  return rows;
 }
 
 bool holds_rows(const std::string& folder_or_file) {

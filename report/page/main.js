@@ -14,6 +14,8 @@ function counted() {
       missed += isMissed(row);
       unexpected += row.unexpected.length > 0;
     }
+  const elsewhere = data.scenes.reduce((sum, scene) => sum + scene.rows.filter((row) => row.cost_left_out).length, 0);
+  const leftOut = elsewhere ? `The costs of ${elsewhere} are left out: measured on another kind of machine than the scene's others.` : "";
   const {endurances, thresholds} = data.extremes;
   const total = (key) => endurances.filter((row) => row.setting !== "any setting").reduce((sum, row) => sum + row[key], 0);
   const found = [endurances.length ? `${total("total")} cells of extremes, ${total("survived")} survived.` : "",
@@ -21,7 +23,7 @@ function counted() {
   if (data.scenes.length === 0) return found.join(" ");
   const parts = [...counts].map(([status, count]) => `${count} ${status}`);
   return `${data.scenes.length} scenes, ${data.engines.length} engines; runs: ${parts.join(", ")}. ` +
-    [`${missed} missed a check; ${unexpected} not as expected.`, ...found].join(" ");
+    [`${missed} missed a check; ${unexpected} not as expected.`, leftOut, ...found].filter(Boolean).join(" ");
 }
 
 function goTo(label) {

@@ -51,6 +51,10 @@ std::vector<std::string> complete(const std::string& subcommand, const std::stri
       {"check", {"--engine", "plumb"}},
       {"sweep", {"free_fall/vacuum"}},
       {"tune", {"free_fall/vacuum"}},
+      {"submit", {"work", "--on", "local"}},
+      {"work", {"work", "--next"}},
+      {"gather", {"work"}},
+      {"status", {"work"}},
       {"demo", {"bouncing_ball", "--headless"}},
       {"view", {"free_fall/vacuum", "--headless"}}};
   std::vector<std::string> arguments{subcommand};

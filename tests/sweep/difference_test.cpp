@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/scene/error.h"
 #include "harness/sweep/rank_test.h"
+#include "harness/sweep/rows.h"
 #include "tests/sweep/rows.h"
 
 namespace plumb::harness::sweep {
@@ -110,6 +112,43 @@ TEST(Difference, ErrorsAreHeldBitByBit) {
   EXPECT_TRUE(any_worse(std::span(rows).subspan(2, 1))) << "it does not run any more";
   EXPECT_FALSE(rows[3].after);
   EXPECT_FALSE(rows[4].before);
+}
+
+TEST(Difference, CostsOfDifferentMachinesAreNotCompared) {
+  std::vector<Result> before{timed(0.1, 1), timed(0.2, 1), timed(0.3, 1)}, after = before;
+  for (Result& result : after) {
+    result.cost->each_ns_per_step = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    result.cost->ns_per_step = 5;
+  }
+  before[0].machine = before[1].machine = after[1].machine = after[2].machine = "a processor";
+  after[0].machine = "another";
+  const std::vector<Difference> rows = differences(before, after);
+  EXPECT_EQ(rows[0].cost, Verdict::Elsewhere);
+  EXPECT_EQ(rows[1].cost, Verdict::Better);
+  EXPECT_EQ(rows[2].cost, Verdict::Better) << "where one is unknown they are taken as they are";
+  EXPECT_NE(difference_table(rows, {}).find("1 left out: measured on different kinds of machine"),
+            std::string::npos);
+}
+
+TEST(Rows, ASceneKeepsTheCostsOfTheKindOfMachineThatHasMost) {
+  std::vector<Result> rows;
+  for (const char* machine : {"old", "new", "new", "", "old"}) {
+    rows.push_back(row("plumb", 1e-3, 100));
+    rows.back().machine = machine;
+  }
+  rows.back().label = "another scene";
+  std::vector<Result> chosen = rows;
+  keep_costs_of_one_machine(chosen, "old");
+  EXPECT_TRUE(chosen[0].cost && !chosen[1].cost && !chosen[2].cost && chosen[3].cost && chosen[4].cost);
+  EXPECT_THROW(keep_costs_of_one_machine(chosen, "older"), Error);
+  keep_costs_of_one_machine(rows);
+  EXPECT_FALSE(rows[0].cost);
+  EXPECT_TRUE(rows[0].cost_left_out);
+  EXPECT_TRUE(rows[0].metrics.position_error) << "errors are the same everywhere";
+  for (const std::size_t kept : {1, 2, 3, 4}) {
+    EXPECT_TRUE(rows[kept].cost) << kept;
+    EXPECT_FALSE(rows[kept].cost_left_out) << kept;
+  }
 }
 
 }  // namespace

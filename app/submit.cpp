@@ -1,0 +1,219 @@
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "app/progress_line.h"
+#include "app/usage.h"
+#include "engine/scene/error.h"
+#include "harness/cluster/gather.h"
+#include "harness/cluster/jobs.h"
+#include "harness/cluster/work.h"
+#include "harness/interrupt.h"
+#include "harness/text_file.h"
+
+namespace plumb::app {
+namespace {
+
+namespace cluster = harness::cluster;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder, on, out, hosts, partition;
+  int nodes = 0, jobs = 0, memory = 4096;
+  bool dry_run = false;
+};
+
+// Replaces this process by plumb, with `words`.
+[[noreturn]] void become(std::vector<std::string> words) {
+  words.insert(words.begin(), "plumb");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv("/proc/self/exe", pointers.data());
+  _exit(127);
+}
+
+pid_t start_worker(const std::vector<std::string>& words) {
+  const pid_t child = fork();
+  if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    // Each unit's line would come between the progress; failures are on stderr.
+    if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0) dup2(nothing, STDOUT_FILENO);
+    become(words);
+  }
+  return child;
+}
+
+// Runs `bash script`; returns its exit code.
+int run_script(const std::string& script) {
+  flush();
+  const pid_t child = fork();
+  if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
+  if (child == 0) {
+    execlp("bash", "bash", script.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kInterrupted;
+}
+
+// Does the units on this machine, `jobs` at a time, and gathers them.
+int run_here(const std::string& folder, const cluster::Plan& plan, const Options& options, int jobs) {
+  std::vector<pid_t> workers;
+  harness::catch_interrupts();
+  for (int i = 0; i < jobs; ++i) workers.push_back(start_worker({"work", folder, "--all"}));
+  ProgressLine progress;
+  bool passed_on = false;
+  while (!workers.empty()) {
+    std::erase_if(workers, [](pid_t worker) { return waitpid(worker, nullptr, WNOHANG) == worker; });
+    if (harness::interrupted() && !passed_on) {
+      for (const pid_t worker : workers) kill(worker, SIGTERM);
+      passed_on = true;
+    }
+    progress.show({cluster::numbers_in(folder, "done").size(), plan.units.size(), "units"});
+    usleep(200'000);
+  }
+  progress.clear();
+  if (harness::interrupted()) {
+    notice(fmt::format("interrupted; `plumb submit {} --on local` goes on", options.folder));
+    return kInterrupted;
+  }
+  become({"gather", folder, "--out", options.out});
+}
+
+// Makes a folder of its own for a submission.
+std::string new_place(const std::string& folder) {
+  for (int number = 1;; ++number) {
+    const fs::path place = fs::path(folder) / "submit" / fmt::format("{:03}", number);
+    std::error_code code;
+    fs::create_directories(place.parent_path(), code);
+    if (fs::create_directory(place, code)) {
+      fs::create_directory(place / "log");
+      return place.string();
+    }
+    if (code)
+      throw Error(Error::Kind::Io, fmt::format("folder '{}'", place.string()), "", "",
+                  fmt::format("cannot be made: {}", code.message()));
+  }
+}
+
+std::string hosts_text(const std::string& hosts) {
+  std::error_code code;
+  if (fs::is_regular_file(hosts, code)) return harness::read_text(hosts);
+  std::string out;
+  for (const char c : hosts) out += c == ',' ? '\n' : c;
+  return out + "\n";
+}
+
+// Writes the scripts; returns the one that submits.
+std::string write_scripts(const cluster::Plan& plan, const std::vector<int>& units, const Options& options,
+                          cluster::JobOptions& job) {
+  std::string list;
+  for (const int unit : units) list += fmt::format("{}\n", unit);
+  const auto write = [&](const char* name, const std::string& text) {
+    harness::write_whole(job.place + "/" + name, text);
+    return job.place + "/" + name;
+  };
+  write("units.txt", list);
+  if (options.on == "parallel") {
+    if (!options.hosts.empty()) job.hosts = write("hosts.txt", hosts_text(options.hosts));
+    return write("parallel.sh", cluster::parallel_script(plan, job));
+  }
+  write("array.sh", cluster::array_script(plan, units, job));
+  write("gather.sh", cluster::gather_script(plan, job));
+  return write("submit.sh", cluster::slurm_script(job));
+}
+
+int start(Options options) {
+  const std::string folder = fs::absolute(options.folder).lexically_normal().string();
+  const cluster::Plan plan = cluster::read_plan(folder);
+  cluster::require_same_program(options.folder, plan, cluster::this_program());
+  options.out =
+      options.out.empty() ? folder + "/results" : fs::absolute(options.out).lexically_normal().string();
+  const std::vector<int> units = cluster::survey(folder, plan, cluster::WorkOptions{}.expiry).missing();
+  if (options.on == "local") {
+    // Costs that are measured side by side disturb each other.
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int jobs = options.jobs > 0 ? options.jobs : plan.measures_cost ? 1 : cores;
+    if (options.dry_run) {
+      print(fmt::format("{} x: plumb work {} --all\nplumb gather {} --out {}\n", jobs, folder, folder,
+                        options.out));
+      return kOk;
+    }
+    return run_here(folder, plan, options, jobs);
+  }
+  if (units.empty()) {
+    print(fmt::format("all units are done; `plumb gather {}` merges them\n", options.folder));
+    return kOk;
+  }
+  cluster::JobOptions job{.folder = folder,
+                          .place = new_place(folder),
+                          .out = options.out,
+                          .at_once = options.nodes,
+                          .memory = options.memory,
+                          .partition = options.partition,
+                          .hosts = {}};
+  const std::string script = write_scripts(plan, units, options, job);
+  print(fmt::format("{} units in {}; `bash {}` submits them\n", units.size(), job.place, script));
+  return options.dry_run ? kOk : run_script(script);
+}
+
+}  // namespace
+
+void add_submit(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("submit", "do a folder of work by Slurm, by GNU parallel, or here");
+  auto options = std::make_shared<Options>();
+  command->add_option("folder", options->folder, "folder that `plumb plan` made")
+      ->required()
+      ->type_name("FOLDER");
+  command->add_option("--on", options->on, "slurm, parallel or local")
+      ->required()
+      ->check(CLI::IsMember({"slurm", "parallel", "local"}));
+  command->add_option("--nodes", options->nodes, "slurm: units at a time (default: as the queue lets)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_option("--partition", options->partition, "slurm: partition (default: the cluster's)")
+      ->type_name("NAME");
+  command->add_option("--memory", options->memory, "slurm: megabytes of a unit (default 4096)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MB");
+  command
+      ->add_option("--hosts", options->hosts,
+                   "parallel: hosts, parted by commas, or a file for --sshloginfile (default: this machine)")
+      ->type_name("HOSTS");
+  command
+      ->add_option("--jobs", options->jobs,
+                   "local: units at a time (default: one a core, one alone where costs are measured)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command->add_option("--out", options->out, "folder for the results (default FOLDER/results)")
+      ->check(problem_with_path)
+      ->type_name("DIR");
+  command->add_flag("--dry-run", options->dry_run, "write the scripts and run nothing");
+  command->footer(
+      "Examples:\n  plumb submit work --on local\n  plumb submit work --on slurm --nodes 8 --dry-run\n"
+      "  plumb submit work --on parallel --hosts node1,node2\n"
+      "The scripts are in FOLDER/submit, to be read and edited. See docs/cluster.md. Exit codes: 0 "
+      "submitted, or\n"
+      "all done; 1 some units are missing; 2 usage; 130 interrupted.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/cluster/work_folder.h"
+
+namespace plumb::harness::cluster {
+
+/// Largest number of tasks in one array: Slurm's MaxArraySize is 1001 unless set, and the last index is
+/// below.
+inline constexpr int kMostTasks = 1000;
+
+/// Settings of a submission.
+struct JobOptions {
+  std::string folder;     ///< of work, absolute
+  std::string place;      ///< absolute folder for the scripts, the list of units and the logs
+  std::string out;        ///< folder that the results are gathered to, absolute
+  int at_once = 0;        ///< units at a time, on all machines; 0: as many as there is room for
+  int memory = 4096;      ///< megabytes of a unit
+  std::string partition;  ///< of Slurm; empty: its default
+  std::string hosts;      ///< file for --sshloginfile; empty: this machine
+};
+
+/// Number of units that a task of the array does one after the other, so that there are at most `kMostTasks`.
+int units_a_task(std::size_t units);
+
+/// Time limit in s: three times the estimate of the longest task, and two minutes.
+int time_limit(const Plan& plan, const std::vector<int>& units);
+
+/// Scripts for people to read, edit and run.
+std::string array_script(const Plan& plan, const std::vector<int>& units, const JobOptions& options);
+std::string gather_script(const Plan& plan, const JobOptions& options);
+std::string slurm_script(const JobOptions& options);
+std::string parallel_script(const Plan& plan, const JobOptions& options);
+
+/// Puts `text` between single quotes for a shell, where it needs them.
+std::string quoted_for_shell(const std::string& text);
+
+}  // namespace plumb::harness::cluster

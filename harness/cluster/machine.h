@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+namespace plumb::harness::cluster {
+
+/// Fingerprint of the machine that a unit ran on.
+struct Machine {
+  std::string kind;  ///< costs of one kind are compared with each other: the processor's name, or as given
+  std::string cpu, os, host;
+  int cores = 0;         ///< that this process may run on
+  double memory_gb = 0;  ///< installed, 1e9 bytes
+};
+
+/// Returns this machine's fingerprint; `kind` replaces the processor's name if it is not empty.
+Machine this_machine(const std::string& kind = "");
+
+/// Times of a fixed piece of arithmetic (about 2 ms), repeated.
+struct Calibration {
+  double fastest_ms = 0, median_ms = 0;
+  int repetitions = 0;
+};
+
+/// Repeats the piece for `seconds`, at least three times.
+Calibration calibrate(double seconds);
+
+/// Returns true if others used the machine at the time: a median a quarter above the fastest, or that differs
+/// by a quarter from before to after. The quarter is the spread from which a cost is called noisy.
+bool is_noisy(const Calibration& before, const Calibration& after);
+
+std::string to_json(const Machine& machine);
+std::string to_json(const Calibration& calibration);
+Machine machine_from_json(const std::string& text);
+Calibration calibration_from_json(const std::string& text);
+
+}  // namespace plumb::harness::cluster

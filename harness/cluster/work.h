@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "harness/cluster/work_folder.h"
+
+namespace plumb::harness::cluster {
+
+struct WorkOptions {
+  std::string kind;        ///< of the machine; empty: its processor's name
+  double calibration = 1;  ///< s, half of it before the unit and half after
+  double expiry = 300;     ///< s without renewal after which a claim is a dead one's
+  int attempts = kAttempts;
+  bool again = false;  ///< also a unit that is done: its results are replaced when the new are complete
+};
+
+enum class Worked {
+  Done,
+  Before,       ///< it was done already
+  Elsewhere,    ///< another does it
+  Failed,       ///< `Failure` is in failed/
+  Interrupted,  ///< it is free again
+};
+
+/// Does one unit: in a folder of its own, renamed when complete. `force`: whoever has the claim. Throws
+/// `Error` (Io) if the folder of work cannot be written, not even that the unit failed.
+Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
+               bool force);
+
+/// Chooses units one after the other, the longest first; then those whose claims may be dead ones'.
+class Queue {
+ public:
+  Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);
+
+  /// Does the next unit that is free. Returns its number; nothing if none is free.
+  std::optional<int> next(Worked& worked);
+
+  /// Returns true if a unit is neither done nor given up: another does it, and may die.
+  bool waits() const { return !open_.empty(); }
+
+ private:
+  void leave_out_closed();
+  bool attempt(const Unit& unit, Worked& worked) const;
+
+  std::string folder_;
+  const Plan& plan_;
+  WorkOptions options_;
+  std::vector<const Unit*> open_;
+  std::mt19937 random_{std::random_device{}()};
+};
+
+}  // namespace plumb::harness::cluster

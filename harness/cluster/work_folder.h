@@ -1,0 +1,101 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "harness/cluster/machine.h"
+
+/// A folder of work: independent units, done by any number of processes on any number of machines that see
+/// the folder. There is no server: a file appears or a folder is renamed, or not.
+///
+///     plan.json            program, settings
+///     units.jsonl          a unit a line
+///     claims/00001         exists while a process does unit 1
+///     doing/00001.NONCE/   results of the unit under way
+///     done/00001/          complete results, and unit.json
+///     failed/00001.json    how the last attempt ended
+namespace plumb::harness::cluster {
+
+/// One part of the work: an invocation of plumb.
+struct Unit {
+  int number = 0;                      ///< from 1
+  std::vector<std::string> arguments;  ///< without the program and --out; "{folder}" is the folder of work
+  double seconds = 0;                  ///< estimated wall time
+  bool measured = false;               ///< the estimate is from earlier results
+};
+
+/// Program that a plan was made with, and that its units must be done with.
+struct Program {
+  std::string path, hash, version, commit;
+  std::map<std::string, std::string> engines{};  ///< version of each installed engine
+};
+
+struct Plan {
+  Program program;
+  std::string directory;  ///< in which it was made; commands of engines are relative to it
+  std::vector<std::vector<std::string>> commands;
+  bool measures_cost = false;  ///< units want a machine to themselves
+  std::vector<Unit> units{};
+
+  const Unit& unit(int number) const;  ///< throws `Error` (Value)
+};
+
+/// Facts about a complete unit, beside its results.
+struct Done {
+  int number = 0;
+  double seconds = 0;  ///< wall time
+  int code = 0;        ///< exit code, 0 or 1
+  Machine machine{};
+  Calibration before{}, after{};
+  std::string began{}, ended{};                   ///< UTC, by the machine's own clock
+  std::map<std::string, std::uintmax_t> bytes{};  ///< size of each file of results
+  bool noisy() const { return is_noisy(before, after); }
+};
+
+/// How attempts at a unit failed.
+struct Failure {
+  int attempts = 0;
+  std::string kind;     ///< of the last: "killed by SIGKILL", "disk full", "refused", ...
+  std::string message;  ///< last line that it wrote
+  std::string host;
+};
+
+/// Returns the program that runs, with a hash of its file (64 bits, FNV-1a).
+Program this_program();
+
+/// Throws `Error` (Value), with what to do, if `plan` was made with another program than `now`.
+void require_same_program(const std::string& folder, const Plan& plan, const Program& now);
+
+/// Reads plan.json and units.jsonl. Throws `Error` (Io, Syntax).
+Plan read_plan(const std::string& folder);
+
+/// Adds the units that are not there yet, numbered on from those that are. Creates the folder, or adds to
+/// that of the same program. Returns the number of units that were added. Throws `Error`.
+int add_to_plan(const std::string& folder, Plan plan);
+
+/// Numbers of the units in done/, in claims/ and in failed/.
+std::set<int> numbers_in(const std::string& folder, const std::string& part);
+
+std::string name_of_unit(int number);  ///< "00001"
+std::string path_in(const std::string& folder, const std::string& part, int number);
+
+/// Throws `Error` (Io, Syntax) if it is not a complete unit's.
+Done read_done(const std::string& folder, int number);
+std::string to_json(const Done& done);
+
+std::optional<Failure> read_failure(const std::string& folder, int number);
+std::string to_json(const Failure& failure);
+
+/// Writes numbers as ranges: "1-4,7", the form that sbatch and a shell's brace expansion are near to.
+std::string ranges(const std::vector<int>& numbers);
+
+/// The time, UTC, ISO 8601.
+std::string time_text();
+
+/// Attempts after which `next` leaves a unit alone.
+inline constexpr int kAttempts = 3;
+
+}  // namespace plumb::harness::cluster
