@@ -90,13 +90,13 @@ std::vector<Chapter> chapters() {
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done) {
-  const Lab lab(engine, settings);
   std::vector<Outcome> out;
   int timeouts = 0;
   std::string named;  // the first mistake
   for (const Chapter& chapter : chapters) {
     for (const Check& check : chapter.checks) {
       Outcome outcome{.chapter = &chapter, .check = &check, .finding = {}};
+      const Lab lab(engine, settings, &outcome.runs);
       outcome.finding = timeouts >= kPatience
                             ? broken(fmt::format("not tried: the engine has hung {} times", timeouts))
                             : run(check, lab, timeouts);
