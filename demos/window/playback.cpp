@@ -40,6 +40,7 @@ void PlaybackDemo::draw(DebugDraw& out, const DrawOptions& options) const {
     demos::draw_body(scene_.bodies[i], states[i], out, fixed ? DrawRole::Static : DrawRole::Awake);
     if (options.names) out.text(states[i].position, scene_.bodies[i].name, DrawRole::Name);
   }
+  demos::draw_connections(scene_, states, out);
 }
 
 std::vector<demos::Figure> PlaybackDemo::figures() const {
