@@ -128,7 +128,7 @@ void add_check(CLI::App& app, Action& chosen) {
       ->add_option("command", options->command,
                    "the command that starts your engine (docs/protocol.md); put it after --")
       ->type_name("COMMAND...");
-  command->add_option("--engine", options->engine, "an engine that is built in, in place of a command")
+  command->add_option("--engine", options->engine, "check this built-in engine instead of a command")
       ->type_name("E");
   command->add_option("--chapter", options->chapter, "only this chapter, 1 to 5")
       ->type_name("N")

@@ -139,7 +139,9 @@ void add_compare(CLI::App& app, Action& chosen) {
   add_size(*command, options->size);
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
   command->add_option("--timeout", options->timeout, "s that a run may take (default 300)")->type_name("T");
-  command->add_option("--out", options->out, "folder whose results.jsonl is appended to (default results)")
+  command
+      ->add_option("--out", options->out,
+                   "folder for the results; they are added to its results.jsonl (default results)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json (a result a line) or csv")

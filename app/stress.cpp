@@ -134,7 +134,7 @@ void add_stress(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command->add_flag("--quick", options->quick, "every third value of each axis, and 3 s a cell");
-  command->add_option("--timeout,--cell-seconds", options->cell_seconds, "s that a run may take (default 10)")
+  command->add_option("--timeout", options->cell_seconds, "s that a run may take (default 10)")
       ->type_name("T");
   command
       ->add_option("--cell-memory", options->cell_memory,
@@ -143,6 +143,8 @@ void add_stress(CLI::App& app, Action& chosen) {
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->add_flag("--list", options->list, "the families, with their axes and bounds");
+  // Older names, not in the help.
+  command->add_option("--cell-seconds", options->cell_seconds)->group("");
   command->footer(
       "Examples:\n  plumb stress --quick\n  plumb stress mass_ratio_stack stack_height --engine "
       "plumb-float,box2d\n"

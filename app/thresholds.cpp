@@ -104,8 +104,7 @@ void add_thresholds(CLI::App& app, Action& chosen) {
   command->add_option("--digits", options->digits, "digits of a critical value (default 3)")
       ->check(CLI::Range(1, 4))
       ->type_name("N");
-  command->add_option("--timeout,--run-seconds", options->seconds, "s that a run may take (default 30)")
-      ->type_name("T");
+  command->add_option("--timeout", options->seconds, "s that a run may take (default 30)")->type_name("T");
   command->add_option("--jobs", options->jobs, "searches at a time (default: one a core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
@@ -119,6 +118,8 @@ void add_thresholds(CLI::App& app, Action& chosen) {
   command->add_flag("--all-settings", options->all_settings,
                     "also with the engines' settings for extremes, docs/stress.md");
   command->add_flag("--list", options->list, "say which there are");
+  // Older names, not in the help.
+  command->add_option("--run-seconds", options->seconds)->group("");
   command->footer(
       "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-float,box2d\n"
       "  plumb thresholds stopped_bullet --format json --out bullets\n"

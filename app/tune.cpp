@@ -78,22 +78,23 @@ void add_tune(CLI::App& app, Action& chosen) {
       ->type_name("NAME|FILE");
   command->add_option("--tolerance", options->tolerance, "what the metric may be, in its unit, like 1e-3")
       ->type_name("X");
-  command
-      ->add_option("--cost-us,--budget-us", options->budget,
-                   "instead: microseconds that a step of the game may cost")
+  command->add_option("--cost-us", options->budget, "instead: microseconds that a step of the game may cost")
       ->type_name("US");
-  add_metric(*command, options->metric, "what is to be small (default position_error)");
+  add_metric(*command, options->metric, "the error that is to be small (default position_error)");
   command
-      ->add_option("--dt,--step", options->step,
+      ->add_option("--dt", options->step,
                    "step of the game in s (default 1/60); the engines' steps are this or divide it")
       ->type_name("X");
-  command->add_option("--budget,--seconds", options->seconds, "s that the whole may take (default 45)")
-      ->type_name("T");
+  command->add_option("--budget", options->seconds, "s that the whole may take (default 45)")->type_name("T");
   add_file_duration(*command, options->duration);
   options->engines.add_to(*command);
   add_size(*command, options->size);
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
+  // Older names, not in the help.
+  command->add_option("--budget-us", options->budget)->group("");
+  command->add_option("--step", options->step)->group("");
+  command->add_option("--seconds", options->seconds)->group("");
   command->footer(
       "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
       "  plumb tune my_scene.json --cost-us 200 --engine plumb,plumb-float,box2d\n"

@@ -153,6 +153,23 @@ TEST(Check, AnEngineThatCrashesHasAResult) {
   EXPECT_THAT(ran.out, HasSubstr("0 of 8 checks pass"));
 }
 
+TEST(Check, ReportsUseTheEnginesOwnName) {
+  EXPECT_EQ(examined({"python3", "-B", PLUMB_STARTERS "/ball.py"}, {"--chapter", "1"})["engine"], "ball");
+}
+
+TEST(Check, WhatFollowsAMistakeSaysSo) {
+  const Ran ran = plumb({"check", "--chapter", "1", "--", PLUMB_STUDENT, "no_gravity"});
+  EXPECT_THAT(ran.out, HasSubstr("This may follow from no_gravity above"));
+}
+
+TEST(Run, TakesAnEngineOfOnesOwn) {
+  const Ran ran = plumb({"run", "bounce/e_1", "--engine-command",
+                         "mine=python3 -B " PLUMB_STARTERS "/ball.py", "--duration", "1", "--rate", "2"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(app::lines_of(ran.out).size(), 1u + 2u * 3u)
+      << ran.out;  // a heading, and two bodies at three times
+}
+
 TEST(Check, MisuseIsToldApart) {
   EXPECT_EQ(plumb({"check"}).code, 2);
   EXPECT_EQ(plumb({"check", "--engine", "plumb", "--", "python3"}).code, 2);
