@@ -21,7 +21,6 @@
 #include "engine/core/suggest.h"
 #include "engine/scene/error.h"
 #include "harness/course/course.h"
-#include "harness/course/report.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -152,10 +151,12 @@ int run_course(const Given& given) {
       const auto count = std::count_if(items.begin(), items.end(), same);
       const std::string name =
           count == 0 ? outcome.check->name : fmt::format("{} ({})", outcome.check->name, count + 1);
-      const demos::About about{.name = name,
-                               .summary = outcome.check->title,
-                               .play = fmt::format("Solid: {}. Outline: the right motion. {}", engine.name(),
-                                                   course::line(outcome, {}))};
+      const demos::About about{
+          .name = name,
+          .summary = outcome.check->title,
+          .play = fmt::format("Solid: {}. Outline: the right motion. {}.{}{}", engine.name(),
+                              outcome.check->title, outcome.finding.says.empty() ? "" : " ",
+                              outcome.finding.says)};
       window::Engines own = engines;
       own.dt = run.dt;
       items.push_back(window::motion_item(about, run.scene, motion_of(run), own));

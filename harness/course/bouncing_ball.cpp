@@ -88,7 +88,7 @@ Finding falls_far_enough(const Lab& lab) {
   const double n = std::round(t / h), exact = -kGravity * t * t / 2, late = kGravity * t * h / 2;
   return Judgement()
       .read("y after 1 s", "m", trace.last(0).position.y, lab.way(0, -kGravity, t), lab.rounding(exact, t))
-      .mistake("does_not_move", {0}, "The velocity is there, but the position never changes: add v dt to it.")
+      .mistake("does_not_move", {0}, "The position never changes: add v dt to it in each step.")
       .mistake("explicit_euler", {exact + late}, explicit_euler())
       .mistake("semi_implicit_euler", {exact - late},
                figures_of("semi-implicit Euler (velocity first, position with the new velocity)"))
@@ -153,7 +153,7 @@ Finding any_step_size(const Lab& lab) {
 }
 
 constexpr const char* kStill =
-    "The ball never moves: take \"velocity\" from the scene, and add v dt to the position.";
+    "The ball never moves: add v dt to its position in each step; v begins with the scene's \"velocity\".";
 
 // Drops a ball of radius r at (1, -2) m/s on a floor whose top is at -0.5 m.
 Trace bounce(const Lab& lab, double r, double e = 1) {

@@ -80,7 +80,8 @@ Finding stick_keeps_its_length(const Lab& lab) {
                "The stick gets longer: its velocities are corrected and its positions are not. Correct them "
                "by a share "
                "of the error each step.")
-      .mistake_if(trace.still(0), "starts_at_rest", "The balls never move: take \"velocity\" from the scene.")
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The balls never move: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake_if(
           worst <= tolerance && spin < 0.95 * w, "spin_lost",
           "The stick loses its spin: correcting positions or velocities must act along the stick only.")

@@ -216,7 +216,8 @@ Finding least_overlap(const Lab& lab) {
       .read("vx after landing on the edge", "m/s", trace.last(0).velocity.x, 0, 0.002 * v)
       .read("vy after landing on the edge", "m/s", trace.last(0).velocity.y, v, 0.002 * v)
       .read("x of the box", "m", trace.last(0).position.x, x, 0.01)
-      .mistake_if(trace.still(0), "starts_at_rest", "The box never moves: take \"velocity\" from the scene.")
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake_if(
           std::abs(trace.last(0).velocity.x) > 0.01 * v, "normal_between_centres",
           "The box is thrown sideways: the normal is the axis of least overlap, here y, not the line of "
@@ -292,7 +293,8 @@ Finding lands_flat(const Lab& lab) {
   return Judgement()
       .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.005 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
-      .mistake_if(trace.still(0), "starts_at_rest", "The box never moves: take \"velocity\" from the scene.")
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
       .mistake("restitution_ignored", {0, 0}, "The box does not bounce: restitution is not used for boxes.")
       .mistake("always_elastic", {v, 0},
