@@ -47,7 +47,8 @@ StateBound Tolerances::rounding(int sample) const {
 
 Tolerances::Bound Tolerances::stated(double Bounds::*member, double rounding) const {
   if (stated_ == nullptr || std::isnan(stated_->*member)) return {};
-  return stated_->*member * stated_factor_ + rounding;
+  const double promised = stated_->*member * stated_factor_;
+  return method_.order == 0 ? std::max(promised, rounding) : promised + rounding;
 }
 
 Tolerances::Bound Tolerances::state(int sample, std::size_t body, double Bounds::*stated_member,
