@@ -77,7 +77,7 @@ function sentence() {
     if (both === 0) continue;
     costs.sort((a, b) => a - b);
     const cost = costs.length ? `, at ${figure(costs[Math.floor((costs.length - 1) / 2)])} times its cost (the median)` : "";
-    parts.push(`than ${rival} in ${nearer} of the ${both} scenes that both run${cost}`);
+    parts.push(`as ${rival} in ${nearer} of the ${both} scenes that both run${cost}`);
   }
   return parts.length === 0 ? "" : `plumb's positions are at least as near to the truth ${parts.join("; ")}.`;
 }
