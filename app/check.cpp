@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,10 @@ struct Options {
   std::vector<std::string> command;
   std::string engine, dt, timeout = "10", format = "console";
   std::optional<int> chapter;
+  bool show = false;
 };
 
-constexpr const char* kOwnEngine = "yours";
+constexpr const char* kOwnEngine = "yours";  // until it has said its name
 constexpr double kLargestStep = 1.0 / 30;
 
 std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
@@ -36,6 +39,30 @@ std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
   for (course::Chapter& chapter : all)
     if (chapter.number == *number) return {std::move(chapter)};
   throw UsageError(fmt::format("--chapter is {}: there are chapters 1 to {}", *number, all.size()));
+}
+
+// Opens the window with the first check that failed, in place of this program.
+[[noreturn]] void show(const Options& options, const course::Outcome& failed) {
+  constexpr const char* kDemos[] = {"bouncing_ball", "cannonballs", "pool_break", "spinning_boxes",
+                                    "ragdoll"};
+  std::string command;
+  for (const std::string& word : options.command) {
+    const char quote = word.find('\'') == std::string::npos ? '\'' : '"';
+    command += fmt::format("{}{}{}{}", command.empty() ? "" : " ", quote, word, quote);
+  }
+  std::vector<std::string> words{"plumb",
+                                 "demo",
+                                 kDemos[failed.chapter->number - 1],
+                                 "--engine-command",
+                                 fmt::format("{}={}", kOwnEngine, command),
+                                 "--check",
+                                 failed.check->name};
+  if (!options.dt.empty()) words.insert(words.end(), {"--dt", options.dt});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  run_window(static_cast<int>(words.size()), arguments.data());
+  throw std::logic_error("the window's program was not started");
 }
 
 int examine(const Options& options, const reference::Backend& engine) {
@@ -59,6 +86,13 @@ int examine(const Options& options, const reference::Backend& engine) {
   });
   print(console ? course::score(outcomes, style) : course::as_json(std::string(engine.name()), outcomes));
   flush();
+  if (options.show) {
+    const auto failed = std::ranges::find_if(outcomes, [](const course::Outcome& outcome) {
+      return outcome.finding.verdict == course::Verdict::Fail && !outcome.runs.empty();
+    });
+    if (failed != outcomes.end()) show(options, *failed);
+    notice("no check failed: there is nothing to show");
+  }
   return course::all_passed(outcomes) ? kOk : kCheckFailed;
 }
 
@@ -67,6 +101,7 @@ int start(const Options& options) {
     throw UsageError(
         "give either the command that starts your engine after `--`, or --engine with one that is built in; "
         "see `plumb check --help`");
+  if (options.show && options.command.empty()) throw UsageError("--show needs the command of your engine");
   const double seconds = parse_positive("--timeout", options.timeout);
   if (!options.engine.empty()) {
     const reference::Backend& engine = reference::find_backend(options.engine);
@@ -74,9 +109,12 @@ int start(const Options& options) {
       throw UsageError(fmt::format("engine '{}' is not available: {}", options.engine, identity.reason));
     return guarded(options.engine, [&] { return examine(options, engine); });
   }
-  const auto engine = reference::make_process_backend(kOwnEngine, options.command, "", {.seconds = seconds});
-  if (const reference::Identity identity = engine->identity(); !identity.available)
-    throw UsageError(identity.reason);
+  const reference::ProcessLimits limits{.seconds = seconds};
+  auto engine = reference::make_process_backend(kOwnEngine, options.command, "", limits);
+  const reference::Identity identity = engine->identity();
+  if (!identity.available) throw UsageError(identity.reason);
+  if (!identity.own_name.empty())
+    engine = reference::make_process_backend(identity.own_name, options.command, "", limits);
   return examine(options, *engine);
 }
 
@@ -88,9 +126,9 @@ void add_check(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("command", options->command,
-                   "starts a program that speaks docs/protocol.md; put it after --")
+                   "the command that starts your engine (docs/protocol.md); put it after --")
       ->type_name("COMMAND...");
-  command->add_option("--engine", options->engine, "an engine that is built in, in place of a command")
+  command->add_option("--engine", options->engine, "check this built-in engine instead of a command")
       ->type_name("E");
   command->add_option("--chapter", options->chapter, "only this chapter, 1 to 5")
       ->type_name("N")
@@ -102,12 +140,13 @@ void add_check(CLI::App& app, Action& chosen) {
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
   command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
       ->type_name("T");
+  command->add_flag("--show", options->show,
+                    "then open a window: the first check that failed, with the right motion as an outline");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
   command->footer(
       "Examples:\n  plumb check -- python3 docs/course/starters/ball.py\n  plumb check --chapter 3 -- "
-      "./my_engine "
-      "--quiet\n"
+      "./my_engine --quiet\n  plumb check --show -- python3 my_engine.py\n"
       "  plumb check --engine plumb --format json\n"
       "What an engine does not declare is \"not yet\". The chapters are in docs/course.\n"
       "Exit codes: 0 all checks pass, 1 some do not, 2 usage, or a program that does not answer \"hello\".");

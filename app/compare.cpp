@@ -1,5 +1,7 @@
 #include "harness/compare.h"
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "harness/plain_words.h"
 #include "harness/report/report.h"
 #include "harness/summary.h"
 #include "harness/table.h"
@@ -63,6 +66,18 @@ bool report(const Options& options, std::span<const reference::Backend* const> e
   return true;
 }
 
+// Moves the first scenario that every engine runs to the front, so that a reader begins with a full table.
+void put_common_first(harness::CompareOptions& what) {
+  const auto runs_everywhere = [&](const scenarios::Instance& instance) {
+    const scenarios::Problem problem = instance.build();
+    return std::ranges::all_of(what.engines, [&](const reference::Backend* engine) {
+      return !engine->identity().available || engine->unsupported(problem.scene, what.settings).empty();
+    });
+  };
+  const auto first = std::ranges::find_if(what.instances, runs_everywhere);
+  if (first != what.instances.end()) std::rotate(what.instances.begin(), first, first + 1);
+}
+
 int start(const Options& options) {
   if (mean_results(options.names))
     return compare_results(options.names.front(), options.names.back(), options.format);
@@ -75,11 +90,15 @@ int start(const Options& options) {
   for (const reference::Backend* backend : what.engines)
     if (backend->identity().available) backend->method(what.settings);  // throws if it rejects them
 
+  if (options.names.empty()) put_common_first(what);
+
   ResultLog log(options.out);
   const Style style = Style::of_file(STDOUT_FILENO);
   ProgressLine progress;
   harness::catch_interrupts();
   if (options.format == "csv") print(harness::csv_header() + "\n");
+  if (options.format == "console") print(harness::legend(style));
+  const auto begin = std::chrono::steady_clock::now();
   harness::CompareEvents events;
   events.progress = [&](const harness::Progress& now) { progress.show(now); };
   events.finished = [&](std::span<const Result> results) {
@@ -90,7 +109,11 @@ int start(const Options& options) {
   };
   const harness::Comparison comparison = harness::compare(what, events);
   progress.clear();
-  if (options.format == "console") print(harness::summary(comparison.results, style));
+  if (options.format == "console") {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    print(harness::summary(comparison.results, style) + harness::conclusion(comparison.results, style) +
+          fmt::format("compared in {:.0f} s\n", took.count()));
+  }
   flush();
   if (comparison.interrupted) {
     notice(fmt::format("interrupted; {} finished results are in {}", comparison.results.size(), log.path()));
@@ -115,9 +138,10 @@ void add_compare(CLI::App& app, Action& chosen) {
   options->engines.add_to(*command);
   add_size(*command, options->size);
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
-  command->add_option("--timeout", options->timeout, "s after which a run is stopped (default 300)")
-      ->type_name("T");
-  command->add_option("--out", options->out, "folder whose results.jsonl is appended to (default results)")
+  command->add_option("--timeout", options->timeout, "s that a run may take (default 300)")->type_name("T");
+  command
+      ->add_option("--out", options->out,
+                   "folder for the results; they are added to its results.jsonl (default results)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json (a result a line) or csv")

@@ -111,7 +111,7 @@ void add_reality(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"
-      "Exit code 3: the measurements are not there.");
+      "Exit code 4: the measurements are not there.");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }
 

@@ -15,6 +15,7 @@
 #include "app/guard.h"
 #include "app/output.h"
 #include "app/report_error.h"
+#include "app/selection.h"
 #include "app/settings.h"
 #include "app/source.h"
 #include "app/trajectory_writer.h"
@@ -28,9 +29,10 @@ namespace plumb::app {
 namespace {
 
 struct Options {
-  std::string name, engine = "plumb", format = "csv", duration, rate;
+  std::string name, engine, format = "csv", duration, rate;
   int size = 0;
   bool forces = false;
+  std::vector<std::string> commands;
   SettingsOptions settings;
 };
 
@@ -118,8 +120,10 @@ int run(const Options& options, const reference::Backend& backend, const referen
   return kOk;
 }
 
-int start(const Options& options) {
-  const reference::Backend& backend = reference::find_backend(options.engine);
+int start(Options options) {
+  const auto programs = programs_of(options.commands);
+  const reference::Backend& backend = one_engine(options.engine, programs);
+  options.engine = backend.name();
   const Source source = load(options.name, options.size);
   const reference::Identity identity = backend.identity();
   if (!identity.available)
@@ -144,7 +148,9 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_option("name", options->name, "a scenario or a scene file (- reads stdin)")
       ->required()
       ->type_name("NAME|FILE");
-  command->add_option("--engine", options->engine, "see `plumb engines` (default plumb)");
+  command->add_option("--engine", options->engine,
+                      "see `plumb engines` (default: the first --engine-command, else plumb)");
+  add_engine_command(*command, options->commands);
   add_size(*command, options->size);
   options->settings.add_to(*command);
   command
@@ -159,7 +165,8 @@ void add_run(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb run free_fall/vacuum --engine box2d --rate 10\n"
       "  plumb run pendulum_chain[20] --engine plumb-precise --tolerance 1e-10 --format json\n"
       "  plumb scene pendulum_chain --size 5 > chain.json && plumb run chain.json --dt 1/240\n"
-      "  plumb run free_fall --set integrator=explicit_euler --substeps 1");
+      "  plumb run free_fall --set integrator=explicit_euler --substeps 1\n"
+      "  plumb run bounce/e_1 --engine-command mine='python3 my_engine.py'");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }
 

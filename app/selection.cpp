@@ -13,17 +13,52 @@
 namespace plumb::app {
 
 void EngineOptions::add_to(CLI::App& command) {
-  command.add_option("--engine", names, "engines, parted by commas (default: all)")
+  command.add_option("--engine", names, "engines, separated by commas (default: all)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("E");
+  add_engine_command(command, commands);
+}
+
+void add_engine_command(CLI::App& command, std::vector<std::string>& commands) {
   command
       .add_option(
           "--engine-command", commands,
-          "one more engine: a program that speaks docs/protocol.md; may be repeated. With --engine NAME "
-          "only that one and what else is named there runs")
+          "one more engine: a program that speaks docs/protocol.md; may be repeated. --engine then selects "
+          "it by its NAME")
       ->allow_extra_args(false)
       ->type_name("NAME=COMMAND");
+}
+
+std::vector<std::unique_ptr<reference::Backend>> programs_of(const std::vector<std::string>& commands) {
+  std::vector<std::unique_ptr<reference::Backend>> out;
+  for (const std::string& text : commands) {
+    const std::size_t equals = text.find('=');
+    const std::vector<std::string> command =
+        equals == std::string::npos ? std::vector<std::string>{} : split_command(text.substr(equals + 1));
+    if (equals == 0 || command.empty())
+      throw UsageError(
+          fmt::format("--engine-command is '{}': give NAME=COMMAND, see docs/protocol.md", text));
+    const std::string name = text.substr(0, equals);
+    std::vector<const reference::Backend*> others = reference::backends();
+    for (const auto& program : out) others.push_back(program.get());
+    for (const reference::Backend* other : others)
+      if (other->name() == name)
+        throw UsageError(
+            fmt::format("--engine-command: there is an engine '{}' already; choose another name", name));
+    out.push_back(reference::make_process_backend(name, command));
+    if (const reference::Identity identity = out.back()->identity(); !identity.available)
+      throw UsageError(fmt::format("--engine-command {}: {}", text, identity.reason));
+  }
+  return out;
+}
+
+const reference::Backend& one_engine(const std::string& name,
+                                     const std::vector<std::unique_ptr<reference::Backend>>& programs) {
+  if (name.empty() && !programs.empty()) return *programs.front();
+  for (const auto& program : programs)
+    if (program->name() == name) return *program;
+  return reference::find_backend(name.empty() ? "plumb" : name);
 }
 
 namespace {
@@ -58,22 +93,9 @@ std::vector<const reference::Backend*> chosen_engines(
     if (std::find(out.begin(), out.end(), backend) == out.end()) out.push_back(backend);
   }
   if (options.names.empty()) out = reference::backends();
-  for (const std::string& text : options.commands) {
-    const std::size_t equals = text.find('=');
-    const std::vector<std::string> command =
-        equals == std::string::npos ? std::vector<std::string>{} : split_command(text.substr(equals + 1));
-    if (equals == 0 || command.empty())
-      throw UsageError(
-          fmt::format("--engine-command is '{}': give NAME=COMMAND, see docs/protocol.md", text));
-    const std::string name = text.substr(0, equals);
-    for (const reference::Backend* other : out)
-      if (other->name() == name)
-        throw UsageError(
-            fmt::format("--engine-command: there is an engine '{}' already; choose another name", name));
-    programs.push_back(reference::make_process_backend(name, command));
+  for (auto& program : programs_of(options.commands)) {
+    programs.push_back(std::move(program));
     out.push_back(programs.back().get());
-    if (const reference::Identity identity = out.back()->identity(); !identity.available)
-      throw UsageError(fmt::format("--engine-command {}: {}", text, identity.reason));
   }
   return out;
 }

@@ -21,6 +21,17 @@ struct EngineOptions {
   void add_to(CLI::App& command);
 };
 
+/// Adds --engine-command alone.
+void add_engine_command(CLI::App& command, std::vector<std::string>& commands);
+
+/// Returns the programs of --engine-command, "NAME=COMMAND" each. Throws `UsageError`.
+std::vector<std::unique_ptr<reference::Backend>> programs_of(const std::vector<std::string>& commands);
+
+/// Returns the engine named `name`: one of `programs`, or one that is built in. An empty name means the first
+/// of the programs, or plumb. Throws `Error`.
+const reference::Backend& one_engine(const std::string& name,
+                                     const std::vector<std::unique_ptr<reference::Backend>>& programs);
+
 /// Returns the instances that `wanted` names, or all; `size` > 0 overrides their sizes. Throws `UsageError`,
 /// `Error`.
 std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size);

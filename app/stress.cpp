@@ -75,8 +75,7 @@ stress::StressOptions what_to_run(const Options& options,
   what.jobs =
       options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   what.cell_seconds = options.quick ? kQuickSeconds : kCellSeconds;
-  if (!options.cell_seconds.empty())
-    what.cell_seconds = parse_positive("--cell-seconds", options.cell_seconds);
+  if (!options.cell_seconds.empty()) what.cell_seconds = parse_positive("--timeout", options.cell_seconds);
   const double megabytes =
       options.cell_memory.empty() ? kMegabytes : parse_positive("--cell-memory", options.cell_memory);
   if (megabytes < 1 || megabytes > 1e9)
@@ -135,7 +134,7 @@ void add_stress(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command->add_flag("--quick", options->quick, "every third value of each axis, and 3 s a cell");
-  command->add_option("--cell-seconds", options->cell_seconds, "s that a cell may take (default 10)")
+  command->add_option("--timeout", options->cell_seconds, "s that a run may take (default 10)")
       ->type_name("T");
   command
       ->add_option("--cell-memory", options->cell_memory,
@@ -144,6 +143,8 @@ void add_stress(CLI::App& app, Action& chosen) {
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->add_flag("--list", options->list, "the families, with their axes and bounds");
+  // Older names, not in the help.
+  command->add_option("--cell-seconds", options->cell_seconds)->group("");
   command->footer(
       "Examples:\n  plumb stress --quick\n  plumb stress mass_ratio_stack stack_height --engine "
       "plumb-float,box2d\n"

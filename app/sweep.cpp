@@ -80,6 +80,11 @@ int start(const Options& options) {
     notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
     return kInterrupted;
   }
+  if (swept.dropped > 0)
+    notice(fmt::format(
+        "the budget of {:g} s left out the costs of {} settings; a larger --budget in a new folder "
+        "measures them",
+        what.budget, swept.dropped));
   if (options.format == "console") {
     print(sweep::dominance_table(sweep::dominance(swept.rows), style));
     print(

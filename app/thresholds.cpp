@@ -65,7 +65,7 @@ int start(const Options& options) {
   const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
   thresholds::FindOptions how{.digits = options.digits, .jobs = options.jobs};
   if (how.jobs == 0) how.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (!options.seconds.empty()) how.seconds_a_run = parse_positive("--run-seconds", options.seconds);
+  if (!options.seconds.empty()) how.seconds_a_run = parse_positive("--timeout", options.seconds);
 
   std::vector<thresholds::Request> requests;
   for (const thresholds::Threshold* threshold : chosen_thresholds(options.names)) {
@@ -104,8 +104,7 @@ void add_thresholds(CLI::App& app, Action& chosen) {
   command->add_option("--digits", options->digits, "digits of a critical value (default 3)")
       ->check(CLI::Range(1, 4))
       ->type_name("N");
-  command->add_option("--run-seconds", options->seconds, "s that one run may take (default 30)")
-      ->type_name("T");
+  command->add_option("--timeout", options->seconds, "s that a run may take (default 30)")->type_name("T");
   command->add_option("--jobs", options->jobs, "searches at a time (default: one a core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
@@ -119,6 +118,8 @@ void add_thresholds(CLI::App& app, Action& chosen) {
   command->add_flag("--all-settings", options->all_settings,
                     "also with the engines' settings for extremes, docs/stress.md");
   command->add_flag("--list", options->list, "say which there are");
+  // Older names, not in the help.
+  command->add_option("--run-seconds", options->seconds)->group("");
   command->footer(
       "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-float,box2d\n"
       "  plumb thresholds stopped_bullet --format json --out bullets\n"

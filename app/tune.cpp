@@ -34,7 +34,7 @@ int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
   if (options.tolerance.empty() == options.budget.empty())
-    throw UsageError("give either --tolerance, what must be reached, or --budget-us, what it may cost");
+    throw UsageError("give either --tolerance, what must be reached, or --cost-us, what a step may cost");
   if (options.size > 0 && is_file(options.name))
     throw UsageError("--size goes with a scenario's name, not with a file");
   if (!options.duration.empty() && !is_file(options.name))
@@ -46,9 +46,9 @@ int start(const Options& options) {
                           .metric = &metric_by_name(options.metric)};
   if (is_file(options.name)) what.run_as = options.name;
   if (!options.tolerance.empty()) what.tolerance = parse_positive("--tolerance", options.tolerance);
-  if (!options.budget.empty()) what.budget_ns = 1e3 * parse_positive("--budget-us", options.budget);
-  if (!options.step.empty()) what.step = parse_positive("--step", options.step);
-  if (!options.seconds.empty()) what.seconds = parse_positive("--seconds", options.seconds);
+  if (!options.budget.empty()) what.budget_ns = 1e3 * parse_positive("--cost-us", options.budget);
+  if (!options.step.empty()) what.step = parse_positive("--dt", options.step);
+  if (!options.seconds.empty()) what.seconds = parse_positive("--budget", options.seconds);
   what.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
   ProgressLine progress;
@@ -56,7 +56,7 @@ int start(const Options& options) {
   const sweep::Tuned tuned = sweep::tune(what, [&](const std::string& text) { progress.say(text); });
   progress.clear();
   if (tuned.interrupted) {
-    notice("interrupted; a search keeps nothing, --seconds makes it shorter");
+    notice("interrupted; a search keeps nothing, --budget makes it shorter");
     return kInterrupted;
   }
   print(options.format == "json" ? sweep::tune_json(what, tuned)
@@ -78,22 +78,26 @@ void add_tune(CLI::App& app, Action& chosen) {
       ->type_name("NAME|FILE");
   command->add_option("--tolerance", options->tolerance, "what the metric may be, in its unit, like 1e-3")
       ->type_name("X");
-  command
-      ->add_option("--budget-us", options->budget, "instead: microseconds that a step of the game may cost")
+  command->add_option("--cost-us", options->budget, "instead: microseconds that a step of the game may cost")
       ->type_name("US");
-  add_metric(*command, options->metric, "what is to be small (default position_error)");
-  command->add_option("--step", options->step, "s, of the game (default 1/60): dt is this or divides it")
+  add_metric(*command, options->metric, "the error that is to be small (default position_error)");
+  command
+      ->add_option("--dt", options->step,
+                   "step of the game in s (default 1/60); the engines' steps are this or divide it")
       ->type_name("X");
-  command->add_option("--seconds", options->seconds, "s that the search may take (default 45)")
-      ->type_name("T");
+  command->add_option("--budget", options->seconds, "s that the whole may take (default 45)")->type_name("T");
   add_file_duration(*command, options->duration);
   options->engines.add_to(*command);
   add_size(*command, options->size);
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
+  // Older names, not in the help.
+  command->add_option("--budget-us", options->budget)->group("");
+  command->add_option("--step", options->step)->group("");
+  command->add_option("--seconds", options->seconds)->group("");
   command->footer(
       "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
-      "  plumb tune my_scene.json --budget-us 200 --engine plumb,plumb-float,box2d\n"
+      "  plumb tune my_scene.json --cost-us 200 --engine plumb,plumb-float,box2d\n"
       "Exit codes: 0 an engine can, 1 none can, 2 usage, 130 interrupted. See docs/trade.md.");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }

@@ -26,7 +26,13 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
   # Paths in the cache are relative to the checkout, so that a copy of it shares what was compiled.
-  find_program(CCACHE_PROGRAM ccache)
+  # Looked for once: a tree that was built without it would otherwise be compiled again when it comes.
+  if(NOT DEFINED CACHE{CCACHE_PROGRAM})
+    find_program(CCACHE_PROGRAM ccache)
+    if(NOT CCACHE_PROGRAM)
+      set(CCACHE_PROGRAM "" CACHE FILEPATH "caches what was compiled; empty: none" FORCE)
+    endif()
+  endif()
   mark_as_advanced(CCACHE_PROGRAM)
   if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER

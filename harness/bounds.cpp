@@ -35,14 +35,20 @@ Tolerances::Tolerances(const scenarios::Problem& problem, const TruthTable& trut
   }
 }
 
+// Returns the number of substeps up to the sample. An engine that meets a tolerance answers for its steps by
+// that; what is left is the rounding of its result, as of one step.
+double Tolerances::steps(int sample) const {
+  return method_.order == 0 ? 1 : sample * truth_.dt() / method_.substep;
+}
+
 StateBound Tolerances::rounding(int sample) const {
-  const double time = sample * truth_.dt();
-  return rounding_bound(truth_.scale(), method_.epsilon, time / method_.substep, time);
+  return rounding_bound(truth_.scale(), method_.epsilon, steps(sample), sample * truth_.dt());
 }
 
 Tolerances::Bound Tolerances::stated(double Bounds::*member, double rounding) const {
   if (stated_ == nullptr || std::isnan(stated_->*member)) return {};
-  return stated_->*member * stated_factor_ + (method_.order == 0 ? 0 : rounding);
+  const double promised = stated_->*member * stated_factor_;
+  return method_.order == 0 ? std::max(promised, rounding) : promised + rounding;
 }
 
 Tolerances::Bound Tolerances::state(int sample, std::size_t body, double Bounds::*stated_member,
@@ -70,8 +76,7 @@ Tolerances::Bound Tolerances::angular_velocity(int sample, std::size_t body) con
 }
 
 Tolerances::Bound Tolerances::energy(int sample) const {
-  const double steps = sample * truth_.dt() / method_.substep;
-  const double rounding = kRoundings * method_.epsilon * (steps + 1);
+  const double rounding = kRoundings * method_.epsilon * (steps(sample) + 1);
   if (const Bound bound = stated(&Bounds::energy, rounding)) return bound;
   if (!envelope_) return {};
   double sum = 0;
@@ -95,15 +100,13 @@ Tolerances::Bound Tolerances::energy(int sample) const {
 }
 
 Tolerances::Bound Tolerances::momentum(int sample) const {
-  const double steps = sample * truth_.dt() / method_.substep;
-  const double rounding = kRoundings * method_.epsilon * (steps + 1);
+  const double rounding = kRoundings * method_.epsilon * (steps(sample) + 1);
   if (const Bound bound = stated(&Bounds::momentum, rounding)) return bound;
   return rounding;
 }
 
 Tolerances::Bound Tolerances::angular_momentum(int sample) const {
-  const double steps = sample * truth_.dt() / method_.substep;
-  const double rounding = kRoundings * method_.epsilon * (steps + 1);
+  const double rounding = kRoundings * method_.epsilon * (steps(sample) + 1);
   if (const Bound bound = stated(&Bounds::angular_momentum, rounding)) return bound;
   if (!envelope_) return {};
   double sum = 0;

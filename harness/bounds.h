@@ -47,6 +47,7 @@ class Tolerances {
   StateBound rounding(int sample) const;
 
  private:
+  double steps(int sample) const;
   Bound stated(double scenarios::Bounds::*member, double rounding) const;
   Bound state(int sample, std::size_t body, double scenarios::Bounds::*stated_member,
               double StateBound::*member) const;

@@ -24,6 +24,7 @@ Status status_of(reference::ProcessError::Fault fault) {
     case reference::ProcessError::Fault::Diverged:
       return Status::Diverged;
     case reference::ProcessError::Fault::Start:
+    case reference::ProcessError::Fault::Time:
     case reference::ProcessError::Fault::Protocol:
       break;
   }

@@ -98,13 +98,19 @@ std::string costs(const std::vector<Pair>& pairs) {
   return text + "\n";
 }
 
-// Lists the scenes without results of the rival.
+// Lists the scenes in which the rival failed, and counts those that it skips.
 std::string not_compared(std::span<const Result> results, const std::string& rival) {
   std::string text;
+  int skipped = 0;
   for (const Result& result : results) {
     if (result.engine != rival || result.status == Status::Ok) continue;
-    text += fmt::format("  {}: {} is {}\n", result.label, rival, name_of(result.status));
+    if (result.status == Status::Skipped) {
+      ++skipped;
+    } else {
+      text += fmt::format("  {}: {} is {}\n", result.label, rival, name_of(result.status));
+    }
   }
+  if (skipped > 0) text += fmt::format("  {} skips {} of these scenes\n", rival, skipped);
   return text;
 }
 

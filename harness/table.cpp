@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -231,6 +232,25 @@ std::string row(const Result& result, const std::vector<Column>& columns, const 
   return line + "  " + style.paint(said.text, said.ink) + "\n";
 }
 
+// Lists the engines that did not run the scene, those with the same reason together.
+std::string skips(std::span<const Result> results, const Style& style) {
+  std::vector<std::pair<std::string, std::string>> reasons;  // a reason and its engines
+  for (const Result& result : results) {
+    if (result.status != Status::Skipped) continue;
+    const auto same = std::find_if(reasons.begin(), reasons.end(),
+                                   [&](const auto& each) { return each.first == result.reason; });
+    if (same == reasons.end()) {
+      reasons.emplace_back(result.reason, result.engine);
+    } else {
+      same->second += ", " + result.engine;
+    }
+  }
+  std::string text;
+  for (const auto& [reason, engines] : reasons)
+    text += fmt::format("{}{} ({})", text.empty() ? "skipped: " : "; ", engines, reason);
+  return text.empty() ? "" : "  " + style.paint(wrap(text, style.width - 2, 11), Ink::Dim) + "\n";
+}
+
 }  // namespace
 
 std::string table(std::span<const Result> results, const Style& style) {
@@ -240,7 +260,9 @@ std::string table(std::span<const Result> results, const Style& style) {
   for (const Column& column : columns) best.push_back(best_of(results, column));
   std::string out = heading(results.front(), style) + header(columns, style);
   std::vector<Note> notes;
-  for (const Result& result : results) out += row(result, columns, best, style, notes);
+  for (const Result& result : results)
+    if (result.status != Status::Skipped) out += row(result, columns, best, style, notes);
+  out += skips(results, style);
   for (std::size_t i = 0; i < notes.size(); ++i) {
     const std::string note =
         fmt::format("({}) {}: {}", static_cast<char>('a' + i % 26), notes[i].engines, notes[i].text);

@@ -42,7 +42,8 @@ struct Identity {
   std::string version{};    ///< "2.4.1"
   std::string precision{};  ///< "float" or "double"
   bool available = true;
-  std::string reason{};  ///< why it is not available and what to install
+  std::string reason{};    ///< why it is not available and what to install
+  std::string own_name{};  ///< name that a program gives itself; "" for engines that are built in
 };
 
 /// An engine's time stepping method, from which error bounds are derived. `SoftStep`: semi-implicit Euler

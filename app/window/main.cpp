@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "app/exit_codes.h"
 #include "app/output.h"
 #include "app/report_error.h"
+#include "app/selection.h"
 #include "app/source.h"
 #include "app/usage.h"
 #include "demos/core/registry.h"
@@ -18,6 +20,7 @@
 #include "demos/window/view.h"
 #include "engine/core/suggest.h"
 #include "engine/scene/error.h"
+#include "harness/course/course.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -31,6 +34,8 @@ struct Given {
   std::string name, script, screenshot, seconds, dt, theme = "dark";
   std::vector<std::string> settings, drawings, ghosts;
   int width = 1280, height = 800, colours = 0, frames = 0, size = 0;
+  std::vector<std::string> commands;
+  std::string engine, check;
   bool list = false, headless = false, bare = false, report = false;
 };
 
@@ -104,7 +109,71 @@ std::vector<Item> demo_items() {
   return items;
 }
 
+// Returns the course's chapter that a demo belongs to; all have the demo's name or begin with it.
+std::vector<course::Chapter> chapter_of(const std::string& demo) {
+  constexpr const char* kDemos[] = {"bouncing_ball", "cannonballs", "pool_break", "spinning_boxes",
+                                    "ragdoll"};
+  std::vector<course::Chapter> all = course::chapters();
+  for (course::Chapter& chapter : all)
+    if (demo == kDemos[chapter.number - 1]) return {std::move(chapter)};
+  if (demo.empty()) return all;
+  throw UsageError(
+      fmt::format("'{}' is no chapter's demo: with --engine-command give bouncing_ball, cannonballs, "
+                  "pool_break, spinning_boxes or ragdoll, or no name for all",
+                  demo));
+}
+
+demos::SampledMotion motion_of(const course::Recorded& run) {
+  demos::SampledMotion motion(run.dt, run.scene.bodies.size());
+  for (const auto& states : run.trace.states) motion.add(states);
+  return motion;
+}
+
+// Shows the scenes of the course's checks as an engine of one's own moves them, the right motion as an
+// outline.
+int run_course(const Given& given) {
+  const auto programs = programs_of(given.commands);
+  const reference::Backend& engine = *programs.front();
+  window::Engines engines;
+  for (const auto& program : programs) engines.more.push_back(program.get());
+  const std::vector<course::Chapter> chapters = chapter_of(given.name);
+  reference::StepSettings settings;
+  if (!given.dt.empty()) settings.dt = parse_positive("--dt", given.dt);
+  std::vector<Item> items;
+  std::optional<std::size_t> first;
+  for (const course::Outcome& outcome :
+       course::examine(engine, settings, chapters, [](const course::Outcome&) {})) {
+    const bool wanted = given.check.empty() ? outcome.finding.verdict == course::Verdict::Fail
+                                            : outcome.check->name == given.check;
+    const auto same = [&](const Item& item) { return item.name.starts_with(outcome.check->name); };
+    for (const course::Recorded& run : outcome.runs) {
+      if (wanted && !first) first = items.size();
+      const auto count = std::count_if(items.begin(), items.end(), same);
+      const std::string name =
+          count == 0 ? outcome.check->name : fmt::format("{} ({})", outcome.check->name, count + 1);
+      const demos::About about{
+          .name = name,
+          .summary = outcome.check->title,
+          .play = fmt::format("Solid: {}. Outline: the right motion. {}.{}{}", engine.name(),
+                              outcome.check->title, outcome.finding.says.empty() ? "" : " ",
+                              outcome.finding.says)};
+      window::Engines own = engines;
+      own.dt = run.dt;
+      items.push_back(window::motion_item(about, run.scene, motion_of(run), own));
+    }
+  }
+  if (!given.check.empty() && !first)
+    throw UsageError(fmt::format("there is no run of a check '{}'", given.check));
+  if (items.empty())
+    throw UsageError(fmt::format("engine '{}' runs no scene of these checks", engine.name()));
+  Given rest = given;
+  rest.dt.clear();  // the runs have it already
+  Player player(items, first.value_or(0));
+  return play(player, rest);
+}
+
 int run_demo(const Given& given) {
+  if (!given.commands.empty()) return run_course(given);
   const std::vector<Item> items = demo_items();
   if (given.list) {
     for (const Item& item : items) print(fmt::format("{:<16} {}\n", item.name, item.summary));
@@ -135,18 +204,30 @@ void show_ghosts(Player& player, const std::vector<std::string>& names) {
 int run_view(const Given& given) {
   std::vector<Item> items;
   std::size_t first = 0;
+  const auto programs = programs_of(given.commands);
+  window::Engines engines;
+  for (const auto& program : programs) engines.more.push_back(program.get());
+  const bool as_ghost = std::ranges::any_of(programs, [&](const auto& program) {
+    return std::ranges::find(given.ghosts, program->name()) != given.ghosts.end();
+  });
+  if (!given.engine.empty() || (!programs.empty() && !as_ghost))
+    engines.shown = &one_engine(given.engine, programs);
+  if (engines.shown != nullptr && given.engine == "plumb") engines.shown = nullptr;  // moved live
+  if (!given.dt.empty()) engines.dt = parse_positive("--dt", given.dt);
   const Source source = load(given.name, given.size);
   if (source.instance) {
-    items = window::scenario_items();
+    items = window::scenario_items(engines);
     const std::string label = source.instance->label();
     while (first < items.size() && items[first].name != label) ++first;
-    if (first == items.size()) items.push_back(window::scenario_item(*source.instance));
+    if (first == items.size()) items.push_back(window::scenario_item(*source.instance, engines));
   } else {
-    items = {window::scene_item(source.scene, source.duration)};
+    items = {window::scene_item(source.scene, source.duration, engines)};
   }
   Player player(items, first);
   show_ghosts(player, given.ghosts);
-  return play(player, given);
+  Given rest = given;
+  if (engines.shown != nullptr) rest.dt.clear();  // the run has it already
+  return play(player, rest);
 }
 
 int main(int argc, char** argv) {
@@ -158,18 +239,32 @@ int main(int argc, char** argv) {
   CLI::App* demo = app.add_subcommand("demo", "play the demos of the course");
   demo->add_option("name", given.name, "which; see --list");
   demo->add_flag("--list", given.list, "the demos");
+  add_engine_command(*demo, given.commands);
+  demo->add_option("--check", given.check, "with --engine-command: begin with this check of `plumb check`")
+      ->type_name("NAME");
   add_options(*demo, given);
   demo->footer(
-      "Examples:\n  plumb demo\n  plumb demo ragdoll --theme light\n"
+      "With --engine-command the scenes of the course's checks are shown, moved by that engine, with the "
+      "right "
+      "motion as an outline.\n"
+      "Examples:\n  plumb demo\n  plumb demo bouncing_ball --engine-command mine='python3 my_engine.py'\n  "
+      "plumb demo ragdoll --theme light\n"
       "  plumb demo bouncing_ball --headless --seconds 2 --screenshot ball.png");
   CLI::App* view = app.add_subcommand("view", "watch a scenario against its truth and other engines");
   view->add_option("name", given.name, "a scenario or a scene file")->required()->type_name("NAME|FILE");
   add_size(*view, given.size);
-  view->add_option("--ghost", given.ghosts, "draw this engine over plumb, or the truth (again for more)")
+  add_engine_command(*view, given.commands);
+  view->add_option(
+          "--engine", given.engine,
+          "the engine that moves the scene (default: the first --engine-command that is no --ghost, else "
+          "plumb)")
+      ->type_name("ENGINE");
+  view->add_option("--ghost", given.ghosts, "draw this engine, or the truth, as an outline (again for more)")
       ->type_name("ENGINE");
   add_options(*view, given);
   view->footer(
       "Examples:\n  plumb view pendulum_chain --size 5 --ghost box2d\n  plumb view scene.json\n"
+      "  plumb view ball_in_room --engine-command mine='python3 my_engine.py' --ghost plumb\n"
       "  plumb view kepler --headless --seconds 5 --screenshot kepler.png");
   try {
     app.parse(argc, argv);

@@ -173,6 +173,8 @@ class Cannonballs final : public WorldDemo {
     out.capsule(kMuzzle - kBarrel * aim(), kMuzzle, kRadii[kHeavy], DrawRole::Kinematic);
     draw_path(out, fired_ == kHeavy ? kHeavy : kLight);
     if (fired_ == kBoth) draw_path(out, kHeavy);
+    for (const Ball& ball : balls_)
+      out.text(drawn_centre(ball.body), mass_text(world_.mass(ball.body)), DrawRole::Name);
     if (!show_forces_) return;
     for (const Ball& ball : balls_) {
       if (!world_.awake(ball.body)) continue;

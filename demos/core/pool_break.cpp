@@ -191,6 +191,12 @@ class PoolBreak final : public WorldDemo {
       if (on_table(ball) && time() - touched_[ball] < kGlow)
         out.circle(drawn_centre(balls_[ball]), kRadius, {0, 0}, DrawRole::Highlight);
     }
+    // The cue ball is told apart by its ring and its mass.
+    if (world_.valid(cue())) {
+      const Vec2d centre = drawn_centre(cue());
+      out.circle(centre, kRadius / 2, {0, 0}, DrawRole::Aim);
+      out.text(centre, mass_text(world_.mass(cue())), DrawRole::Name);
+    }
     if (!aim_) return;
     const Vec2d from = drawn_centre(cue());
     draw_arrow(out, from, *aim_, DrawRole::Aim);

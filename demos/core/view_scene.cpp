@@ -66,6 +66,19 @@ void draw_shape(const Shape& shape, const Placed& body, DebugDraw& out, DrawRole
   }
 }
 
+// Draws a zigzag from one end to the other, as wide as an eighth of its length.
+void draw_spring(Vec2d from, Vec2d to, DebugDraw& out) {
+  constexpr int kTurns = 12;
+  const Vec2d way = to - from, across = 1.0 / 16 * perpendicular(way);
+  Vec2d last = from;
+  for (int i = 1; i <= kTurns; ++i) {
+    const double side = i == kTurns ? 0 : i % 2 == 0 ? 1 : -1;
+    const Vec2d next = from + static_cast<double>(i) / kTurns * way + side * across;
+    out.segment(last, next, DrawRole::JointLine);
+    last = next;
+  }
+}
+
 std::vector<std::string> solver_names() {
   std::vector<std::string> names(std::begin(kSolverNames), std::end(kSolverNames));
   for (std::string& name : names) std::ranges::replace(name, '_', ' ');
@@ -91,6 +104,32 @@ void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRol
   const Placed placed{state.position, rotation_of(state.angle)};
   for (const Shape& shape : body.shapes) draw_shape(shape, placed, out, role);
   if (body.shapes.empty()) out.point(state.position, role);
+}
+
+void draw_connections(const Scene& scene, std::span<const BodyState> states, DebugDraw& out) {
+  // A point of a body, or of the world for its end.
+  const auto at = [&](const std::string& name, Vec2d anchor) {
+    const auto body = find_body(scene, name);
+    if (!body) return anchor;
+    return states[*body].position + rotation_of(states[*body].angle) * anchor;
+  };
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* spring = std::get_if<SpringForce>(&law)) {
+      draw_spring(at(spring->body_a, spring->anchor_a), at(spring->body_b, spring->anchor_b), out);
+    } else if (const auto* attraction = std::get_if<AttractionForce>(&law)) {
+      out.point(at(attraction->centre_body, attraction->centre), DrawRole::Highlight);
+    }
+  }
+  for (const Joint& joint : scene.joints) {
+    if (const auto* pulley = std::get_if<PulleyJoint>(&joint)) {
+      out.segment(at(pulley->body_a, pulley->anchor_a), pulley->ground_a, DrawRole::JointLine);
+      out.segment(pulley->ground_a, pulley->ground_b, DrawRole::JointLine);
+      out.segment(pulley->ground_b, at(pulley->body_b, pulley->anchor_b), DrawRole::JointLine);
+    } else if (const auto* stick = std::get_if<DistanceJoint>(&joint)) {
+      out.segment(at(stick->body_a, stick->anchor_a), at(stick->body_b, stick->anchor_b),
+                  DrawRole::JointLine);
+    }
+  }
 }
 
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states) {
@@ -162,6 +201,17 @@ void SceneDemo::press(Vec2d point) {
   if (world_.valid(nearest_body)) hold(nearest_body, point);
 }
 void SceneDemo::release(Vec2d) { let_go(); }
+
+void SceneDemo::draw_over(DebugDraw& out) const {
+  if (scene_.forces.empty() && scene_.joints.empty()) return;
+  std::vector<BodyState> states(scene_.bodies.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Pose<double> pose = drawn_pose(parts_.bodies[i]);
+    states[i].position = drawn_centre(parts_.bodies[i]);
+    states[i].angle = std::atan2(pose.rotation.s, pose.rotation.c);
+  }
+  draw_connections(scene_, states, out);
+}
 
 std::vector<Figure> SceneDemo::figures() const {
   const Totals totals = totals_of(world_);

@@ -33,6 +33,7 @@ class SceneDemo final : public WorldDemo {
   void fill() override;
   void before_step() override { forces_->apply(world_, dt_); }
   void changed(std::string_view control) override;
+  void draw_over(DebugDraw& out) const override;
 
   Scene scene_;
   SceneParts parts_;
@@ -44,6 +45,10 @@ class SceneDemo final : public WorldDemo {
 /// Returns the box around a scene's bodies that are not static, or all if there are none, in these states (in
 /// the scene's order), m.
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
+
+/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and the
+/// centres of attraction.
+void draw_connections(const Scene& scene, std::span<const BodyState> states, DebugDraw& out);
 
 /// Draws the shapes of one body of a scene in a state.
 void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRole role);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/core/text.h"
 #include "engine/world/queries.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/world_data.h"
@@ -101,6 +102,8 @@ void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
   out.segment(to, to + back + aside, role);
   out.segment(to, to + back - aside, role);
 }
+
+std::string mass_text(double mass) { return shortest(std::round(1000 * mass) / 1000) + " kg"; }
 
 Totals totals_of(const DemoWorld& world) {
   Totals totals;

@@ -61,6 +61,9 @@ class WorldDemo : public Demo {
 /// Draws an arrow, its head a fifth of its length.
 void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
 
+/// Returns a mass as text: "10 kg".
+std::string mass_text(double mass);
+
 /// Total momentum and energy of all dynamic bodies: kg m/s, J.
 struct Totals {
   Vec2d momentum{};

@@ -9,6 +9,8 @@
 #include "demos/compared/scene_truth.h"
 #include "demos/core/view_scene.h"
 #include "demos/window/ghost_run.h"
+#include "demos/window/playback.h"
+#include "engine/scene/error.h"
 #include "reference/backend.h"
 
 namespace plumb::window {
@@ -21,11 +23,13 @@ constexpr std::size_t kTruth = 0;  // its index in the ghosts
 // Compares plumb's motion with the truth and other engines.
 class Comparison final : public Companion {
  public:
-  explicit Comparison(scenarios::Problem problem)
+  Comparison(scenarios::Problem problem, const Engines& engines)
       : truth_(std::move(problem)), states_(scene().bodies.size()) {
     ghosts_.push_back(
         {.name = "truth", .shown = truth_.known(), .remark = truth_.known() ? "" : "no answer is known"});
-    for (const reference::Backend* backend : reference::backends()) {
+    std::vector<const reference::Backend*> all = reference::backends();
+    all.insert(all.end(), engines.more.begin(), engines.more.end());
+    for (const reference::Backend* backend : all) {
       backends_.push_back(backend);
       ghosts_.push_back({.name = std::string(backend->name())});
     }
@@ -34,9 +38,20 @@ class Comparison final : public Companion {
   const demos::SceneTruth& truth() const { return truth_; }
 
   std::string about() const override {
-    return truth_.source().empty() ? "Other engines, over plumb:" : "Truth: " + truth_.source();
+    return truth_.source().empty() ? "Other engines, as outlines:" : "Truth: " + truth_.source();
   }
   const std::vector<Ghost>& ghosts() const override { return ghosts_; }
+
+  // Shows the right motion as the most accurate engine computes it: `plumb-precise`, or the world where that
+  // does not run the scene.
+  void show_right_motion(const demos::Demo& demo) {
+    for (const std::string_view name : {"plumb-precise", "plumb"}) {
+      const auto ghost = std::ranges::find(ghosts_, name, &Ghost::name);
+      show_ghost(static_cast<std::size_t>(ghost - ghosts_.begin()), true);
+      run_ghosts(demo);
+      if (ghost->shown) return;
+    }
+  }
 
   void show_ghost(std::size_t ghost, bool shown) override {
     ghosts_[ghost].shown = shown && (ghost != kTruth || truth_.known());
@@ -46,8 +61,15 @@ class Comparison final : public Companion {
   std::vector<demos::Figure> figures(const demos::Demo& demo) override {
     // Other engines run with the step chosen by the player, from its choice or from the start.
     run_ghosts(demo);
-    static_cast<const SceneDemo&>(demo).read_states(states_);
+    if (const auto* live = dynamic_cast<const SceneDemo*>(&demo)) {
+      live->read_states(states_);
+    } else {
+      static_cast<const PlaybackDemo&>(demo).read_states(states_);
+    }
     std::vector<demos::Figure> out = truth_.figures(demo.time(), states_);
+    // A motion that is played back has positions alone.
+    if (dynamic_cast<const PlaybackDemo*>(&demo) != nullptr)
+      std::erase_if(out, [](const demos::Figure& figure) { return figure.name.starts_with("energy"); });
     std::vector<BodyState> exact(states_.size());
     if (!truth_.at(demo.time(), exact)) return out;
     std::vector<BodyState> other(states_.size());
@@ -72,10 +94,33 @@ class Comparison final : public Companion {
       if (there) draw_ghost(out, states, static_cast<int>(i));
     }
     out.outline.a = 0;
+    draw_paths(out);
   }
 
  private:
+  static constexpr int kPathSamples = 400;
+  static constexpr std::size_t kMostPaths = 3;  // of more bodies the paths would hide the picture
+
   const Scene& scene() const { return truth_.scene(); }
+
+  // Draws the true paths of the moving bodies, if they are few.
+  void draw_paths(Painter& out) {
+    if (!truth_.known() || !ghosts_[kTruth].shown) return;
+    if (paths_.empty()) {
+      std::vector<BodyState> states(states_.size());
+      std::vector<std::size_t> moving;
+      for (std::size_t i = 0; i < states.size(); ++i)
+        if (scene().bodies[i].type == BodyType::Dynamic) moving.push_back(i);
+      if (moving.size() > kMostPaths) moving.clear();
+      paths_.resize(std::max<std::size_t>(moving.size(), 1));
+      for (int k = 0; k <= kPathSamples; ++k) {
+        if (!truth_.at(truth_.end() * k / kPathSamples, states)) break;
+        for (std::size_t i = 0; i < moving.size(); ++i) paths_[i].push_back(states[moving[i]].position);
+      }
+    }
+    for (const std::vector<Vec2d>& path : paths_)
+      for (std::size_t k = 1; k < path.size(); ++k) out.segment(path[k - 1], path[k], DrawRole::Aim);
+  }
 
   // Names must live as long as this object: figures refer to them.
   std::string_view error_name(std::size_t ghost) {
@@ -112,35 +157,64 @@ class Comparison final : public Companion {
   std::vector<const reference::Backend*> backends_;  // of the ghosts after the truth
   std::map<std::size_t, GhostRun> runs_;             // keyed by ghost
   std::map<std::size_t, std::string> error_names_;
+  std::vector<std::vector<Vec2d>> paths_;  // of the truth, m; made when first drawn
   double dt_ = 0;
   bool stale_ = true;
 };
 
-Show show_of(scenarios::Problem problem, const std::string& summary) {
+Show show_of(scenarios::Problem problem, const std::string& summary, const Engines& engines) {
   Show show;
-  auto companion = std::make_unique<Comparison>(std::move(problem));
-  show.demo = std::make_unique<SceneDemo>(companion->truth().scene(), summary, companion->truth().view());
+  auto companion = std::make_unique<Comparison>(std::move(problem), engines);
+  const demos::SceneTruth& truth = companion->truth();
+  if (engines.shown == nullptr) {
+    show.demo = std::make_unique<SceneDemo>(truth.scene(), summary, truth.view());
+  } else {
+    const GhostRun run(truth.scene(), *engines.shown, {.dt = engines.dt}, truth.end());
+    if (!run.known())
+      throw Error(Error::Kind::Run, fmt::format("engine '{}'", engines.shown->name()), "", "", run.remark());
+    demos::About about{
+        .name = truth.scene().name,
+        .summary = summary,
+        .play = fmt::format("{}{}Moved by {}.", summary, summary.empty() ? "" : ". ", engines.shown->name())};
+    show.demo = std::make_unique<PlaybackDemo>(about, truth.scene(), run.motion(), engines.dt, truth.view());
+  }
   show.companion = std::move(companion);
   return show;
 }
 
 }  // namespace
 
-Item scenario_item(const scenarios::Instance& instance) {
+Item scenario_item(const scenarios::Instance& instance, const Engines& engines) {
   return {instance.label(), instance.scenario->summary,
-          [instance] { return show_of(instance.build(), instance.scenario->summary); }};
+          [instance, engines] { return show_of(instance.build(), instance.scenario->summary, engines); }};
 }
 
-std::vector<Item> scenario_items() {
+std::vector<Item> scenario_items(const Engines& engines) {
   std::vector<Item> items;
   for (const scenarios::Scenario& scenario : scenarios::all())
     for (const scenarios::Instance& instance : scenarios::select(scenario.name))
-      items.push_back(scenario_item(instance));
+      items.push_back(scenario_item(instance, engines));
   return items;
 }
 
-Item scene_item(const Scene& scene, double duration) {
-  return {scene.name, "", [scene, duration] { return show_of({.scene = scene, .duration = duration}, ""); }};
+Item scene_item(const Scene& scene, double duration, const Engines& engines) {
+  return {scene.name, "", [scene, duration, engines] {
+            return show_of({.scene = scene, .duration = duration}, "", engines);
+          }};
+}
+
+Item motion_item(const demos::About& about, const Scene& scene, const demos::SampledMotion& motion,
+                 const Engines& engines) {
+  return {about.name, about.summary, [about, scene, motion, engines] {
+            Show show;
+            auto companion = std::make_unique<Comparison>(
+                scenarios::Problem{.scene = scene, .duration = motion.end()}, engines);
+            auto demo = std::make_unique<PlaybackDemo>(about, scene, motion, engines.dt);
+            companion->show_right_motion(*demo);
+            show.demo = std::move(demo);
+            show.companion = std::move(companion);
+            return show;
+          }};
 }
 
 }  // namespace plumb::window

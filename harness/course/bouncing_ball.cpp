@@ -1,6 +1,8 @@
 // Chapter 1: a ball falls, speeds up, bounces off walls and settles.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -17,12 +19,40 @@ constexpr const char* kWalls =
 
 Scene falling() { return scene_of("fall", {0, -kGravity}, {make(Ball{})}); }
 
+std::string hard_coded(const char* value) {
+  return fmt::format("The ball falls with {} m/s^2, the scene says 9.81: take \"gravity\" from the scene.",
+                     value);
+}
+
+// Returns the factor on the velocity in each step of a fall, if there is one: the speed then grows by less
+// each step, in the same ratio.
+std::optional<double> kept_each_step(const Trace& trace) {
+  const auto gain = [&](std::size_t k) {
+    return trace.states[k + 1][0].velocity.y - trace.states[k][0].velocity.y;
+  };
+  if (trace.states.size() < 4 || gain(0) == 0) return std::nullopt;
+  const double ratio = gain(1) / gain(0);
+  if (!(ratio > 0) || std::abs(ratio - 1) < 1e-6) return std::nullopt;
+  for (std::size_t k = 1; k + 2 < trace.states.size(); ++k)
+    if (std::abs(gain(k + 1) - ratio * gain(k)) > 1e-4 * std::abs(gain(0))) return std::nullopt;
+  return ratio;
+}
+
 Finding falls(const Lab& lab) {
   const Trace trace = lab.run(falling(), 1);
   const double t = trace.duration(), v = -kGravity * t;
   const double n = std::round(t / lab.dt()), h = lab.dt();
+  const std::optional<double> kept = kept_each_step(trace);
   return Judgement()
       .read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t))
+      .mistake_if(
+          kept.has_value(), "damping",
+          fmt::format("Each step multiplies the velocity by {:.6g}: nothing here slows the ball, so leave "
+                      "that out.",
+                      kept.value_or(1)))
+      .mistake("gravity_hard_coded", {-9.8 * t}, hard_coded("9.8"))
+      .mistake("gravity_hard_coded", {-10 * t}, hard_coded("10"))
+      .mistake("gravity_hard_coded", {-9.80665 * t}, hard_coded("9.80665"))
       .mistake("no_gravity", {0}, "The ball never speeds up: add gravity times dt to the velocity each step.")
       .mistake("gravity_upwards", {-v},
                "The ball falls upwards: y points up, and the scene's gravity is negative already; add it.")
@@ -31,13 +61,13 @@ Finding falls(const Lab& lab) {
           "dt enters twice: the velocity grows by g dt each step, not by g dt dt. Is gravity multiplied by "
           "dt before, or the velocity by dt before it is kept?")
       .mistake("dt_missing", {-kGravity * n},
-               "dt is missing: each step adds the whole of g to the velocity, not g dt.")
+               "dt is missing: each step adds all of g to the velocity, and should add g dt.")
       .mistake("milliseconds", {v * 1000}, "A thousand times too fast: dt is in seconds, not milliseconds.")
       .mistake("milliseconds", {v / 1000}, "A thousand times too slow: dt is in seconds already.")
       .mistake("gravity_twice", {2 * v},
                "Gravity acts twice a step: is it added as a force and as an acceleration?")
       .mistake("gravity_halved", {v / 2},
-               "Half of gravity: v grows by g dt; the half belongs to the way, g t^2/2.")
+               "Half of gravity: v grows by g dt. The half belongs to the distance, g t^2/2.")
       .finding();
 }
 
@@ -58,13 +88,14 @@ Finding falls_far_enough(const Lab& lab) {
   const double n = std::round(t / h), exact = -kGravity * t * t / 2, late = kGravity * t * h / 2;
   return Judgement()
       .read("y after 1 s", "m", trace.last(0).position.y, lab.way(0, -kGravity, t), lab.rounding(exact, t))
-      .mistake("does_not_move", {0}, "The velocity is there, but the position never changes: add v dt to it.")
+      .mistake("does_not_move", {0}, "The position never changes: add v dt to it in each step.")
       .mistake("explicit_euler", {exact + late}, explicit_euler())
       .mistake("semi_implicit_euler", {exact - late},
                figures_of("semi-implicit Euler (velocity first, position with the new velocity)"))
       .mistake("exact_parabola", {exact}, figures_of("an exact parabola, as by velocity Verlet"))
-      .mistake("half_a_step_twice", {exact - 2 * late},
-               "The way has a dt^2/2 too much: the new velocity holds a dt already, so move by v dt alone.")
+      .mistake(
+          "half_a_step_twice", {exact - 2 * late},
+          "Each step moves g dt^2/2 too far: the new velocity already includes g dt, so move by v dt alone.")
       .mistake("velocity_without_dt", {(exact - late) / h}, "Each step moves the ball by v, not by v dt.")
       .mistake("velocity_with_dt_twice", {(exact - late) * h},
                "Each step moves the ball by v dt dt, not by v dt.")
@@ -76,16 +107,22 @@ Finding falls_far_enough(const Lab& lab) {
 Finding scene_says_gravity(const Lab& lab) {
   const Vec2d gravity{1.5, -3}, v0{3, 4};
   Scene scene = scene_of("throw", gravity, {make(Ball{.velocity = v0})});
-  const Trace trace = lab.run(scene, 1);
+  const Trace trace = lab.run(scene, 1), other = lab.run(falling(), 1);
   const double t = trace.duration();
   const Vec2d v = trace.last(0).velocity, right = v0 + t * gravity;
   const double tolerance = lab.rounding(8, t);
+  // The same gain of velocity under another gravity comes from a constant in the engine.
+  const Vec2d gain = v - v0, gain_of_other = other.last(0).velocity;
+  const bool same_gain = std::hypot(gain.x - gain_of_other.x, gain.y - gain_of_other.y) < 1e-6 && gain.y != 0;
   return Judgement()
       .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
       .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
       .read("x after 1 s", "m", trace.last(0).position.x, lab.way(v0.x, gravity.x, t), tolerance)
-      .mistake("gravity_hard_coded", {v0.x, v0.y - kGravity * t},
-               "Gravity is 9.81 downwards whatever the scene says: take \"gravity\" from the scene.")
+      .mistake_if(
+          same_gain, "gravity_hard_coded",
+          fmt::format("Gravity is {:.4g} m/s^2 downwards whatever the scene says: take \"gravity\" from the "
+                      "scene.",
+                      -gain.y / t))
       .mistake("gravity_only_down", {v0.x, right.y}, "Gravity is a vector: its x counts as well.")
       .mistake("starts_at_rest", {t * gravity.x, t * gravity.y},
                "The ball starts at rest: take \"velocity\" from the scene.")
@@ -109,33 +146,78 @@ Finding any_step_size(const Lab& lab) {
       .read("vy/t with dt/2 over that with dt", "", over_one(half), 1, relative)
       .read("vy/t with dt/4 over that with dt", "", over_one(quarter), 1, relative)
       .mistake("per_frame", {2, 4},
-               "Twice the steps, twice the speed: something is added per step and not per second; multiply "
-               "it by dt.")
+               "Twice the steps, twice the speed: something is added once a step and does not depend on dt. "
+               "Multiply it by dt.")
       .mistake("dt_twice", {0.5, 0.25}, "Half the step, half the speed: dt enters twice.")
       .finding();
 }
 
 constexpr const char* kStill =
-    "The ball never moves: take \"velocity\" from the scene, and add v dt to the position.";
+    "The ball never moves: add v dt to its position in each step; v begins with the scene's \"velocity\".";
+
+// Drops a ball of radius r at (1, -2) m/s on a floor whose top is at -0.5 m.
+Trace bounce(const Lab& lab, double r, double e = 1) {
+  const Body floor =
+      fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = 0}));
+  const Body ball = make(Ball{.position = {0, 0.5 + r}, .velocity = {1, -2}, .radius = r, .restitution = e});
+  return lab.run(scene_of("bounce", {}, {ball, floor}), 1);
+}
+
+// Returns true if a step at the floor moves the ball farther down than its velocities before and after do.
+bool pulled_into_floor(const Lab& lab, const Trace& trace) {
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const BodyState &before = trace.states[k - 1][0], &after = trace.states[k][0];
+    const double least = std::min(before.velocity.y, after.velocity.y) * lab.dt();
+    if (after.position.y - before.position.y < least - 1e-6) return true;
+  }
+  return false;
+}
+
+// Returns true if the first change of vy leaves (1 - e) of it, as an impulse with e in place of 1 + e does.
+bool keeps_rest(const Trace& trace, double e) {
+  const double v = trace.first(0).velocity.y;
+  for (const auto& states : trace.states)
+    if (states[0].velocity.y != v) return std::abs(states[0].velocity.y - (1 - e) * v) < 0.01 * std::abs(v);
+  return false;
+}
+
+constexpr const char* kNormalNotUnit =
+    "The bounce is right where the normal's length happens to be 1 m, and wrong elsewhere: divide the normal "
+    "by its "
+    "length.";
+constexpr const char* kOnePlus =
+    "The first contact takes away e of the speed: the change is (1 + e) times it, 1 to stop the ball and e "
+    "to send it "
+    "back.";
 
 Finding bounces(const Lab& lab) {
-  const Body floor = fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1}));
-  const Trace trace =
-      lab.run(scene_of("bounce", {}, {make(Ball{.position = {0, 1}, .velocity = {1, -2}}), floor}), 1);
+  const double r = 0.4, tolerance = 0.002;
+  const Trace trace = bounce(lab, r);
   const BodyState& end = trace.last(0);
-  const double tolerance = 0.002;
-  return Judgement()
-      .read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
-      .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
-      .mistake_if(trace.still(0), "starts_at_rest", kStill)
-      .mistake("falls_through", {1, -2},
-               "The ball goes through the floor: no contact is found, or it is not answered.")
+  Judgement judgement;
+  judgement.read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
+      .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance);
+  if (judgement.good()) return judgement.finding();
+  // With a radius of 1 m the vector from the wall to the centre is 1 m long, less the overlap of a step.
+  const double off_at_1 = std::abs(bounce(lab, 1).last(0).velocity.y - 2);
+  const bool right_at_1 = off_at_1 < 0.3 && off_at_1 < std::abs(end.velocity.y - 2) / 3;
+  return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
+      .mistake_if(
+          pulled_into_floor(lab, trace), "normal_flipped",
+          "The ball is pulled into the floor: the normal points into the wall, and should point out of it, "
+          "towards the ball.")
+      .mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
+      .mistake_if(keeps_rest(bounce(lab, r, 0.7), 0.7), "one_plus_forgotten", kOnePlus)
+      .mistake(
+          "falls_through", {1, -2},
+          "The ball goes through the floor: no contact is found, the velocity is not changed, or the normal "
+          "points into the wall, so that coming looks like leaving.")
       .mistake("both_turned", {-1, 2},
-               "The whole velocity is turned round: only its part along the wall's normal is.")
-      .mistake("wrong_axis", {-1, -2},
-               "The x component is turned at a floor: the floor's normal points up, so turn y.")
-      .mistake("restitution_ignored", {1, 0},
-               "The ball stops at the floor: restitution 1 gives all of the speed back, -e vy.")
+               "The whole velocity is reversed: reverse only its part along the wall's normal.")
+      .mistake("wrong_axis", {-1, -2}, "The floor reverses vx: its normal points up, so reverse vy.")
+      .mistake(
+          "restitution_ignored", {1, 0},
+          "The ball stops at the floor: with restitution 1 it should leave as fast as it came, at -e vy.")
       .mistake("stops_dead", {0, 0},
                "The ball stops dead: only the normal part of the velocity changes, by -e.")
       .finding();
@@ -160,9 +242,19 @@ bool trembles(const Trace& trace) {
   return false;
 }
 
+// Returns true if a ball that has bounced, and that nothing pulls down, rises more slowly later.
+bool loses_what_it_got(const Trace& trace) {
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const double before = trace.states[k - 1][0].velocity.y, after = trace.states[k][0].velocity.y;
+    if (before > 0 && after < before - 0.01 * std::abs(trace.first(0).velocity.y)) return true;
+  }
+  return false;
+}
+
 constexpr const char* kTurnedEveryStep =
-    "The ball sticks in the wall: its velocity is turned round each step that it is inside. Turn it "
-    "only while it moves towards the wall, and push the ball out.";
+    "The ball sticks in the wall: its velocity is reversed in each step that it overlaps the wall. Reverse "
+    "it only "
+    "if it moves towards the wall, v . n < 0, and push the ball out.";
 
 Finding restitution(const Lab& lab) {
   const double e = 0.7, wall = 0.2, v = 2;
@@ -174,15 +266,15 @@ Finding restitution(const Lab& lab) {
   return Judgement()
       .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.002 * v)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
-      .mistake_if(trembles(trace), "turned_every_step", kTurnedEveryStep)
-      .mistake(
-          "restitution_squared", {e * e * v},
-          "Restitution counts twice: it scales the speed, once; the energy falls by its square by itself.")
+      .mistake_if(trembles(trace) || loses_what_it_got(trace), "turned_every_step", kTurnedEveryStep)
+      .mistake_if(keeps_rest(trace, e), "one_plus_forgotten", kOnePlus)
+      .mistake("restitution_squared", {e * e * v},
+               "Restitution is applied twice: multiply the speed by e once.")
       .mistake("restitution_root", {std::sqrt(e) * v},
-               "The energy is scaled by e: Newton's restitution scales the speed.")
-      .mistake("restitution_ignored", {v}, "All of the speed comes back: multiply by the restitution.")
+               "The energy is multiplied by e: restitution multiplies the speed.")
+      .mistake("restitution_ignored", {v}, "All of the speed comes back: multiply it by the restitution.")
       .mistake("restitution_zero", {0}, "None of the speed comes back: restitution is not used.")
-      .mistake("restitution_of_one_less", {(1 - e) * v}, "The speed is scaled by 1 - e: it should be e.")
+      .mistake("restitution_of_one_less", {(1 - e) * v}, "The speed is multiplied by 1 - e: it should be e.")
       .mistake("restitution_average", {(e + wall) / 2 * v},
                "The two restitutions are averaged: \"contact_rules\" says maximum.")
       .mistake("restitution_product", {e * wall * v},
@@ -239,8 +331,7 @@ Finding four_walls(const Lab& lab) {
                   "The ball gains speed at walls: pushing it out must not change its "
                   "velocity, and restitution 1 gives back what came, no more.")
       .mistake_if(end < 0.998 * speed, "slows_down",
-                  "The ball loses speed in the air or at walls: nothing here "
-                  "damps it, and restitution is 1.")
+                  "The ball loses speed in the air or at walls: nothing here damps it, and restitution is 1.")
       .finding();
 }
 
@@ -263,19 +354,25 @@ Finding settles(const Lab& lab) {
       .read("highest above the floor from 2.7 s on", "m", high, 0, tolerance)
       .read("deepest in the floor from 2.7 s on", "m", low, 0, tolerance)
       .read("vy after 5 s", "m/s", speed, 0, 2 * kGravity * lab.dt())
-      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
+      .read("y of the floor", "m", trace.last(1).position.y, -0.5, 1e-9)
+      .read("vy of the floor", "m/s", trace.last(1).velocity.y, 0, 1e-9)
       .mistake_if(
-          low < -r, "falls_through",
-          "The ball sinks through the floor: stop its fall each step while it rests, however slow it is.")
+          std::abs(trace.last(1).position.y + 0.5) > 1e-9 || std::abs(trace.last(1).velocity.y) > 1e-9,
+          "static_moves",
+          "The floor moves: gravity, forces and contacts change only bodies whose type is \"dynamic\".")
+      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
+      .mistake_if(low < -r, "falls_through",
+                  "The ball sinks through the floor: stop it in each step in which it moves towards the "
+                  "floor, however slowly.")
       .mistake_if(
           low < -tolerance && high <= tolerance, "sinks",
-          "The ball sinks into the floor little by little: besides its velocity, set its position right.")
+          "The ball sinks into the floor little by little: correct its position as well as its velocity.")
       .mistake_if(high > 0.5, "never_loses_energy",
                   "The ball keeps bouncing: each bounce should leave half of the speed.")
-      .mistake_if(
-          high > tolerance, "restless",
-          "The ball trembles on the floor: what gravity adds within a step must not bounce; below about "
-          "2 g dt take restitution as 0.")
+      .mistake_if(high > tolerance, "restless",
+                  "The ball keeps bouncing on the floor: gravity adds g dt of speed each step, and that must "
+                  "not bounce. "
+                  "Take restitution as 0 below about 2 g dt.")
       .finding();
 }
 
@@ -286,13 +383,13 @@ Chapter bouncing_ball() {
           .title = "A bouncing ball",
           .page = "1-bouncing-ball.md",
           .checks = {{"falls", "a ball speeds up by g a second", kBall, falls},
-                     {"falls_far_enough", "it falls as far as its method says", kBall, falls_far_enough},
-                     {"scene_says_gravity", "gravity and the first velocity are the scene's", kBall,
+                     {"falls_far_enough", "it falls as far as its method predicts", kBall, falls_far_enough},
+                     {"scene_says_gravity", "gravity and the first velocity come from the scene", kBall,
                       scene_says_gravity},
                      {"any_step_size", "the same speed at any step size", kBall, any_step_size},
-                     {"bounces", "a bounce turns the normal velocity round", kWalls, bounces},
-                     {"restitution", "restitution scales the speed", kWalls, restitution},
-                     {"four_walls", "four walls hold it in, and its speed", kWalls, four_walls},
+                     {"bounces", "a bounce reverses the velocity along the normal", kWalls, bounces},
+                     {"restitution", "restitution multiplies the speed", kWalls, restitution},
+                     {"four_walls", "it stays between four walls and keeps its speed", kWalls, four_walls},
                      {"settles", "under gravity it comes to rest on the floor", kWalls, settles}}};
 }
 

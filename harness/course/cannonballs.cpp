@@ -89,7 +89,7 @@ Finding forces_add(const Lab& lab) {
                "Forces replace gravity: they act beside it.")
       .mistake("forces_ignored", gives(t * gravity), "Only gravity acts: the scene's forces are not used.")
       .mistake("forces_replace_weight", gives(t / mass * lift),
-               "Only the last force counts, and gravity is lost: add up.")
+               "Only the last force counts, and gravity is lost: add all of them up.")
       .finding();
 }
 
@@ -113,7 +113,7 @@ Finding push_ends(const Lab& lab) {
                "The push acts all the time: \"start\" and \"duration\" are not used.")
       .mistake("push_missed", {0},
                "The push is missed: compare the time with \"start\" and \"start\" + \"duration\".")
-      .mistake("push_without_dt", {v / lab.dt()}, "The push adds F/m each step: it is F dt/m.")
+      .mistake("push_without_dt", {v / lab.dt()}, "The push adds F/m each step: it should add F dt/m.")
       .finding();
 }
 
@@ -168,9 +168,9 @@ Finding spring(const Lab& lab) {
           fmt::format("Your energy grows by 1 + w^2 h^2 = {:.6f} a step: that is explicit Euler. Update the "
                       "velocity first, then the position with the new velocity.",
                       1 + w * w * h * h))
-      .mistake("implicit_euler", {1 / (1 + w * w * h * h), kAny},
-               "Your energy shrinks by 1/(1 + w^2 h^2) a step: that is implicit Euler, which damps all that "
-               "moves.")
+      .mistake(
+          "implicit_euler", {1 / (1 + w * w * h * h), kAny},
+          "Your energy shrinks by 1/(1 + w^2 h^2) a step: that is implicit Euler, which damps every motion.")
       .mistake("mass_not_divided", {kAny, x(std::sqrt(k))}, "The spring's force is not divided by the mass.")
       .mistake(
           "spring_pushes", {kAny, rest + amplitude * std::cosh(w * te)},

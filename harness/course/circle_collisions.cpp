@@ -27,44 +27,109 @@ Trace head_on(const Lab& lab, Ball a, Ball b, double duration = 1.5) {
   return lab.run(scene_of("head on", {}, {make(a), make(b)}), duration);
 }
 
+// Returns the speed at which two balls on the x axis part; below zero they close.
+double parting(const std::vector<BodyState>& states) { return states[1].velocity.x - states[0].velocity.x; }
+
+// Returns true if two balls that an impulse has sent apart are slowed or sent back afterwards.
+bool pulled_back(const Trace& trace, double closing) {
+  bool bounced = false;
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const double before = parting(trace.states[k - 1]), after = parting(trace.states[k]);
+    if (bounced && before > 0.01 * closing && after < before - 0.01 * closing) return true;
+    const bool in_order = trace.states[k][1].position.x > trace.states[k][0].position.x;
+    bounced = bounced || (in_order && before < 0 && after > 0.01 * closing);
+  }
+  return false;
+}
+
+constexpr const char* kPulledBack =
+    "Two balls that already part get another impulse, and are held together or sent back: answer a contact "
+    "only if "
+    "(vb - va) . n < 0, and keep the sum of a contact's impulses from becoming negative.";
+constexpr const char* kNormalNotUnit =
+    "The collision is right where r1 + r2 happens to be 1 m, and wrong elsewhere: divide the line of centres "
+    "by its "
+    "length to get the normal.";
+
+constexpr const char* kNormalFlipped =
+    "The two are caught inside each other: they are pushed together when they part and let go when they "
+    "close. The "
+    "normal is flipped: it points from a to b, and they close when (vb - va) . n < 0.";
+
 Finding detects(const Lab& lab) {
   const double r = 0.3, v = 1, reach = 2 * r;
   const Trace trace = head_on(lab, {.position = {-1, 0}, .velocity = {v, 0}, .radius = r},
                               {.position = {1, 0}, .velocity = {-v, 0}, .radius = r});
   double nearest = distance(trace, 0);
   for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
-  const bool through = trace.last(0).position.x > trace.last(1).position.x;
+  const double last = distance(trace, trace.states.size() - 1);
+  const bool caught = last < 0.9 * reach && nearest < reach / 4;
+  const bool through = !caught && trace.last(0).position.x > trace.last(1).position.x;
   const double tolerance = 2 * v * lab.dt() + 0.01 * reach;
   return Judgement()
       .read("nearest that the centres came", "m", nearest, reach, tolerance)
-      .mistake_if(through, "no_detection",
-                  "The circles go through each other: they touch when their centres are nearer than r1 + r2.")
+      .mistake_if(caught, "normal_flipped", kNormalFlipped)
+      .mistake_if(
+          through, "no_detection",
+          "The circles go through each other: they touch when their centres are nearer than r1 + r2. Is the "
+          "contact found, and are the velocities changed?")
       .mistake("diameters", {2 * reach}, "They turn back too early: add the radii, not the diameters.")
       .mistake("one_radius", {r},
-               "They turn back too late: the distance is held against one radius, not r1 + r2.")
+               "They turn back too late: compare the distance with r1 + r2, not with one radius.")
       .mistake("square_of_distance", {std::sqrt(reach)},
-               "The square of the distance is held against r1 + r2: square both.")
+               "The square of the distance is compared with r1 + r2: compare it with (r1 + r2)^2.")
       .finding();
 }
 
-Finding equal_masses_swap(const Lab& lab) {
-  const double u = 2, w = -1, closing = u - w;
+// Lets two balls that overlap move apart: nothing should act on them.
+Finding parting_is_left_alone(const Lab& lab) try {
+  const double v = 1, deep = 0.06, r = 0.4;
   const Trace trace =
-      head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}}, {.position = {1, 0}, .velocity = {w, 0}}, 2);
+      head_on(lab, {.position = {-r + deep / 2, 0}, .velocity = {-v / 2, 0}, .radius = r, .restitution = 0.5},
+              {.position = {r - deep / 2, 0}, .velocity = {v / 2, 0}, .radius = r, .restitution = 0.5}, 0.5);
+  const double apart = parting(trace.states.back());
+  return Judgement()
+      .read("speed apart of two that overlap and part", "m/s", apart, v, 0.05 * v)
+      .mistake_if(apart < 0.95 * v, "no_test_of_parting", kPulledBack)
+      .mistake_if(
+          apart > 1.05 * v, "correction_adds_energy",
+          "Two balls that overlap are driven apart: correct positions, and leave velocities as they are.")
+      .finding();
+} catch (const Error& error) {
+  if (error.field() == "overlap") return {};  // an engine that refuses such a start
+  throw;
+}
+
+Finding equal_masses_swap(const Lab& lab) {
+  const double u = 2, w = -1, closing = u - w, r = 0.3, reach = 2 * r;
+  const auto meet = [&](double radius) {
+    return head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}, .radius = radius},
+                   {.position = {1, 0}, .velocity = {w, 0}, .radius = radius}, 2);
+  };
+  const Trace trace = meet(r);
   const double mean = (u + w) / 2;
   double nearest = distance(trace, 0);
   for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
-  const bool caught = distance(trace, trace.states.size() - 1) < 0.9 && nearest < 0.25;  // radii of 0.5
-  return Judgement()
-      .read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
-      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
-      .mistake("no_collision", {u, w}, "Nothing happens to the velocities: the contact is not answered.")
+  const bool caught = distance(trace, trace.states.size() - 1) < 0.9 * reach && nearest < reach / 4;
+  Judgement judgement;
+  judgement.read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
+      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing);
+  if (judgement.good()) return judgement.finding();
+  const auto off = [&](const Trace& t) {
+    return std::abs(t.last(0).velocity.x - w) + std::abs(t.last(1).velocity.x - u);
+  };
+  const double off_at_1 = off(meet(0.5));
+  const bool right_at_1 = off_at_1 < 0.2 * closing && off_at_1 < off(trace) / 3;
+  return judgement.mistake_if(caught, "normal_flipped", kNormalFlipped)
+      .mistake_if(pulled_back(trace, closing), "no_test_of_parting", kPulledBack)
+      .mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
+      .mistake("no_collision", {u, w},
+               "The velocities do not change: no contact is found, or no impulse is applied.")
       .mistake(
           "restitution_ignored", {mean, mean},
-          "They stick together: restitution 1 sends them apart as fast as they came, (1 + e) in the impulse.")
-      .mistake(
-          "each_turned", {-u, -w},
-          "Each velocity is turned round by itself: it is the relative velocity along the normal that turns.")
+          "They stick together: with restitution 1 they part as fast as they came; the impulse has 1 + e.")
+      .mistake("each_turned", {-u, -w},
+               "Each velocity is reversed by itself: reverse the relative velocity along the normal.")
       .mistake_if(trace.last(0).velocity.x > u + closing / 2 && trace.last(1).velocity.x < w - closing / 2,
                   "impulse_backwards",
                   "They speed up into each other: the impulse has the wrong sign. The normal points from a "
@@ -78,40 +143,47 @@ Finding equal_masses_swap(const Lab& lab) {
                "Only the second ball gets an impulse: the first gets the opposite one.")
       .mistake("one_body_only", {u, w + closing},
                "Only the second ball gets an impulse: the first gets the opposite one.")
-      .mistake_if(
-          caught, "normal_flipped",
-          "The two are caught inside each other: they are pushed together when they part and let go when "
-          "they "
-          "close. The normal is flipped: it points from a to b, and they close when (vb - va) . n < 0.")
       .finding();
 }
 
 constexpr const char* kInverses =
-    "The blow is too weak: the impulse is divided by m1 + m2, which is right for two masses of 1 alone. It "
-    "is "
+    "The impulse is too weak: it is divided by m1 + m2, which is right only for two masses of 1. It is "
     "-(1 + e) vn/(1/m1 + 1/m2).";
 
 Finding heavy_hits_light(const Lab& lab) {
   const double heavy = 10, light = 1, v = 2;
-  const Trace trace = head_on(lab, {.position = {-2, 0}, .velocity = {v, 0}, .mass = heavy},
-                              {.position = {0, 0}, .mass = light}, 2);
+  // The radii add to 1.8 m: a normal that is not divided by its length gives impulses 3.24 times too strong.
+  const auto meet = [&](double radius) {
+    return head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}, .mass = heavy, .radius = radius},
+                   {.position = {0, 0}, .mass = light, .radius = 0.8 * radius}, 2);
+  };
+  const Trace trace = meet(1);
   const double j = 2 * v / (1 / heavy + 1 / light);
   const double after_heavy = v - j / heavy, after_light = j / light, wrong_j = 2 * v / (heavy + light);
   const double together = v * heavy / (heavy + light);  // after any number of weak impacts
-  int blows = 0;                                        // steps in which the heavy ball's velocity changes
+  int changes = 0;                                      // steps in which the heavy ball's velocity changes
   for (std::size_t k = 1; k < trace.states.size(); ++k)
-    blows += std::abs(trace.states[k][0].velocity.x - trace.states[k - 1][0].velocity.x) > 1e-6 * v;
-  return Judgement()
-      .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, after_heavy, kShare * v)
-      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, after_light, kShare * v)
+    changes += std::abs(trace.states[k][0].velocity.x - trace.states[k - 1][0].velocity.x) > 1e-6 * v;
+  Judgement judgement;
+  judgement.read("vx of 10 kg", "m/s", trace.last(0).velocity.x, after_heavy, kShare * v)
+      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, after_light, kShare * v);
+  if (judgement.good()) return judgement.finding();
+  const auto off = [&](const Trace& t) {
+    return std::abs(t.last(0).velocity.x - after_heavy) + std::abs(t.last(1).velocity.x - after_light);
+  };
+  const double off_at_1 = off(meet(1 / 1.8));
+  const bool right_at_1 = off_at_1 < 0.2 * v && off_at_1 < off(trace) / 3;
+  return judgement.mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
+      .mistake_if(pulled_back(trace, v), "no_test_of_parting", kPulledBack)
       .mistake("masses_ignored", {0, v}, "They swap velocities as equal masses do: the masses are not used.")
       .mistake("inverse_mass_forgotten", {v - j, j},
-               "Both velocities change by j: each changes by j times its inverse mass, so the heavy ball "
-               "barely slows.")
+               "Both velocities change by j: each should change by j times its own inverse mass, so that the "
+               "heavy "
+               "ball barely slows.")
       .mistake("masses_in_place_of_inverses", {v - wrong_j / heavy, wrong_j / light}, kInverses)
-      .mistake("masses_in_place_of_inverses", {blows > 2 ? together : kNever, together}, kInverses)
-      .mistake("restitution_ignored", {blows > 2 ? kNever : together, together},
-               "They go on together: restitution 1 sends them apart as fast as they came.")
+      .mistake("masses_in_place_of_inverses", {changes > 2 ? together : kNever, together}, kInverses)
+      .mistake("restitution_ignored", {changes > 2 ? kNever : together, together},
+               "They go on together: with restitution 1 they part as fast as they came.")
       .mistake("masses_swapped", {v - j / light, j / heavy}, "Each ball gets the other's inverse mass.")
       .mistake("effective_mass_forgotten", {v - 2 * v / heavy, 2 * v / light},
                "The impulse is not divided by 1/m1 + 1/m2.")
@@ -127,20 +199,22 @@ Finding restitution(const Lab& lab) {
                    {.position = {1, 0}, .velocity = {w, 0}, .restitution = restitution}, 2);
   };
   const Trace dead = after(0), half = after(e);
-  const auto parting = [](const Trace& trace) { return trace.last(1).velocity.x - trace.last(0).velocity.x; };
+  const auto apart = [](const Trace& trace) { return parting(trace.states.back()); };
   return Judgement()
       .read("vx of the first at e = 0", "m/s", dead.last(0).velocity.x, mean, kShare * closing)
-      .read("speed apart at e = 0", "m/s", parting(dead), 0, kShare * closing)
-      .read("speed apart at e = 0.5", "m/s", parting(half), e * closing, kShare * closing)
+      .read("speed apart at e = 0", "m/s", apart(dead), 0, kShare * closing)
+      .read("speed apart at e = 0.5", "m/s", apart(half), e * closing, kShare * closing)
       .mistake("always_elastic", {w, closing, closing},
                "Every collision is elastic: restitution is not used.")
       .mistake("restitution_ignored", {mean, 0, 0}, "No collision bounces: restitution is not used.")
       .mistake("restitution_squared", {mean, 0, e * e * closing},
-               "Restitution counts twice, or both balls' are multiplied: it is a ratio of speeds, once.")
+               "Restitution is applied twice, or both balls' are multiplied: \"contact_rules\" says maximum, "
+               "and it "
+               "multiplies the speed once.")
       .mistake("one_plus_forgotten", {u, -closing, -(1 - e) * closing},
-               "The impulse has e where it should have 1 + e: without bounce it must still stop the two.")
+               "The impulse has e where it should have 1 + e: with e = 0 it must still stop the two.")
       .mistake("halved", {kAny, -closing / 2, kAny},
-               "Without bounce they still close: the impulse is half of what it should be.")
+               "With e = 0 they still close: the impulse is half of what it should be.")
       .finding();
 }
 
@@ -170,7 +244,8 @@ Finding oblique(const Lab& lab) {
       .mistake("tangent", gives(hit, stays), "The parts along and across the line of centres are mixed up.")
       .mistake("y_of_normal_flipped", gives({stays.x, -stays.y}, {hit.x, -hit.y}),
                "The y of the normal has the wrong sign.")
-      .mistake("no_collision", gives({v, 0}, {0, 0}), "They pass: circles at an offset touch as well.")
+      .mistake("no_collision", gives({v, 0}, {0, 0}),
+               "They pass each other: circles touch off their centres as well.")
       .finding();
 }
 
@@ -178,19 +253,31 @@ Finding post(const Lab& lab) {
   const double v = 2, start = -2;
   const Body ball = make(Ball{.position = {start, 0}, .velocity = {v, 0}});
   const Trace trace = lab.run(scene_of("post", {}, {ball, fixed(make(Ball{.name = "post"}))}), 1.5);
-  const double t = trace.duration(), touches = -1, late = v * lab.dt();
+  const double t = trace.duration(), touches = -2 * Ball{}.radius, late = v * lab.dt();
+  const BodyState& fixed_end = trace.last(1);
+  const bool moves = std::hypot(fixed_end.position.x, fixed_end.position.y) > 1e-9;
+  bool has_velocity = false;
+  for (const auto& states : trace.states) has_velocity = has_velocity || states[1].velocity != Vec2d{};
   return Judgement()
       .read("vx of the ball", "m/s", trace.last(0).velocity.x, -v, kShare * v)
       .read("vy of the ball", "m/s", trace.last(0).velocity.y, 0, kShare * v)
       .read("x of the ball", "m", trace.last(0).position.x, touches - (v * t - (touches - start)), 3 * late)
-      .read("x of the post", "m", trace.last(1).position.x, 0, 1e-9)
+      .read("x of the post", "m", fixed_end.position.x, 0, 1e-9)
+      .read("vx of the post", "m/s", fixed_end.velocity.x, 0, 1e-9)
+      .mistake_if(
+          moves, "static_moves",
+          "The static post moves: a static body stays where it is, with an inverse mass of 0 in impulses and "
+          "in corrections of position.")
+      .mistake_if(
+          has_velocity && !moves, "static_has_mass",
+          "The static post gets a velocity, though it does not move: its inverse mass is 0, so that no "
+          "impulse changes its velocity.")
+      .mistake_if(pulled_back(trace, v), "no_test_of_parting", kPulledBack)
       .mistake_if(trace.still(0), "starts_at_rest", "The ball never moves.")
-      .mistake(
-          "static_has_mass", {0, 0, touches, kAny},
-          "The ball stops at the post: the post takes the blow as a ball of 1 kg would, and a static body's "
-          "inverse mass is 0; or no collision bounces, as the checks before would say.")
-      .mistake("static_moves", {-v, 0, kAny, kAny},
-               "The static post moves: it stands still whatever hits it.")
+      .mistake("static_has_mass", {0, 0, touches, kAny},
+               "The ball stops at the post, as at a free ball of 1 kg: a static body's inverse mass is 0. Or "
+               "no collision "
+               "bounces, as the checks before would say.")
       .mistake("no_collision", {v, 0, start + v * t, 0}, "The ball goes through the static post.")
       .finding();
 }
@@ -238,24 +325,62 @@ Finding break_shot(const Lab& lab) {
       .read("overlap at the end", "m", overlap, 0, v * lab.dt())
       .read("speed apart of two that overlap", "m/s", parting, 0, 0.05)
       .mistake_if(p > 0.01, "momentum_not_kept",
-                  "Momentum is lost or made: what one ball gets the other must lose. Are both changed, by "
-                  "opposite impulses, with velocities read before either is changed?")
+                  "Momentum is lost or gained: what one ball gets the other must lose. Do both get opposite "
+                  "impulses, "
+                  "with the relative velocity read before either changes?")
+      .mistake_if(std::abs(parting) > 0.05, "correction_adds_energy",
+                  "Two balls that overlap and do not move fly apart: correct positions, and leave velocities "
+                  "as they are.")
       .mistake_if(
-          std::abs(parting) > 0.05, "correction_adds_energy",
-          fmt::format("Two balls that overlap fly apart, and energy is {:.2f} times what it was: pushing "
-                      "overlaps apart must move positions and leave velocities alone.",
-                      ratio))
-      .mistake_if(ratio > 1.02, "impulse_too_strong",
-                  fmt::format("Energy grows to {:.2f} times: impulses are too strong, or contacts that part "
-                              "already get one.",
-                              ratio))
-      .mistake_if(
-          ratio < 0.98, "energy_lost",
-          "Elastic balls lose energy: restitution is 1 here. Is a contact answered twice a step, or with "
-          "the velocities of before another one?")
+          ratio > 1.02, "impulse_too_strong",
+          fmt::format(
+              "Energy grows to {:.2f} times: impulses are too strong, or balls that already part get one.",
+              ratio))
+      .mistake_if(ratio < 0.98, "energy_lost",
+                  "Elastic balls lose energy: restitution is 1 here. Does a contact get two impulses a step, "
+                  "or one that is "
+                  "computed from velocities of before another contact?")
       .mistake_if(overlap > v * lab.dt(), "overlaps_stay",
-                  "Balls stay in each other: push them apart as well.")
+                  "Balls stay in each other: correct their positions as well.")
       .finding();
+}
+
+// Lets 10 kg and 1 kg overlap at rest and returns how far each is moved; each is to move by its share of the
+// inverse masses, which leaves the centre of mass in place.
+Finding overlap_is_shared(const Lab& lab) try {
+  const double heavy = 10, light = 1, deep = 0.1, r = 0.4;
+  const Trace trace =
+      head_on(lab, {.position = {-r + deep / 2, 0}, .mass = heavy, .radius = r, .restitution = 0},
+              {.position = {r - deep / 2, 0}, .mass = light, .radius = r, .restitution = 0}, 1);
+  const double a = trace.last(0).position.x - trace.first(0).position.x;
+  const double b = trace.last(1).position.x - trace.first(1).position.x;
+  const double centre = (heavy * a + light * b) / (heavy + light), most = 0.05 * deep;
+  const double overlap = 2 * r - distance(trace, trace.states.size() - 1);
+  const bool alike =
+      b > most && std::abs(a + b)<0.1 * b, swapped = b> most && std::abs(a + heavy * b) < 0.1 * -a;
+  return Judgement()
+      .read("shift of the centre of mass", "m", centre, 0, most)
+      .read("overlap that is left", "m", overlap, 0, deep)
+      .mistake_if(
+          overlap > 1.01 * deep, "pushed_together",
+          "The overlap grows: the correction pushes the two into each other. a moves against the normal, b "
+          "along it.")
+      .mistake_if(
+          alike, "correction_split_evenly",
+          "10 kg and 1 kg are moved equally far: each moves by its inverse mass over the sum of both, here 1 "
+          "and 10 parts of 11.")
+      .mistake_if(
+          swapped, "correction_shares_swapped",
+          "The heavy ball is moved ten times as far as the light one: the shares are swapped. Each moves by "
+          "its inverse mass over the sum of both.")
+      .mistake_if(std::abs(a) < 1e-12 && b > most, "correction_of_one_only",
+                  "Only the second ball is moved: both move, each by its share of the inverse masses.")
+      .mistake_if(std::abs(b) < 1e-12 && -a > most, "correction_of_one_only",
+                  "Only the first ball is moved: both move, each by its share of the inverse masses.")
+      .finding();
+} catch (const Error& error) {
+  if (error.field() == "overlap") return {};  // an engine that refuses such a start corrects nothing
+  throw;
 }
 
 Finding pile_rests(const Lab& lab) {
@@ -275,15 +400,15 @@ Finding pile_rests(const Lab& lab) {
       .read("vy of the upper", "m/s", trace.last(1).velocity.y, 0, 2 * g * lab.dt())
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(height < -2 * r || gap < -2 * r, "falls_through",
-                  "A ball sinks through what it rests on: contacts hold as long as two overlap and close.")
+                  "A ball sinks through what it rests on: apply an impulse in each step in which two overlap "
+                  "and close.")
+      .mistake_if(height < -tolerance || gap < -tolerance, "sinks",
+                  "The pile sinks: correct positions as well as velocities, each ball by its share of the "
+                  "inverse masses.")
       .mistake_if(
-          height < -tolerance || gap < -tolerance, "sinks",
-          "The pile sinks in: besides the velocities, move two that overlap apart, each by its share of "
-          "the inverse masses.")
-      .mistake_if(height > tolerance || gap > tolerance, "restless",
-                  "The pile does not come to rest: restitution is 0 here, what gravity adds in a step must "
-                  "not bounce, and "
-                  "pushing overlaps apart must leave velocities alone.")
+          height > tolerance || gap > tolerance, "restless",
+          "The pile does not come to rest: restitution is 0 here, the speed that gravity adds in a step must "
+          "not bounce, and correcting positions must leave velocities as they are.")
       .finding();
 }
 
@@ -293,14 +418,18 @@ Chapter circle_collisions() {
   return {.number = 3,
           .title = "Circles that collide",
           .page = "3-circle-collisions.md",
-          .checks = {{"detects", "circles touch at r1 + r2", kCircles, detects},
-                     {"equal_masses_swap", "equal masses swap their velocities", kCircles, equal_masses_swap},
-                     {"heavy_hits_light", "a heavy ball barely slows", kCircles, heavy_hits_light},
-                     {"restitution_of_two", "restitution from 0 to 1", kCircles, restitution},
-                     {"oblique", "only the part along the line of centres changes", kCircles, oblique},
-                     {"post", "what is static takes no blow", kCircles, post},
-                     {"break_shot", "a break keeps momentum and energy", kCircles, break_shot},
-                     {"pile_rests", "a ball rests on a ball", kCircles, pile_rests}}};
+          .checks = {
+              {"detects", "circles touch at r1 + r2", kCircles, detects},
+              {"equal_masses_swap", "equal masses swap their velocities", kCircles, equal_masses_swap},
+              {"overlap_is_shared", "an overlap is corrected by inverse masses", kCircles, overlap_is_shared},
+              {"parting_is_left_alone", "balls that overlap and part are left alone", kCircles,
+               parting_is_left_alone},
+              {"heavy_hits_light", "a heavy ball barely slows", kCircles, heavy_hits_light},
+              {"restitution_of_two", "restitution from 0 to 1", kCircles, restitution},
+              {"oblique", "only the part along the line of centres changes", kCircles, oblique},
+              {"post", "a static post does not move, and sends the ball back", kCircles, post},
+              {"break_shot", "a break keeps momentum and energy", kCircles, break_shot},
+              {"pile_rests", "a ball rests on a ball", kCircles, pile_rests}}};
 }
 
 }  // namespace plumb::course

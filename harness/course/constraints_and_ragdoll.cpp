@@ -33,6 +33,13 @@ DistanceJoint stick(std::string name, std::string a, std::string b, double lengt
 
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
+// Returns true if a ball becomes three times as fast as at the start.
+bool faster(const Trace& trace) {
+  for (const auto& states : trace.states)
+    if (length(states[0].velocity) > 3 * length(trace.first(0).velocity)) return true;
+  return false;
+}
+
 Finding stick_keeps_its_length(const Lab& lab) {
   const double d = 1, v = 1;  // each, across the stick: it turns at 2 rad/s
   Scene scene =
@@ -40,6 +47,16 @@ Finding stick_keeps_its_length(const Lab& lab) {
                {make(Ball{.name = "a", .position = {-d / 2, 0}, .velocity = {0, -v}, .radius = 0.1}),
                 make(Ball{.name = "b", .position = {d / 2, 0}, .velocity = {0, v}, .radius = 0.1})});
   scene.joints.emplace_back(stick("stick", "a", "b", d));
+  if (faster(lab.run(scene, 3.5 * lab.dt()))) {
+    Finding out;
+    out.verdict = Verdict::Fail;
+    out.mistake = "impulse_backwards";
+    out.says =
+        "The balls speed up within three steps: the stick's impulse has the wrong sign. It is -speed/(1/ma + "
+        "1/mb) "
+        "along the stick; b gets it, and a the opposite one.";
+    return out;
+  }
   const Trace trace = lab.run(scene, 5);
   double worst = 0;
   for (const auto& states : trace.states)
@@ -60,10 +77,11 @@ Finding stick_keeps_its_length(const Lab& lab) {
       .mistake("joint_ignored", {std::hypot(d, 2 * v * t) - d, kAny},
                "The stick does nothing: the balls fly apart.")
       .mistake("no_position_correction", {drifted - d, kAny},
-               "The stick grows as its speed is held and its length is not: besides the velocity, correct "
-               "the positions "
-               "by a share of the error each step.")
-      .mistake_if(trace.still(0), "starts_at_rest", "The balls never move: take \"velocity\" from the scene.")
+               "The stick gets longer: its velocities are corrected and its positions are not. Correct them "
+               "by a share "
+               "of the error each step.")
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The balls never move: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake_if(
           worst <= tolerance && spin < 0.95 * w, "spin_lost",
           "The stick loses its spin: correcting positions or velocities must act along the stick only.")
@@ -86,9 +104,10 @@ Finding stick_weighs_masses(const Lab& lab) {
   return Judgement()
       .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.005 * both)
       .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.005 * both)
-      .mistake("masses_ignored", {force * t / light / 2, force * t / light / 2},
-               "Both ends are moved alike: share the correction by inverse mass, the light end takes ten "
-               "parts in eleven.")
+      .mistake(
+          "masses_ignored", {force * t / light / 2, force * t / light / 2},
+          "Both ends are moved alike: share the correction by inverse mass; the light end takes ten parts in "
+          "eleven.")
       .mistake("one_body_only", {0, 0},
                "Only the light end is held: the stick pulls on both, the heavy one must come along.")
       .mistake("one_body_only", {force * t / light, force * t / light},
@@ -98,7 +117,7 @@ Finding stick_weighs_masses(const Lab& lab) {
                {force * t / light * heavy / (heavy + light), force * t / light * heavy / (heavy + light)},
                "The shares are swapped: the light end moves more, by inverse mass.")
       .otherwise_if(std::abs(momentum - force * t) > 0.05 * force * t, "momentum_not_kept",
-                    "The stick makes or takes momentum: its two ends get opposite impulses.")
+                    "The stick changes the total momentum: its two ends must get opposite impulses.")
       .finding();
 }
 
@@ -156,12 +175,13 @@ Finding pendulum(const Lab& lab) {
       .mistake_if(trace.still(0), "no_gravity",
                   "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
       .mistake_if(!period, "joint_ignored",
-                  "It does not swing to and fro: is the end that is held by \"world\" a fixed point?")
-      .otherwise_if(high > 1.1 * amplitude, "correction_adds_energy",
-                    "It swings ever higher: correcting positions must not feed the velocities; or explicit "
-                    "Euler steps it.")
+                  "It does not swing to and fro: the end named \"world\" is a fixed point, at anchor_a.")
+      .otherwise_if(
+          high > 1.1 * amplitude, "correction_adds_energy",
+          "It swings higher each time: correcting positions must not add to velocities. Or is this explicit "
+          "Euler?")
       .otherwise_if(high < lowest, "damped",
-                    "It swings ever lower: correct along the string only, and by a share of the error.")
+                    "It swings lower each time: correct along the string only, and by a share of the error.")
       .mistake("weight_not_divided", {due / std::sqrt(3.0), kAny, kAny},
                "It swings as under three times the gravity, with 3 kg: divide the weight by the mass.")
       .mistake("gravity_divided_by_mass", {due * std::sqrt(3.0), kAny, kAny},
@@ -201,16 +221,24 @@ Finding hinged_rod(const Lab& lab) {
     const double a = states[0].angle;
     gap = std::max(gap, length(states[0].position - l / 2 * Vec2d{std::cos(a), std::sin(a)}));
   }
+  // A hinge that does not turn its anchor pulls the rod's centre to half a length right of it, within a
+  // second.
+  double to_unturned = l;
+  for (std::size_t k = 0; k < trace.states.size() && trace.times[k] < 1; ++k)
+    to_unturned = std::min(to_unturned, length(trace.states[k][0].position - Vec2d{l / 2, 0}));
   const double due = period_with(about_end);
   const std::optional<double> period = period_of(trace, swing);
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
-      .mistake_if(!period && still, "lever_forgotten",
-                  "The rod does not swing: if gravity pulls at it, the hinge holds its centre. It holds the "
-                  "anchor, r from the centre: the "
-                  "anchor's velocity is v + w x r, and an impulse turns the rod by r x j/I.")
+      .mistake_if(gap > 0.2 * l && to_unturned < l / 4, "anchor_not_turned",
+                  "The anchor does not turn with the rod: turn \"anchor_b\" by the body's angle to get r.")
+      .mistake_if(
+          !period && still, "lever_forgotten",
+          "The rod does not swing: if gravity acts on it, the hinge holds its centre. It should hold the "
+          "anchor, r from the centre: the anchor's velocity is v + w x r, and an impulse changes the spin by "
+          "r x j/I.")
       .mistake(
           "rod_as_point", {period_with(mass * l * l / 4), kAny},
           "The rod swings as a point at its centre would: it turns as well, r x j/I, and its inertia counts.")

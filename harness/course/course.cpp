@@ -1,5 +1,6 @@
 #include "harness/course/course.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,15 +13,23 @@ namespace {
 
 using reference::ProcessError;
 
-bool is_timeout(const Error& error) {
+bool is(const Error& error, ProcessError::Fault fault) {
   const auto* process = dynamic_cast<const ProcessError*>(&error);
-  return process != nullptr && process->fault() == ProcessError::Fault::Timeout;
+  return process != nullptr && process->fault() == fault;
 }
+
+constexpr const char* kGrowsForEver =
+    ". Numbers that grow without end often come from an impulse with the wrong sign, or from a missing dt.";
+
+constexpr const char* kWrongStep =
+    "The steps do not have the length that was asked for: each is \"dt\" of the settings, in seconds, and is "
+    "not "
+    "measured with a clock; a sample comes after \"every\" steps.";
 
 Finding not_yet(const Check& check, const std::string& reason) {
   Finding out;
   out.verdict = Verdict::NotYet;
-  out.says = fmt::format("{}. This check wants {}", reason, check.wants);
+  out.says = fmt::format("{}. This check needs {}", reason, check.wants);
   return out;
 }
 
@@ -31,9 +40,27 @@ Finding broken(const std::string& says) {
   return out;
 }
 
+// Runs a failed check again. The same scene and settings must give the same bits; where they do not, no
+// figure of the first run can name a mistake.
+void compare_with_second_run(const Check& check, const Lab& lab, Finding& finding) {
+  const Finding again = check.run(lab);
+  for (std::size_t i = 0; i < std::min(finding.readings.size(), again.readings.size()); ++i) {
+    const Reading &first = finding.readings[i], &second = again.readings[i];
+    if (first.measured == second.measured) continue;
+    finding.mistake = "runs_differ";
+    finding.says = fmt::format(
+        "Two runs of the same scene differ: {} is {:.6g} in one and {:.6g} in the other. Is the step taken "
+        "from "
+        "a clock? It is \"dt\" of the settings, each time. Or is something random, or used before it is set?",
+        first.what, first.measured, second.measured);
+    return;
+  }
+}
+
 Finding run(const Check& check, const Lab& lab, int& timeouts) {
   try {
     Finding out = check.run(lab);
+    if (out.verdict == Verdict::Fail) compare_with_second_run(check, lab, out);
     for (const Reading& reading : out.readings)
       if (!std::isfinite(reading.measured))
         return broken(fmt::format("{} is not a finite number", reading.what));
@@ -42,8 +69,14 @@ Finding run(const Check& check, const Lab& lab, int& timeouts) {
     return not_yet(check, reason.what());
   } catch (const Error& error) {
     if (error.kind() == Error::Kind::Unsupported) return not_yet(check, error.what());
-    if (is_timeout(error)) ++timeouts;
-    return broken(error.what());
+    if (is(error, ProcessError::Fault::Timeout)) ++timeouts;
+    const bool grows = is(error, ProcessError::Fault::Diverged);
+    Finding out = broken(error.what() + std::string(grows ? kGrowsForEver : ""));
+    if (is(error, ProcessError::Fault::Time)) {
+      out.mistake = "wrong_dt";
+      out.says = kWrongStep + fmt::format(" ({})", error.what());
+    }
+    return out;
   }
 }
 
@@ -57,15 +90,18 @@ std::vector<Chapter> chapters() {
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done) {
-  const Lab lab(engine, settings);
   std::vector<Outcome> out;
   int timeouts = 0;
+  std::string named;  // the first mistake
   for (const Chapter& chapter : chapters) {
     for (const Check& check : chapter.checks) {
       Outcome outcome{.chapter = &chapter, .check = &check, .finding = {}};
+      const Lab lab(engine, settings, &outcome.runs);
       outcome.finding = timeouts >= kPatience
                             ? broken(fmt::format("not tried: the engine has hung {} times", timeouts))
                             : run(check, lab, timeouts);
+      if (!named.empty() && outcome.finding.mistake != named) outcome.finding.follows = named;
+      if (named.empty()) named = outcome.finding.mistake;
       done(outcome);
       out.push_back(std::move(outcome));
     }

@@ -39,6 +39,7 @@ struct Outcome {
   const Chapter* chapter = nullptr;
   const Check* check = nullptr;
   Finding finding;
+  std::vector<Recorded> runs{};  ///< runs of the check, in order; those of a second attempt last
 };
 
 /// Runs `chapters` on `engine`, one check after another, and calls `done` after each. If the engine fails,

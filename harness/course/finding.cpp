@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,8 +17,8 @@ std::string nothing_known(const std::vector<Reading>& readings) {
   for (const Reading& reading : readings) {
     if (reading.good()) continue;
     if (reading.expected == 0)
-      return fmt::format("no mistake that plumb knows gives this; {} should be 0", reading.what);
-    return fmt::format("no mistake that plumb knows gives this; {} is {:.4g} times what it should be",
+      return fmt::format("No known mistake has these figures: {} should be 0.", reading.what);
+    return fmt::format("No known mistake has these figures: {} is {:.4g} times what it should be.",
                        reading.what, reading.measured / reading.expected);
   }
   return "";
@@ -49,26 +50,32 @@ Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says
 }
 
 // Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; above 1 the
-// mistake does not match.
+// mistake does not match. A mistake that gives no figure for any reading that is off explains nothing.
 double Judgement::miss(const Mistake& mistake) const {
   double worst = 0;
+  bool explains = false;
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const Reading& reading = readings_[i];
     const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
     if (std::isnan(gives)) continue;
+    explains = explains || !reading.good();
     const double way = std::abs(gives - reading.expected);
     // A figure that the mistake leaves right keeps the reading's own tolerance.
     const double most = way <= reading.tolerance ? reading.tolerance : kLargestShare * way;
     const double passes = std::max(std::min(reading.tolerance, most), kSmallestShare * way);
     worst = std::max(worst, std::abs(reading.measured - gives) / passes);
   }
-  return worst;
+  return explains ? worst : std::numeric_limits<double>::infinity();
+}
+
+bool Judgement::good() const {
+  return std::all_of(readings_.begin(), readings_.end(), [](const Reading& r) { return r.good(); });
 }
 
 Finding Judgement::finding() const {
   Finding out;
   out.readings = readings_;
-  if (std::all_of(readings_.begin(), readings_.end(), [](const Reading& r) { return r.good(); })) return out;
+  if (good()) return out;
   out.verdict = Verdict::Fail;
   const Mistake* nearest = seen_.empty() ? nullptr : &seen_.front();
   double least = nearest == nullptr ? 1 : 0;

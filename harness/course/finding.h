@@ -27,6 +27,7 @@ struct Finding {
   std::vector<Reading> readings;
   std::string mistake;  ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;     ///< the diagnosis, the reason or the error, for people
+  std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
 };
 
 /// Stands for a figure that a mistake leaves undetermined.
@@ -34,8 +35,8 @@ inline constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
 /// Compares readings with their expected values and, if they are off, with the figures of known mistakes. A
 /// mistake matches if every reading is within the reading's tolerance of the mistake's figure. That tolerance
-/// is clamped to 3 % to 10 % of the distance between right and wrong. Of several matches the nearest is
-/// named.
+/// is clamped to 3 % to 10 % of the distance between right and wrong. A mistake that says nothing of a
+/// reading that is off does not match. Of several matches the nearest is named.
 class Judgement {
  public:
   Judgement& read(std::string what, std::string unit, double measured, double expected, double tolerance);
@@ -49,6 +50,9 @@ class Judgement {
 
   /// Adds a mistake recognised by something other than the readings, named if nothing else matches.
   Judgement& otherwise_if(bool seen, std::string name, std::string says);
+
+  /// Returns true if every reading is within its tolerance.
+  bool good() const;
 
   Finding finding() const;
 

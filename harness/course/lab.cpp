@@ -7,8 +7,9 @@ namespace plumb::course {
 
 using reference::Scheme;
 
-Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settings)
-    : engine_(engine), settings_(settings), method_(engine.method(settings)) {
+Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settings,
+         std::vector<Recorded>* runs)
+    : engine_(engine), settings_(settings), method_(engine.method(settings)), runs_(runs) {
   if (method_.scheme == Scheme::Adaptive) method_.substep = 0;
 }
 
@@ -22,10 +23,19 @@ Trace Lab::run(const Scene& scene, double duration, int finer) const {
   for (const Body& body : scene.bodies) trace.states.back().push_back(initial_state(body));
   const int steps = static_cast<int>(std::floor(duration / settings.dt + 1e-6));
   const auto simulator = engine_.create(scene, settings);
-  simulator->record(steps, 1, scene.bodies.size(), [&](double time, std::span<const BodyState> states) {
-    trace.times.push_back(time);
-    trace.states.emplace_back(states.begin(), states.end());
-  });
+  const auto keep = [&] {
+    if (runs_ != nullptr) runs_->push_back({scene, trace, settings.dt});
+  };
+  try {
+    simulator->record(steps, 1, scene.bodies.size(), [&](double time, std::span<const BodyState> states) {
+      trace.times.push_back(time);
+      trace.states.emplace_back(states.begin(), states.end());
+    });
+  } catch (...) {
+    keep();
+    throw;
+  }
+  keep();
   return trace;
 }
 

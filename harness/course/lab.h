@@ -21,6 +21,13 @@ struct Trace {
   bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
 
+/// A scene that a check has run, and what came of it.
+struct Recorded {
+  Scene scene;
+  Trace trace;
+  double dt = 0;  ///< s, between the states of the trace
+};
+
 /// Thrown if the engine does not support such scenes; `what()` is the reason.
 class NotYet : public std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -29,7 +36,9 @@ class NotYet : public std::runtime_error {
 /// Runs scenes on an engine and knows how its method steps through time.
 class Lab {
  public:
-  Lab(const reference::Backend& engine, const reference::StepSettings& settings);
+  /// Appends every run to `runs`, if given.
+  Lab(const reference::Backend& engine, const reference::StepSettings& settings,
+      std::vector<Recorded>* runs = nullptr);
 
   /// Steps `scene` for as many whole steps as fit into `duration`, in s, with a sample after each. A step is
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
@@ -63,6 +72,7 @@ class Lab {
   const reference::Backend& engine_;
   reference::StepSettings settings_;
   reference::Method method_;
+  std::vector<Recorded>* runs_;
 };
 
 }  // namespace plumb::course

@@ -124,16 +124,16 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("spin kept", "of all", l / l0, 1, lost)
       .read("widest gap in a joint", "m", gap, 0, 0.02 * lab.coarseness())
       .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
-      .mistake_if(std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
-                  "The whole does not fall as a stone does. Chapter 1 has the fall itself; where that is "
-                  "right, the limbs "
-                  "pull the whole aside: a joint's two impulses are opposite, and corrections of positions "
-                  "are shared "
-                  "by inverse mass.")
+      .mistake_if(
+          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
+          "The centre of mass does not fall as a single ball does. Chapter 1 checks the fall itself; if that "
+          "is "
+          "right, joints push the whole ragdoll: their two impulses must be opposite, and corrections of "
+          "positions shared by inverse mass.")
       .mistake_if(std::abs(l / l0 - 1) > lost, "spin_not_kept",
-                  "Joints change the spin of the whole: an impulse at an anchor turns each body by r x j/I, "
-                  "with r as "
-                  "turned by its angle.")
+                  "Joints change the angular momentum of the whole: an impulse at an anchor changes each "
+                  "body's spin by "
+                  "r x j/I, with r turned by the body's angle.")
       .mistake_if(gap > 0.02 * lab.coarseness(), "too_few_iterations",
                   "Joints come apart: go over them several times a step.")
       .finding();
@@ -161,10 +161,10 @@ Finding ragdoll_drops(const Lab& lab) {
       .mistake_if(
           gap > 0.1 * lab.coarseness(), "comes_apart",
           "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
-      .mistake_if(fastest > 1.5, "restless",
-                  "The ragdoll does not settle: restitution is 0 here, and joints and contacts must not feed "
-                  "each other "
-                  "energy: correct positions by a share of the error each step, 0.1 to 0.3.")
+      .mistake_if(
+          fastest > 1.5, "restless",
+          "The ragdoll does not settle: restitution is 0 here, and corrections must not add energy. Correct "
+          "positions by a share of the error each step, 0.1 to 0.3.")
       .finding();
 }
 

@@ -77,6 +77,7 @@ std::string line(const Outcome& outcome, const Style& style) {
                                 kIndent - 1 - static_cast<int>(mark.text.size()), outcome.check->name,
                                 outcome.check->title);
   if (finding.verdict == Verdict::Pass) return out;
+  if (finding.verdict == Verdict::NotYet) return out + paragraph(finding.says, style);
   if (finding.verdict == Verdict::Fail) {
     for (const Reading& reading : finding.readings) {
       const bool good = reading.good();
@@ -86,6 +87,10 @@ std::string line(const Outcome& outcome, const Style& style) {
                        style);
     }
   }
+  if (!finding.follows.empty())
+    out += paragraph(
+        fmt::format("This may follow from {} above; if it stays when that is corrected:", finding.follows),
+        style);
   return out + paragraph((finding.mistake.empty() ? "" : finding.mistake + ": ") + finding.says, style);
 }
 
@@ -103,9 +108,9 @@ std::string score(std::span<const Outcome> outcomes, const Style& style) {
   }
   out += " (" + parts + ")\n";
   if (next != nullptr)
-    out +=
-        fmt::format("Next: chapter {}, docs/course/{}. What fails later may follow from what fails first.\n",
-                    next->number, next->page);
+    out += fmt::format(
+        "Next: chapter {}, docs/course/{}. Begin with the first check that fails: it may cause the others.\n",
+        next->number, next->page);
   return out;
 }
 
@@ -127,6 +132,7 @@ std::string as_json(const std::string& engine, std::span<const Outcome> outcomes
                       {"title", outcome.check->title},
                       {"verdict", mark_of(outcome.finding.verdict).json},
                       {"mistake", outcome.finding.mistake},
+                      {"may_follow_from", outcome.finding.follows},
                       {"says", outcome.finding.says},
                       {"readings", readings}});
   }

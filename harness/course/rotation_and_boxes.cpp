@@ -35,12 +35,15 @@ Finding torque_spins(const Lab& lab) {
           "Twice too fast: is the inertia 1/24, or one side left out? A box has m (w^2 + h^2)/12, with both.")
       .mistake("inertia_third", {w / 4},
                "Four times too slow: 1/3 is a rod about its end; about its centre it is 1/12.")
+      .mistake("half_sides", {4 * w},
+               "Four times too fast: m (w^2 + h^2)/12 takes the whole sides, not half of them.")
       .mistake("mass_for_inertia", {torque / mass * t},
                "The torque is divided by the mass: divide it by the inertia.")
       .mistake("inertia_of_one", {torque * t}, "The inertia is 1, or forgotten: w grows by torque dt/I.")
       .mistake("torque_backwards", {-w},
                "It spins the wrong way: a positive torque turns counter-clockwise, y up.")
-      .mistake("degrees", {w * kDegrees}, "57.3 times too fast: angles are in radians, not degrees.")
+      .mistake("degrees", {w * kDegrees},
+               "57.3 times too fast: the spin is in radians a second, not degrees.")
       .mistake("torque_ignored", {0}, "The torque does nothing: add torque dt/I to the spin.")
       .finding();
 }
@@ -67,6 +70,8 @@ Finding shapes_have_inertia(const Lab& lab) {
                "The box is twice too slow: is it 1/6? A box has m (w^2 + h^2)/12.")
       .mistake("inertia_half", {2 * t, kAny},
                "The box is twice too fast: is it 1/24? A box has m (w^2 + h^2)/12.")
+      .mistake("half_sides", {box_as(thin / 4), kAny},
+               "Four times too fast: m (w^2 + h^2)/12 takes the whole sides, not half of them.")
       .mistake("box_by_area", {box_as(mass * width * height / 12), kAny},
                "w h stands where w^2 + h^2 should.")
       .mistake("disc_as_ring", {kAny, t / 2}, "The disc spins as a ring does: m r^2/2, not m r^2.")
@@ -82,17 +87,22 @@ Finding angle_in_radians(const Lab& lab) {
   const double t = trace.duration(), angle = start + w * t;
   return Judgement()
       .read("angle after 3 s", "rad", trace.last(0).angle, angle, lab.rounding(angle, t))
+      .read("spin after 3 s", "rad/s", trace.last(0).angular_velocity, w, lab.rounding(w, t))
+      .mistake_if(
+          trace.last(0).angular_velocity > 0.01 * w && trace.last(0).angular_velocity < 0.999 * w,
+          "spin_damped",
+          "The spin gets smaller, and nothing slows it here: leave out what multiplies it in each step.")
       .mistake("wrapped", {angle - 2 * std::numbers::pi},
-               "The angle is wrapped at half a turn: it counts whole turns.")
-      .mistake("degrees", {angle * kDegrees}, "The angle is in degrees: radians are asked for.")
+               "The angle is wrapped at half a turn: it should count whole turns.")
+      .mistake("degrees", {angle * kDegrees}, "The angle is in degrees: it should be in radians.")
       .mistake("degrees", {start + w * t * kDegrees},
-               "The spin turns the angle by degrees: radians a second times dt.")
+               "The angle grows by degrees: it should grow by w dt, in radians.")
       .mistake("degrees", {start + w * t / kDegrees},
                "The spin is read as degrees a second: it is radians a second.")
       .mistake("turns_backwards", {start - w * t},
                "It turns the wrong way: angles grow counter-clockwise, y up.")
       .mistake("does_not_turn", {start}, "The angle never changes: add w dt to it.")
-      .mistake("first_angle_ignored", {w * t}, "The first angle is ignored: take \"angle\" from the scene.")
+      .mistake("first_angle_ignored", {w * t}, "The initial angle is ignored: take \"angle\" from the scene.")
       .finding();
 }
 
@@ -112,6 +122,9 @@ constexpr double kPushInertia = 1.0 / 3;  // 2 kg, 1 m by 1 m
 // of it.
 double share_of_push(const Lab& lab) { return lab.dt() / kPushed + 0.01; }
 
+constexpr const char* kLever =
+    "The arm r is measured from the world's origin: measure it from the body's centre to the point.";
+
 Finding central_force(const Lab& lab) {
   const Vec2d force{3, 4};
   const Trace trace = pushed(lab, 0, force, {});
@@ -119,10 +132,8 @@ Finding central_force(const Lab& lab) {
   return Judgement()
       .read("spin", "rad/s", trace.last(0).angular_velocity, 0, 1e-6)
       .read("vx", "m/s", trace.last(0).velocity.x, v, v * share_of_push(lab))
-      .mistake("lever_from_origin", {w_by_world, kAny},
-               "It spins by the lever from the world's origin: r runs from the body's centre to the point.")
-      .mistake("lever_from_origin", {-w_by_world, kAny},
-               "It spins by the lever from the world's origin: r runs from the body's centre to the point.")
+      .mistake("lever_from_origin", {w_by_world, kAny}, kLever)
+      .mistake("lever_from_origin", {-w_by_world, kAny}, kLever)
       .mistake("force_ignored", {0, 0}, "The force does nothing.")
       .finding();
 }
@@ -138,9 +149,9 @@ Finding corner_force(const Lab& lab) {
       .mistake("torque_backwards", {-w, w},
                "It spins the wrong way: the torque is rx Fy - ry Fx; r x F, not F x r.")
       .mistake("point_not_turned", {w, 0},
-               "The point does not turn with the box: turn \"point\" by the body's angle before r x F.")
+               "The point does not turn with the box: turn \"point\" by the body's angle, then take r x F.")
       .mistake("point_ignored", {0, 0}, "A push at the corner does not spin the box: add the torque r x F.")
-      .mistake("dot_for_cross", {w, w}, "The torque is r . F: it is rx Fy - ry Fx.")
+      .mistake("dot_for_cross", {w, w}, "The torque is computed as r . F: it is r x F = rx Fy - ry Fx.")
       .mistake("inertia_sixth", {w / 2, -w / 2},
                "Twice too slow: is the inertia 1/6? It is m (w^2 + h^2)/12.")
       .mistake("inertia_half", {2 * w, -2 * w},
@@ -152,30 +163,102 @@ constexpr const char* kFlipped =
     "The rod spins the wrong way: r x n is flipped. w changes by (rx jy - ry jx)/I, r from the centre to the "
     "contact.";
 
+constexpr const char* kUpright =
+    "\"shapes\":[\"circle\",\"box\"] and \"features\":[\"contacts\",\"fixed_rotation\"]: boxes that do not "
+    "turn";
+
+Body upright(Crate crate) {
+  Body body = make(crate);
+  body.fixed_rotation = true;
+  return body;
+}
+
+// Two boxes of 2 kg and 1 kg that do not turn meet along x, at different heights.
+Finding upright_boxes_collide(const Lab& lab) {
+  const double u = 2, heavy = 2, light = 1, j = 2 * u / (1 / heavy + 1 / light);
+  const Body a = upright(
+      {.name = "a", .position = {-2, 0.2}, .velocity = {u, 0}, .mass = heavy, .width = 0.6, .height = 1});
+  const Body b = upright({.name = "b", .position = {0, 0}, .mass = light, .width = 0.8, .height = 0.9});
+  const Trace trace = lab.run(scene_of("upright", {}, {a, b}), 1.5);
+  const double spin =
+      std::max(std::abs(trace.last(0).angular_velocity), std::abs(trace.last(1).angular_velocity));
+  const double after_a = u - j / heavy, after_b = j / light;
+  return Judgement()
+      .read("vx of 2 kg", "m/s", trace.last(0).velocity.x, after_a, 0.002 * u)
+      .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, after_b, 0.002 * u)
+      .read("vy of 1 kg", "m/s", trace.last(1).velocity.y, 0, 0.002 * u)
+      .read("largest spin", "rad/s", spin, 0, 1e-9)
+      .mistake("no_collision", {u, 0, 0, 0},
+               "The boxes go through each other: they overlap if they do so along x and along y.")
+      .mistake_if(spin > 1e-9, "fixed_rotation_ignored",
+                  "A box turns, and the scene says \"fixed_rotation\": its inverse inertia is 0.")
+      .mistake_if(std::abs(trace.last(1).velocity.y) > 0.002 * u, "normal_between_centres",
+                  "The boxes push each other up and down as well: the normal is the axis of least overlap, x "
+                  "or y, not "
+                  "the line of centres.")
+      .mistake("masses_ignored", {0, u, 0, 0},
+               "They swap velocities as equal masses do: the masses are not used.")
+      .finding();
+}
+
+constexpr const char* kLargestOverlap =
+    "The box goes through, or is moved out at the side: the normal is the axis with the least overlap, here "
+    "y, not the "
+    "one with the most.";
+
+// Drops a box that does not turn on a platform's end: it overlaps less along y than along x.
+Finding least_overlap(const Lab& lab) {
+  const double v = 2, x = 2.1;
+  const Body platform = fixed(make(Crate{.name = "platform", .width = 4, .height = 1}));
+  const Body box = upright({.position = {x, 1.5}, .velocity = {0, -v}, .width = 0.8, .height = 0.6});
+  const Trace trace = lab.run(scene_of("edge", {}, {box, platform}), 1);
+  return Judgement()
+      .read("vx after landing on the edge", "m/s", trace.last(0).velocity.x, 0, 0.002 * v)
+      .read("vy after landing on the edge", "m/s", trace.last(0).velocity.y, v, 0.002 * v)
+      .read("x of the box", "m", trace.last(0).position.x, x, 0.01)
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
+      .mistake_if(
+          std::abs(trace.last(0).velocity.x) > 0.01 * v, "normal_between_centres",
+          "The box is thrown sideways: the normal is the axis of least overlap, here y, not the line of "
+          "centres.")
+      .mistake_if(std::abs(trace.last(0).position.x - x) > 0.01, "largest_overlap", kLargestOverlap)
+      .mistake("largest_overlap", {0, -v, kAny}, kLargestOverlap)
+      .finding();
+}
+
 Finding ball_hits_rod(const Lab& lab) {
   const double v = 2, arm = 0.8, m = 1, rod_mass = 3, width = 0.2, height = 2;
   const double inertia = rod_mass * (width * width + height * height) / 12;
-  const Body ball = make(Ball{.position = {-0.8, arm}, .velocity = {v, 0}, .mass = m, .radius = 0.2});
-  const Body rod = make(Crate{.name = "rod", .mass = rod_mass, .width = width, .height = height});
-  const Trace trace = lab.run(scene_of("rod", {}, {ball, rod}), 0.6);
+  const auto meet = [&](Vec2d at) {
+    const Body ball =
+        make(Ball{.position = at + Vec2d{-0.8, arm}, .velocity = {v, 0}, .mass = m, .radius = 0.2});
+    const Body rod =
+        make(Crate{.name = "rod", .position = at, .mass = rod_mass, .width = width, .height = height});
+    return lab.run(scene_of("rod", {}, {ball, rod}), 0.6);
+  };
+  const Trace trace = meet({3, -2});
   const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
   const double j = 2 * v / k, rigid = 2 * v / linear, w = -arm * j / inertia;
-  return Judgement()
-      .read("vx of the ball", "m/s", trace.last(0).velocity.x, v - j / m, 0.002 * v)
+  Judgement judgement;
+  judgement.read("vx of the ball", "m/s", trace.last(0).velocity.x, v - j / m, 0.002 * v)
       .read("vx of the rod", "m/s", trace.last(1).velocity.x, j / rod_mass, 0.002 * v)
-      .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.005 * std::abs(w))
+      .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.005 * std::abs(w));
+  if (judgement.good()) return judgement.finding();
+  const bool right_at_origin = std::abs(meet({}).last(1).angular_velocity - w) < 0.02 * std::abs(w);
+  return judgement.mistake_if(right_at_origin, "lever_from_origin", kLever)
       .mistake("r_cross_n_flipped", {v - j / m, j / rod_mass, -w}, kFlipped)
       .otherwise_if(trace.last(1).angular_velocity > -0.2 * w, "r_cross_n_flipped", kFlipped)
-      .mistake("no_rotation", {v - rigid / m, rigid / rod_mass, 0},
-               "The rod does not spin: an impulse off the centre changes w by r x j/I, and (r x n)^2/I "
-               "belongs into the "
-               "effective mass.")
+      .mistake(
+          "no_rotation", {v - rigid / m, rigid / rod_mass, 0},
+          "The rod does not spin: an impulse off the centre changes w by r x j/I, and the effective mass has "
+          "(r x n)^2/I.")
       .mistake("effective_mass_without_rotation", {v - rigid / m, rigid / rod_mass, -arm * rigid / inertia},
-               "The blow is too strong and energy grows: the effective mass lacks (r x n)^2/I.")
+               "The impulse is too strong and energy grows: the effective mass lacks (r x n)^2/I.")
       .mistake("spin_not_changed", {v - j / m, j / rod_mass, 0},
                "The impulse never changes the spin: add r x j/I to w.")
       .mistake("lever_not_squared", {kAny, kAny, -arm * 2 * v / (linear + arm / inertia) / inertia},
-               "The effective mass has (r x n)/I: it is squared, (r x n)^2/I.")
+               "The effective mass has (r x n)/I: square r x n.")
       .mistake("no_collision", {v, 0, 0}, "The ball goes through the rod.")
       .finding();
 }
@@ -190,9 +273,11 @@ Body ground(double restitution, double friction) {
 }
 
 constexpr const char* kBothCorners =
-    "Both corners take the whole impulse from the same velocity: solve them one after the other with what "
-    "the "
-    "first has left, several times, and keep their sums from pulling.";
+    "Both corners get the whole impulse, computed from the same velocity: solve one corner after the other, "
+    "each from "
+    "the velocity that the last one left, several times, and keep each corner's sum of impulses from "
+    "becoming "
+    "negative.";
 
 // A square of mass m and side s has I = m s^2/6. The inverse effective mass at its corner is 1/m + (s/2)^2/I
 // = 2.5/m.
@@ -208,17 +293,63 @@ Finding lands_flat(const Lab& lab) {
   return Judgement()
       .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.005 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
-      .mistake_if(trace.still(0), "starts_at_rest", "The box never moves: take \"velocity\" from the scene.")
+      .mistake_if(trace.still(0), "starts_at_rest",
+                  "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
       .mistake("restitution_ignored", {0, 0}, "The box does not bounce: restitution is not used for boxes.")
       .mistake("always_elastic", {v, 0},
                "The box bounces as fast as it came: restitution is not used for boxes.")
       .mistake("both_corners_take_all", {-v + 2 * (1 + e) * v / 2.5, 0}, kBothCorners)
       .mistake("both_corners_take_all", {-v + 2 * (1 + e) * v, 0}, kBothCorners)
-      .mistake_if(
-          std::abs(trace.last(0).angular_velocity) > 0.02, "one_corner",
-          "It spins after a flat landing: only one corner is answered, or each only once. A flat landing has "
-          "two points; go over them several times.")
+      .mistake_if(std::abs(trace.last(0).angular_velocity) > 0.02, "one_corner",
+                  "It spins after a flat landing: only one corner gets an impulse, or each only once. A flat "
+                  "landing has two "
+                  "contact points; go over them several times.")
+      .finding();
+}
+
+// Slides a flat box at 5 m/s. The coefficients 0.2 and 0.45 make 0.3 as their geometric mean.
+Finding slides(const Lab& lab) {
+  const double v = 5, width = 2, height = 0.2, mu_box = 0.2, mu_ground = 0.45, t = 1;
+  const Body box = make(Crate{.position = {0, height / 2},
+                              .velocity = {v, 0},
+                              .mass = 2,
+                              .width = width,
+                              .height = height,
+                              .restitution = 0,
+                              .friction = mu_box});
+  const auto after = [&](double seconds) {
+    return lab.run(scene_of("slide", {0, -kGravity}, {box, ground(0, mu_ground)}), seconds);
+  };
+  const Trace sliding = after(t), stopped = after(3);
+  const auto with = [&](double mu) { return v - mu * kGravity * t; };
+  const double mu = std::sqrt(mu_box * mu_ground), x = v * v / (2 * mu * kGravity);
+  const double late = 3 * mu * kGravity * lab.dt();  // contact may begin, and end, some steps late
+  const auto rule = [](const char* name) {
+    return fmt::format("{}: \"contact_rules\" says geometric_mean, the root of their product.", name);
+  };
+  return Judgement()
+      .read("vx after 1 s", "m/s", sliding.last(0).velocity.x, with(mu), late)
+      .read("vx after 3 s", "m/s", stopped.last(0).velocity.x, 0, 0.02)
+      .read("distance", "m", stopped.last(0).position.x, x, 3 * v * lab.dt())
+      .mistake_if(sliding.last(0).velocity.x > v + late, "friction_backwards",
+                  "Friction speeds the box up: it acts against the sliding velocity along the tangent.")
+      .mistake("friction_ignored", {v, v, 3 * v}, "The box does not slow down: friction is not used.")
+      .mistake(
+          "friction_unlimited", {0, 0, 0},
+          "The box stops at once: the impulse of friction is at most mu times the impulse along the normal.")
+      .mistake("friction_backwards", {kAny, kAny, -x}, "Friction pushes the box back: it can only stop it.")
+      .mistake("friction_product", {with(mu_box * mu_ground), kAny, kAny},
+               rule("The coefficients are multiplied"))
+      .mistake("friction_average", {with((mu_box + mu_ground) / 2), kAny, kAny},
+               rule("The coefficients are averaged"))
+      .mistake("friction_minimum", {with(mu_box), kAny, kAny},
+               rule("The smaller coefficient, the box's, is taken"))
+      .mistake("friction_maximum", {with(mu_ground), kAny, kAny},
+               rule("The larger coefficient, the ground's, is taken"))
+      .mistake(
+          "friction_twice", {with(2 * mu), kAny, kAny},
+          "Friction is twice too strong: each of two contact points is limited by the impulse at that point.")
       .finding();
 }
 
@@ -241,12 +372,12 @@ Finding box_rests(const Lab& lab) {
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(sunk > side, "falls_through", "The box falls through the ground.")
       .mistake_if(std::abs(end.angle) > 0.02, "one_corner",
-                  "The box tips over on flat ground: both of its lower corners carry it.")
+                  "The box tips on flat ground: both of its lower corners must be contacts.")
       .mistake_if(sunk > tolerance, "sinks",
-                  "The box sinks in: set positions right by a share of the overlap each step.")
-      .mistake_if(
-          -sunk > tolerance, "restless",
-          "The box does not settle: restitution is 0 here, and what gravity adds in a step must not bounce.")
+                  "The box sinks: correct its position by a share of the overlap each step.")
+      .mistake_if(-sunk > tolerance, "restless",
+                  "The box does not settle: restitution is 0 here, and the speed that gravity adds in a step "
+                  "must not bounce.")
       .finding();
 }
 
@@ -256,15 +387,20 @@ Chapter rotation_and_boxes() {
   return {.number = 4,
           .title = "Rotation and boxes",
           .page = "4-rotation-and-boxes.md",
-          .checks = {{"torque_spins", "a torque spins a box by torque/I a second", kTorque, torque_spins},
-                     {"shapes_have_inertia", "thin boxes and discs have their own inertia", kTorque,
-                      shapes_have_inertia},
-                     {"angle_in_radians", "angles in radians, whole turns and all", kBox, angle_in_radians},
-                     {"central_force", "a push at the centre does not spin", kPush, central_force},
-                     {"corner_force", "a push at the corner spins", kPush, corner_force},
-                     {"ball_hits_rod", "a blow on a rod's end moves and spins it", kContacts, ball_hits_rod},
-                     {"lands_flat", "a box lands flat and bounces flat", kContacts, lands_flat},
-                     {"box_rests", "a box rests on the ground", kContacts, box_rests}}};
+          .checks = {
+              {"torque_spins", "a torque spins a box by torque/I a second", kTorque, torque_spins},
+              {"shapes_have_inertia", "thin boxes and discs have their own inertia", kTorque,
+               shapes_have_inertia},
+              {"angle_in_radians", "angles in radians, whole turns and all", kBox, angle_in_radians},
+              {"central_force", "a push at the centre does not spin a box", kPush, central_force},
+              {"corner_force", "a push at the corner spins a box", kPush, corner_force},
+              {"upright_boxes_collide", "boxes that do not turn collide along one axis", kUpright,
+               upright_boxes_collide},
+              {"least_overlap", "the normal is the axis of least overlap", kUpright, least_overlap},
+              {"ball_hits_rod", "a ball that hits a rod's end moves and spins it", kContacts, ball_hits_rod},
+              {"lands_flat", "a box lands flat and bounces flat", kContacts, lands_flat},
+              {"slides", "friction slows a sliding box by mu g", kContacts, slides},
+              {"box_rests", "a box rests on the ground", kContacts, box_rests}}};
 }
 
 }  // namespace plumb::course

@@ -36,6 +36,7 @@ Verdict verdict_of_fault(ProcessError::Fault fault) {
       return Verdict::NotFinite;
     case ProcessError::Fault::Start:
     case ProcessError::Fault::Crash:
+    case ProcessError::Fault::Time:
     case ProcessError::Fault::Protocol:
       break;
   }

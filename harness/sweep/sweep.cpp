@@ -62,6 +62,9 @@ class InstanceSweep {
   bool explore(const std::function<void(double share, const std::string& what)>& progress);
   bool measure(const std::function<void(double share, const std::string& what)>& progress);
 
+  /// Returns how many settings on the front have no measured cost, because the time was too short.
+  int dropped() const { return dropped_; }
+
  private:
   void set_up();
   std::vector<RunRequest> next_runs();
@@ -69,7 +72,7 @@ class InstanceSweep {
   void tell_all();
   std::optional<RunRequest> request(Entrant& entrant, const Space::Place& place);
   bool repeat(const std::string& key, int round);
-  std::vector<std::string> choose(double seconds) const;
+  std::vector<std::string> choose(double seconds);
   double repetition_ns(const Trial& trial) const;
 
   const SweepOptions& options_;
@@ -79,6 +82,7 @@ class InstanceSweep {
   InstanceRecord& known_;
   Cases cases_;
   double seconds_;
+  int dropped_ = 0;
   double explored_ = 0;  // s, spent on exploring
   std::vector<Entrant> entrants_;
   std::size_t turn_ = 0;
@@ -220,7 +224,7 @@ double InstanceSweep::repetition_ns(const Trial& trial) const {
 
 // Chooses the points whose cost will be measured within `seconds`: every engine's in turns, so that none is
 // left out.
-std::vector<std::string> InstanceSweep::choose(double seconds) const {
+std::vector<std::string> InstanceSweep::choose(double seconds) {
   std::vector<Result> rows;
   for (const Trial& trial : known_.trials) {
     rows.push_back(trial.result);
@@ -241,7 +245,10 @@ std::vector<std::string> InstanceSweep::choose(double seconds) const {
       if (turn >= points.size()) continue;
       const std::string key = key_of(*points[turn].row);
       const double cost = 1e-9 * options_.repetitions * repetition_ns(known_.trials[known_.places.at(key)]);
-      if (spent + cost > seconds && !out.empty()) continue;
+      if (spent + cost > seconds && !out.empty()) {
+        ++dropped_;
+        continue;
+      }
       spent += cost;
       out.push_back(key);
     }
@@ -361,6 +368,7 @@ Swept sweep(const SweepOptions& options, const SweepEvents& events) {
       };
       out.interrupted = !part.explore(progress) || !part.measure(progress);
       if (out.interrupted) return out;
+      out.dropped += part.dropped();
       left = std::max(left - seconds_since(start), 0.1 * seconds);
       ++before;
     }

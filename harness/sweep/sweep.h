@@ -36,6 +36,7 @@ struct SweepEvents {
 struct Swept {
   std::vector<Result> rows;
   bool interrupted = false;
+  int dropped = 0;  ///< settings whose cost was not measured, because the budget was too small
 };
 
 /// Runs every engine over its knobs on every instance, closing in on its Pareto front of error and cost. Then

@@ -28,6 +28,10 @@ constexpr double kDearest = 0.06;
 // Number of settings whose costs are measured well: the rough costs of the best do not rank them reliably.
 constexpr std::size_t kFinalists = 3;
 constexpr int kRungs = 11;
+// Share of the time that the search may take; the rest is for measuring costs and for the last runs.
+constexpr double kSearching = 0.6;
+// Rounds of a cost's measurement that are made in any case: fewer say nothing of the noise.
+constexpr int kFewestRounds = 3;
 constexpr std::size_t kMostTried = 64;
 
 struct Trial {
@@ -82,6 +86,7 @@ class Tuner {
   Cases cases_;
   Explorer::Goal goal_;
   std::vector<Entrant> entrants_;
+  Clock::time_point start_ = Clock::now();
 };
 
 void Tuner::enter() {
@@ -134,8 +139,7 @@ void Tuner::take(Entrant& entrant, IsolatedRun run) {
 }
 
 bool Tuner::search(const std::function<void(const std::string&)>& progress) {
-  const Clock::time_point start = Clock::now();
-  while (seconds_since(start) < options_.seconds) {
+  while (seconds_since(start_) < kSearching * options_.seconds) {
     if (interrupted()) return false;
     const auto runs = next_runs();
     if (runs.empty()) break;
@@ -176,7 +180,12 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
   }
   // Collect the samples separately first: a trial's rough cost orders it until all are measured.
   std::vector<std::vector<CostSample>> samples(finalists.size());
+  // The whole keeps its time: the search leaves a part of it, and a round begins only if it is likely to end
+  // in time.
+  const Clock::time_point begin = Clock::now();
   for (int round = 0; round < options_.repetitions; ++round) {
+    const double each = round == 0 ? 0 : seconds_since(begin) / round;
+    if (round >= kFewestRounds && seconds_since(start_) + each > options_.seconds) break;
     if (progress) progress(fmt::format("measuring: {} of {} rounds", round, options_.repetitions));
     for (std::size_t i = 0; i < finalists.size(); ++i) {
       const auto& [entrant, trial] = finalists[i];

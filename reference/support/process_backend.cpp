@@ -68,7 +68,8 @@ class Session {
       read_answer(limits_.line_bytes, [&](const Json& answer) {
         const double time = protocol::sample_from_json(answer, states);
         if (!(std::abs(time - due) <= dt / 2)) {
-          throw protocol::Malformed("its \"t\" is " + shortest(time) + " where " + shortest(due) + " is due");
+          throw process_.fail(Fault::Time, "its answer is wrong: its \"t\" is " + shortest(time) + " where " +
+                                               shortest(due) + " is due");
         }
       });
       sink(due, states);
@@ -150,7 +151,8 @@ class ProcessBackend final : public Backend {
   Identity identity() const override {
     const Known& known = ask_once();
     if (!known.hello) return {.available = false, .reason = known.reason};
-    return {.version = known.hello->version, .precision = known.hello->precision};
+    return {
+        .version = known.hello->version, .precision = known.hello->precision, .own_name = known.hello->name};
   }
 
   std::vector<Option> options() const override {

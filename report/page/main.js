@@ -26,9 +26,69 @@ function counted() {
     [`${missed} missed a check; ${unexpected} not as expected.`, leftOut, ...found].filter(Boolean).join(" ");
 }
 
+// The largest position error of each engine in each scene: a dot a scene, a bar at the median.
+function glance() {
+  const rows = data.engines.map((engine) => {
+    const own = data.scenes.map((scene) => [scene.label, bestOf(scene, engine)?.metrics.position_error])
+      .filter(([, error]) => Number.isFinite(error)).map(([label, error]) => [label, Math.max(error, 1e-16)]);
+    return {engine, own};
+  }).filter(({own}) => own.length > 0);
+  if (rows.length === 0) return false;
+  const narrow = kNarrow, width = narrow ? 360 : 1180, left = narrow ? 118 : 150, right = 12, step = narrow ? 22 : 24, top = 8;
+  const height = top + step * rows.length + 36, low = -16, high = 2;
+  const x = (error) => left + (Math.min(Math.max(Math.log10(error), low), high) - low) / (high - low) * (width - left - right);
+  const svg = makeSvg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img",
+    "aria-label": "Position errors by engine; further left is more accurate"});
+  for (let power = low; power <= high; power += narrow ? 6 : 2)
+    svg.append(makeSvg("path", {d: `M${x(10 ** power)} ${top}V${height - 34}`, stroke: "var(--grid)"}),
+      makeSvg("text", {x: x(10 ** power), y: height - 18, "text-anchor": "middle", text: power === 0 ? "1 m" : `10${raised(power)}`}));
+  svg.append(makeSvg("text", {x: (left + width - right) / 2, y: height - 2, "text-anchor": "middle",
+    text: narrow ? "largest position error, m; bar: the median" :
+      "largest position error, m; a dot for each scene, a bar at the median; left is more accurate"}));
+  rows.forEach(({engine, own}, i) => {
+    const y = top + step * (i + 0.5), colour = look.get(engine).colour;
+    svg.append(makeSvg("text", {x: left - 8, y: y + 4, "text-anchor": "end", text: engine}));
+    for (const [label, error] of own)
+      svg.append(makeSvg("circle", {cx: x(error).toFixed(1), cy: y, r: 3.2, fill: colour, "fill-opacity": 0.55},
+        makeSvg("title", {text: `${engine}, ${label}: ${figure(error)} m`})));
+    const errors = own.map(([, error]) => error).sort((a, b) => a - b), middle = errors[Math.floor((errors.length - 1) / 2)];
+    svg.append(makeSvg("path", {d: `M${x(middle).toFixed(1)} ${y - 9}V${y + 9}`, stroke: "var(--ink)", "stroke-width": 2.5}));
+  });
+  document.getElementById("glance").append(svg);
+  return true;
+}
+
+// The run of an engine that the reader of a comparison means: with its defaults, else its most accurate one.
+function bestOf(scene, engine) {
+  const own = scene.rows.filter((row) => row.engine === engine && row.status === "ok" && Number.isFinite(row.metrics.position_error));
+  return own.length < 2 ? own[0] : own.reduce((best, row) => (row.metrics.position_error < best.metrics.position_error ? row : best));
+}
+
+function sentence() {
+  const parts = [];
+  for (const rival of data.engines.filter((engine) => !isPlumb(engine))) {
+    let both = 0, nearer = 0;
+    const costs = [];
+    for (const scene of data.scenes) {
+      const [mine, other] = [bestOf(scene, "plumb"), bestOf(scene, rival)];
+      if (!mine || !other) continue;
+      both += 1;
+      nearer += Math.max(mine.metrics.position_error, 1e-12) <= Math.max(other.metrics.position_error, 1e-12);
+      if (mine.cost && other.cost) costs.push(mine.cost.second / other.cost.second);
+    }
+    if (both === 0) continue;
+    costs.sort((a, b) => a - b);
+    const cost = costs.length ? `, at ${figure(costs[Math.floor((costs.length - 1) / 2)])} times its cost (the median)` : "";
+    parts.push(`as ${rival} in ${nearer} of the ${both} scenes that both run${cost}`);
+  }
+  return parts.length === 0 ? "" : `plumb's positions are at least as near to the truth ${parts.join("; ")}.`;
+}
+
 function goTo(label) {
   const box = sceneBoxes.get(label);
+  if (!box) return;
   box.open = true;
+  history.replaceState(null, "", `#${encodeURIComponent(label)}`);
   box.scrollIntoView({block: "start"});
 }
 
@@ -88,14 +148,24 @@ function sceneList() {
     const box = make("details", {class: "scene", "data-label": scene.label},
       make("summary", {}, make("b", {text: scene.label}), make("span", {class: "note", text: ` \u2013 ${notes.join(", ")}`})), content);
     box.addEventListener("toggle", () => {
-      if (box.open && !content.hasChildNodes()) fillScene(content, scene, data, look);
+      if (!box.open) return;
+      if (!content.hasChildNodes()) fillScene(content, scene, data, look);
     });
     sceneBoxes.set(scene.label, box);
     section.append(box);
   }
   document.getElementById("open-all").addEventListener("click", () => { for (const box of sceneBoxes.values()) box.open = true; });
-  if (data.scenes.length > 0) sceneBoxes.get(data.standings[0]?.label ?? data.scenes[0].label).open = true;
+  // The first scene is filled after the first screen has been painted.
+  const first = sceneBoxes.get(data.standings[0]?.label ?? data.scenes[0]?.label);
+  if (first) requestAnimationFrame(() => setTimeout(() => { first.open = true; followHash(); }));
 }
+
+// Opens the place that the address names: a section or a scene.
+function followHash() {
+  const place = decodeURIComponent(location.hash.slice(1));
+  if (sceneBoxes.has(place)) goTo(place);
+}
+addEventListener("hashchange", followHash);
 
 function environmentTable() {
   document.querySelector("#environments div").append(table([
@@ -117,8 +187,14 @@ function sectionLinks() {
 document.getElementById("title").textContent = data.title;
 document.getElementById("counts").textContent = counted();
 if (data.scenes.length > 0) {
-  document.getElementById("standing-table").append(standingTable());
-  exceptionTable();
+  document.getElementById("sentence").textContent = sentence();
+  document.getElementById("opening").hidden = !glance();
+  if (data.standings.length > 0) {
+    document.getElementById("standing-table").append(standingTable());
+    exceptionTable();
+  } else {
+    document.getElementById("standing").hidden = true;
+  }
   sceneList();
 } else {
   document.getElementById("standing").hidden = document.getElementById("scenes").hidden = true;

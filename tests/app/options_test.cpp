@@ -60,7 +60,7 @@ std::vector<std::string> complete(const std::string& subcommand, const std::stri
   std::vector<std::string> arguments{subcommand};
   if (const auto rest = kRest.find(subcommand); rest != kRest.end())
     arguments.insert(arguments.end(), rest->second.begin(), rest->second.end());
-  if (subcommand == "tune" && option != "--tolerance" && option != "--budget-us")
+  if (subcommand == "tune" && option != "--tolerance" && option != "--cost-us")
     arguments.insert(arguments.end(), {"--tolerance", "1e-3"});
   for (const Option& each : options_of(subcommand)) {
     if (each.name == "--out" && option != "--out")

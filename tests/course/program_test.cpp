@@ -4,6 +4,9 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
+#include "harness/course/course.h"
 #include "tests/app/program.h"
 
 namespace plumb::course {
@@ -61,7 +64,7 @@ TEST(Check, EnginesThatAreBuiltInPass) {
   for (const char* engine : {"plumb", "plumb-float", "plumb-precise"}) {
     const Ran ran = plumb({"check", "--engine", engine});
     EXPECT_EQ(ran.code, 0) << engine << "\n" << ran.out << ran.err;
-    EXPECT_THAT(ran.out, HasSubstr("38 of 38 checks pass"));
+    EXPECT_THAT(ran.out, HasSubstr("43 of 43 checks pass"));
   }
 }
 
@@ -80,11 +83,11 @@ void expect_starter(const std::vector<std::string>& command) {
   const Json report = examined(command);
   EXPECT_EQ(report["passed"], 8) << report.dump(1);
   EXPECT_EQ(count(report, "pass", 1), 8);
-  EXPECT_EQ(count(report, "not_yet", 2) + count(report, "not_yet", 3), 15);
-  EXPECT_EQ(count(report, "not_yet", 4) + count(report, "not_yet", 5), 15);
+  EXPECT_EQ(count(report, "not_yet", 2) + count(report, "not_yet", 3), 17);
+  EXPECT_EQ(count(report, "not_yet", 4) + count(report, "not_yet", 5), 18);
   for (const Json& result : report["results"])
     if (result["verdict"] == "not_yet") {
-      EXPECT_THAT(result["says"].get<std::string>(), HasSubstr("This check wants"));
+      EXPECT_THAT(result["says"].get<std::string>(), HasSubstr("This check needs"));
     }
 }
 
@@ -93,6 +96,14 @@ TEST(Starters, Cpp) { expect_starter({PLUMB_STARTER_CPP}); }
 #ifdef PLUMB_NODE
 TEST(Starters, JavaScript) { expect_starter({PLUMB_NODE, PLUMB_STARTERS "/ball.js"}); }
 #endif
+
+TEST(Starters, EachSolvedChapterPassesItsChecks) {
+  for (const course::Chapter& chapter : course::chapters()) {
+    const std::string file = fmt::format("{}/python/solved/chapter{}.py", PLUMB_STARTERS, chapter.number);
+    const Json report = examined({"python3", "-B", file}, {"--chapter", std::to_string(chapter.number)});
+    EXPECT_EQ(report["passed"], chapter.checks.size()) << file << report.dump(1);
+  }
+}
 
 // The part of a scene that docs/protocol.md says is enough for chapters 1 to 3.
 TEST(Starters, AnEngineWrittenFromTheProtocolPassesThreeChapters) {
@@ -136,6 +147,23 @@ TEST(Check, AnEngineThatCrashesHasAResult) {
   EXPECT_THAT(ran.out, HasSubstr("BROKEN  falls"));
   EXPECT_THAT(ran.out, HasSubstr("no idea what to do"));
   EXPECT_THAT(ran.out, HasSubstr("0 of 8 checks pass"));
+}
+
+TEST(Check, ReportsUseTheEnginesOwnName) {
+  EXPECT_EQ(examined({"python3", "-B", PLUMB_STARTERS "/ball.py"}, {"--chapter", "1"})["engine"], "ball");
+}
+
+TEST(Check, WhatFollowsAMistakeSaysSo) {
+  const Ran ran = plumb({"check", "--chapter", "1", "--", PLUMB_STUDENT, "no_gravity"});
+  EXPECT_THAT(ran.out, HasSubstr("This may follow from no_gravity above"));
+}
+
+TEST(Run, TakesAnEngineOfOnesOwn) {
+  const Ran ran = plumb({"run", "bounce/e_1", "--engine-command",
+                         "mine=python3 -B " PLUMB_STARTERS "/ball.py", "--duration", "1", "--rate", "2"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(app::lines_of(ran.out).size(), 1u + 2u * 3u)
+      << ran.out;  // a heading, and two bodies at three times
 }
 
 TEST(Check, MisuseIsToldApart) {

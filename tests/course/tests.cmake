@@ -26,3 +26,10 @@ add_test(NAME course/output COMMAND ${check} --output ${PROJECT_SOURCE_DIR}
   $<TARGET_FILE:plumb_app> $<TARGET_FILE:plumb_course_student>)
 add_test(NAME course/figures COMMAND ${check} --figures ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 set_tests_properties(course/pages course/pages_self_test course/output course/figures PROPERTIES LABELS unit TIMEOUT 120)
+
+add_test(NAME course/skeletons COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/skeletons.py ${starters})
+set_tests_properties(course/skeletons PROPERTIES LABELS unit TIMEOUT 60)
+# Runs about a hundred programs in Python.
+add_test(NAME course/planted_mistakes COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/planted_mistakes.py
+  $<TARGET_FILE:plumb_app> ${starters})
+set_tests_properties(course/planted_mistakes PROPERTIES LABELS process TIMEOUT 900)

@@ -315,6 +315,16 @@ TEST(Bounds, APromiseHoldsAtItsToleranceAndScalesWithALooserOne) {
   EXPECT_DOUBLE_EQ(bound_at(1e-12), 1e-6);
 }
 
+TEST(Bounds, APromiseOfNoErrorAllowsForRounding) {
+  scenarios::Problem problem = thrown();
+  problem.precise.position = 0;
+  const TruthTable truth(problem, kDt);
+  const Tolerances tolerances(problem, truth, method(Scheme::Adaptive, 0), {.dt = kDt},
+                              conservation_scale(problem.scene, truth));
+  EXPECT_GT(*tolerances.position(60, 0), 1e-16);
+  EXPECT_LT(*tolerances.position(60, 0), 1e-11);
+}
+
 TEST(Bounds, ABodyFixedForceFeedsTheAngleErrorBack) {
   // A thruster: the angle is first order off, so the direction of the force is, so the velocity is.
   scenarios::Problem problem;

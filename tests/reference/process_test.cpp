@@ -68,7 +68,7 @@ TEST_F(ProcessTest, WrongCountsAndTimes) {
                  "has 2 bodies");
   expect_failure(engine("send({'t': dt, 'states': [[1, 2, 3, 4, 5]]})"), Fault::Protocol, "body 0");
   expect_failure(engine("send({'t': dt, 'states': [[1, 2, 3, 4, 5, 'x']]})"), Fault::Protocol, "body 0");
-  expect_failure(engine("sample(2)"), Fault::Protocol, "is due");
+  expect_failure(engine("sample(2)"), Fault::Time, "is due");
 }
 
 TEST_F(ProcessTest, StatesThatAreNotFinite) {

@@ -121,6 +121,41 @@ TEST(Program, ViewDrawsOtherEnginesAndReadsFiles) {
   EXPECT_EQ(pictures.size(), 2u);
 }
 
+// The engine of the course's first starter, which stands between plumb's own and the truth.
+std::string starter() { return "mine=python3 -B " PLUMB_SOURCE_DIR "/docs/course/starters/ball.py"; }
+
+TEST(Program, ViewIsMovedByAnEngineOfOnesOwn) {
+  const Folder folder;
+  std::set<std::string> pictures;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--engine-command", starter()},
+                                               {"--engine-command", starter(), "--ghost", "mine"},
+                                               {}}) {
+    std::vector<std::string> arguments = {
+        "view", "ball_in_room/falling", "--headless",   "--seconds",
+        "1.5",  "--no-panel",           "--screenshot", folder.path("a.png")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = plumb(arguments);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    pictures.insert(folder.read("a.png"));
+  }
+  EXPECT_EQ(pictures.size(), 3u);
+}
+
+TEST(Program, DemoPlaysTheChecksOfAnEngineOfOnesOwn) {
+  const std::vector<std::string> base = {
+      "demo", "bouncing_ball", "--engine-command", starter(), "--headless", "--seconds", "1"};
+  std::vector<std::string> named = base;
+  named.insert(named.end(), {"--check", "four_walls"});
+  const Ran first = plumb(base), walls = plumb(named);
+  ASSERT_EQ(first.code, 0) << first.err;
+  ASSERT_EQ(walls.code, 0) << walls.err;
+  EXPECT_THAT(walls.out, HasSubstr("end of the run: 5 s"));
+  EXPECT_NE(first.out, walls.out);
+  std::vector<std::string> wrong = base;
+  wrong.insert(wrong.end(), {"--check", "five_walls"});
+  EXPECT_THAT(plumb(wrong).err, HasSubstr("five_walls"));
+}
+
 TEST(Program, SaysWhatIsWrong) {
   const Folder folder;
   const std::string script = folder.write("s", "0 jump 1 2\n");

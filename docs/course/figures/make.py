@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tempfile
 
+import drawings
+
 HERE = pathlib.Path(__file__).resolve().parent
 COLOURS = ["#00468b", "#d95f02", "#2a9d5c", "#7a3b9d"]
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 300, 62, 16, 44, 44
@@ -167,6 +169,7 @@ def main():
     runs = Runs(build)
     for figure in (bouncing, springy, masses, levers, sticks):
         figure(runs, folder)
+    drawings.write(folder)
 
 
 main()

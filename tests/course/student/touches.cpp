@@ -53,8 +53,8 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     const Vec2d local = q.inverse() * (corner - b.position);
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     if (in_x <= 0 || in_y <= 0) continue;
-    const Vec2d n =
-        in_x < in_y ? Vec2d{std::copysign(1.0, local.x), 0} : Vec2d{0, std::copysign(1.0, local.y)};
+    const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
+                                                           : Vec2d{0, std::copysign(1.0, local.y)};
     out.push_back({box, corners, corner, q * n, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
@@ -77,7 +77,8 @@ std::vector<Touch> StudentWorld::touches() const {
       if (round_a && round_b) touch_circles(a, b, out);
       if (round_a && !round_b && !is("falls_through")) touch_circle_box(a, b, out);
       if (!round_a && round_b) touch_circle_box(b, a, out);
-      if (!round_a && !round_b) touch_corners(b, a, out), touch_corners(a, b, out);
+      if (!round_a && !round_b && !is("falls_through_boxes"))
+        touch_corners(b, a, out), touch_corners(a, b, out);
     }
   }
   return out;

@@ -50,7 +50,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake)
     rigid.body = &body;
     if (body.type == BodyType::Dynamic) {
       rigid.inverse_mass = 1 / body.mass;
-      rigid.inverse_inertia = 1 / inertia(body);
+      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
@@ -119,6 +119,7 @@ void StudentWorld::accelerate() {
   if (is("gravity_hard_coded")) g = {0, -9.81};
   if (is("gravity_only_down")) g.x = 0;
   if (is("gravity_twice")) g *= 2;
+  if (is("gravity_of_9_8")) g = {0, -9.8};
   double dt = dt_;
   if (is("dt_twice")) dt *= dt_;
   if (is("dt_missing")) dt = 1;
@@ -131,6 +132,7 @@ void StudentWorld::accelerate() {
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
     const double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
     b.velocity += dt * (fall + inverse * b.force);
+    if (is("damping")) b.velocity *= 0.99;
     b.spin += dt * b.inverse_inertia * b.torque;
   }
 }
@@ -216,7 +218,7 @@ void StudentWorld::answer(Touch& touch) {
   if (is("effective_mass_forgotten")) k = 1;
   if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
   double j = (touch.bounce - closing) / k;
-  const double sum = std::max(0.0, touch.sum + j);
+  const double sum = is("no_test_of_parting") ? touch.sum + j : std::max(0.0, touch.sum + j);
   j = sum - std::exchange(touch.sum, sum);
   double share_a = a.inverse_mass, share_b = b.inverse_mass;
   if (is("inverse_mass_forgotten") || is("masses_ignored")) {
@@ -236,9 +238,35 @@ void StudentWorld::answer(Touch& touch) {
   b.velocity += share_b * push;
   a.spin -= a.inverse_inertia * spin_a * j;
   b.spin += b.inverse_inertia * spin_b * j;
+  rub(touch);
+}
+
+// Friction: along the tangent, at most mu times the sum of the impulses along the normal.
+void StudentWorld::rub(Touch& touch) {
+  const Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+  const double mu = std::sqrt(a.body->shapes[0].friction * b.body->shapes[0].friction);
+  if (mu == 0 || is("friction_ignored")) return;
+  const Vec2d t{-touch.normal.y, touch.normal.x}, arm_a = touch.point - a.position,
+                                                  arm_b = touch.point - b.position;
+  const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
+  const double k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a * spin_a +
+                   b.inverse_inertia * spin_b * spin_b;
+  const double sliding = dot(b.velocity_at(arm_b) - a.velocity_at(arm_a), t);
+  const double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
+  const double sum = std::clamp(touch.sum_across - sliding / k, -most, most);
+  const double j = sum - std::exchange(touch.sum_across, sum);
+  apply_impulse(touch.a, touch.b, arm_a, arm_b, j * t);
 }
 
 void StudentWorld::push_out() {
+  if (is("correction_split_evenly")) {
+    for (const Touch& touch : touches()) {
+      const Vec2d push = kPushShare / 2 * std::max(0.0, touch.depth - kSlop) * touch.normal;
+      bodies_[touch.a].position -= push;
+      bodies_[touch.b].position += push;
+    }
+    return;
+  }
   if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
   for (const Touch& touch : touches()) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];

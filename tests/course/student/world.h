@@ -21,7 +21,7 @@ struct Rigid {
 struct Touch {
   std::size_t a = 0, b = 0;
   Vec2d point, normal;  ///< from a to b
-  double depth = 0, bounce = 0, sum = 0;
+  double depth = 0, bounce = 0, sum = 0, sum_across = 0;
 };
 
 /// The learner's world, and the mistakes in it.
@@ -47,6 +47,7 @@ class StudentWorld {
   double restitution(const Touch& touch) const;
   void prepare(Touch& touch) const;
   void answer(Touch& touch);
+  void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
   void push_out();
   void solve(const Joint& joint);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "demos/compared/sampled_motion.h"
+#include "demos/core/demo.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::window {
+
+/// A scene as an engine has moved it, played back; nothing can be dragged. Beyond the end of the run the
+/// bodies stay where they were.
+class PlaybackDemo final : public demos::Demo {
+ public:
+  /// `motion` has a sample every `dt` s, from 0 on.
+  PlaybackDemo(demos::About about, Scene scene, demos::SampledMotion motion, double dt,
+               std::optional<Aabb<double>> view = {});
+
+  const Scene& scene() const { return scene_; }
+  /// Reads the state of every body at the present time, in the scene's order. Velocities are 0.
+  void read_states(std::span<BodyState> out) const { at(time(), out); }
+
+  void draw(DebugDraw& out, const DrawOptions& options) const override;
+  std::vector<demos::Figure> figures() const override;
+  Aabb<double> view() const override { return view_; }
+  std::uint64_t hash() const override;
+
+ private:
+  void build() override {}
+  void step() override {}
+  void write(ByteWriter&) const override {}
+  void read(ByteReader&) override {}
+  void at(double time, std::span<BodyState> out) const;
+
+  Scene scene_;
+  demos::SampledMotion motion_;
+  Aabb<double> view_{};
+};
+
+}  // namespace plumb::window
