@@ -150,7 +150,8 @@ class ProcessBackend final : public Backend {
   Identity identity() const override {
     const Known& known = ask_once();
     if (!known.hello) return {.available = false, .reason = known.reason};
-    return {.version = known.hello->version, .precision = known.hello->precision};
+    return {
+        .version = known.hello->version, .precision = known.hello->precision, .limits = known.hello->limits};
   }
 
   std::vector<Option> options() const override {
