@@ -54,6 +54,8 @@ struct Result {
   std::vector<Check> checks;
   std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
   std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences
+  bool foreign_cost = false;  ///< the cost is that of another platform, never ranked with native ones
+  std::string excused;        ///< why no miss of this run is a failure; empty: they are
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;
