@@ -1,4 +1,5 @@
 //! cmake: include(box2d/libraries.cmake)
+//! cmake: set_property(SOURCE ${file} PROPERTY INCLUDE_DIRECTORIES "${PLUMB_BOX2D_V3_HEADERS}")
 //! link: plumb_box2d_v3
 //! guest: yes
 //! missing: find_package(box2d 3) found none; npm has it: plumb engines --install box2d3
