@@ -12,10 +12,15 @@
 #include "app/exit_codes.h"
 #include "app/guard.h"
 #include "app/output.h"
+#include "app/selection.h"
 #include "app/settings.h"
 #include "app/usage.h"
+#include "harness/compare.h"
 #include "harness/course/course.h"
 #include "harness/course/report.h"
+#include "harness/interrupt.h"
+#include "harness/summary.h"
+#include "harness/table.h"
 #include "reference/process_backend.h"
 
 namespace plumb::app {
@@ -24,7 +29,7 @@ namespace {
 using harness::Style;
 
 struct Options {
-  std::vector<std::string> command;
+  std::vector<std::string> command, cases;
   std::string engine, dt, timeout = "10", format = "console";
   std::optional<int> chapter;
   bool show = false;
@@ -96,7 +101,41 @@ int examine(const Options& options, const reference::Backend& engine) {
   return course::all_passed(outcomes) ? kOk : kCheckFailed;
 }
 
+// Runs case files in place of the course.
+int examine_cases(const Options& options, const reference::Backend& engine) {
+  harness::CompareOptions what{.instances = {}, .engines = {&engine}};
+  for (const std::string& name : options.cases)
+    if (case_files(name).empty())
+      throw UsageError(
+          fmt::format("--case is '{}': that is no case file and no folder of them, see docs/cases.md", name));
+  what.instances = chosen_instances(options.cases, 0);
+  if (!options.dt.empty()) what.settings.dt = parse_positive("--dt", options.dt);
+  what.measure_cost = false;
+  engine.method(what.settings);  // throws for settings that the engine rejects
+  const Style style = Style::of_file(STDOUT_FILENO);
+  harness::CompareEvents events;
+  events.finished = [&](std::span<const harness::Result> results) {
+    if (options.format == "json") {
+      for (const harness::Result& result : results) print(harness::to_json(result) + "\n");
+    } else {
+      print(harness::table(results, style) + "\n");
+    }
+    flush();
+  };
+  harness::catch_interrupts();
+  const harness::Comparison comparison = harness::compare(what, events);
+  if (options.format == "console") print(harness::summary(comparison.results, style));
+  flush();
+  return comparison.interrupted ? kInterrupted : comparison.as_expected() ? kOk : kCheckFailed;
+}
+
+int examine_engine(const Options& options, const reference::Backend& engine) {
+  return options.cases.empty() ? examine(options, engine) : examine_cases(options, engine);
+}
+
 int start(const Options& options) {
+  if (options.chapter && !options.cases.empty())
+    throw UsageError("--chapter goes with the course, not with --case");
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
         "give either the command that starts your engine after `--`, or --engine with one that is built in; "
@@ -107,7 +146,7 @@ int start(const Options& options) {
     const reference::Backend& engine = reference::find_backend(options.engine);
     if (const reference::Identity identity = engine.identity(); !identity.available)
       throw UsageError(fmt::format("engine '{}' is not available: {}", options.engine, identity.reason));
-    return guarded(options.engine, [&] { return examine(options, engine); });
+    return guarded(options.engine, [&] { return examine_engine(options, engine); });
   }
   const reference::ProcessLimits limits{.seconds = seconds};
   auto engine = reference::make_process_backend(kOwnEngine, options.command, "", limits);
@@ -115,7 +154,7 @@ int start(const Options& options) {
   if (!identity.available) throw UsageError(identity.reason);
   if (!identity.own_name.empty())
     engine = reference::make_process_backend(identity.own_name, options.command, "", limits);
-  return examine(options, *engine);
+  return examine_engine(options, *engine);
 }
 
 }  // namespace
@@ -137,6 +176,11 @@ void add_check(CLI::App& app, Action& chosen) {
         return CLI::detail::lexical_cast(text, number) ? ""
                                                        : fmt::format("'{}' is no chapter: give 1 to 5", text);
       });
+  command
+      ->add_option("--case", options->cases,
+                   "in place of the course: a case file or a folder of them; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE|DIR");
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
   command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
       ->type_name("T");
@@ -147,7 +191,7 @@ void add_check(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb check -- python3 docs/course/starters/ball.py\n  plumb check --chapter 3 -- "
       "./my_engine --quiet\n  plumb check --show -- python3 my_engine.py\n"
-      "  plumb check --engine plumb --format json\n"
+      "  plumb check --engine plumb --format json\n  plumb check --case my_case.json -- ./my_engine\n"
       "What an engine does not declare is \"not yet\". The chapters are in docs/course.\n"
       "Exit codes: 0 all checks pass, 1 some do not, 2 usage, or a program that does not answer \"hello\".");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });

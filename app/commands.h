@@ -14,6 +14,8 @@ void add_list(CLI::App& app, Action& chosen);
 void add_new(CLI::App& app, Action& chosen);
 void add_engines(CLI::App& app, Action& chosen);
 void add_explain(CLI::App& app, Action& chosen);
+void add_bisect(CLI::App& app, Action& chosen);
+void add_verdict(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
 void add_scene(CLI::App& app, Action& chosen);
 void add_compare(CLI::App& app, Action& chosen);

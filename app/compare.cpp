@@ -20,10 +20,12 @@
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "harness/junit.h"
 #include "harness/plain_words.h"
 #include "harness/report/report.h"
 #include "harness/summary.h"
 #include "harness/table.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
@@ -34,7 +36,7 @@ using harness::Style;
 struct Options {
   std::vector<std::string> names;
   EngineOptions engines;
-  std::string dt, timeout, out = "results", format = "console";
+  std::string dt, timeout, out = "results", format = "console", junit;
   int size = 0;
   bool no_cost = false, no_report = false;
 };
@@ -82,8 +84,10 @@ int start(const Options& options) {
   if (mean_results(options.names))
     return compare_results(options.names.front(), options.names.back(), options.format);
   std::vector<std::unique_ptr<reference::Backend>> programs;
+  EngineOptions wanted = options.engines;
+  if (wanted.names.empty()) wanted.names = {"linked"};
   harness::CompareOptions what{.instances = chosen_instances(options.names, options.size),
-                               .engines = chosen_engines(options.engines, programs)};
+                               .engines = chosen_engines(wanted, programs)};
   if (!options.dt.empty()) what.settings.dt = parse_positive("--dt", options.dt);
   if (!options.timeout.empty()) what.seconds_a_run = parse_positive("--timeout", options.timeout);
   what.measure_cost = !options.no_cost;
@@ -115,6 +119,7 @@ int start(const Options& options) {
           fmt::format("compared in {:.0f} s\n", took.count()));
   }
   flush();
+  if (!options.junit.empty()) harness::write_whole(options.junit, harness::junit(comparison.results));
   if (comparison.interrupted) {
     notice(fmt::format("interrupted; {} finished results are in {}", comparison.results.size(), log.path()));
     return kInterrupted;
@@ -133,7 +138,9 @@ void add_compare(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("names", options->names,
-                   "scenarios, variants or sizes (default: all); or two folders of results")
+                   "scenarios, variants or sizes (default: all), case files and folders of them "
+                   "(docs/cases.md); or two "
+                   "folders of results")
       ->type_name("NAME");
   options->engines.add_to(*command);
   add_size(*command, options->size);
@@ -146,12 +153,16 @@ void add_compare(CLI::App& app, Action& chosen) {
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json (a result a line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
+  command->add_option("--junit", options->junit, "also write the results as JUnit's XML, for CI")
+      ->check(problem_with_path)
+      ->type_name("FILE");
   command->add_flag("--no-cost", options->no_cost, "leave out what a step costs");
   command->add_flag("--no-report", options->no_report, "write results.jsonl alone; `plumb report` draws it");
   command->footer(
       "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain --size 20 --engine plumb,box2d\n"
       "  plumb compare elastic_collision/oblique --dt 1/240 --format json --out /tmp/oblique\n"
       "  plumb compare free_fall --engine plumb --engine-command mine='python3 my_engine.py'\n"
+      "  plumb compare my_case.json --junit report.xml\n"
       "  plumb compare results-before results-after\n"
       "Exit codes: 0 all as expected, 1 a check failed, 2 usage, 130 interrupted (finished results kept).");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });

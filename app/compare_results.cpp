@@ -7,6 +7,7 @@
 
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "app/selection.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/sweep/difference.h"
@@ -32,6 +33,7 @@ bool looks_like_a_path(const std::string& name) {
 }
 
 bool are_results(const std::string& name) {
+  if (!case_files(name).empty()) return false;
   if (looks_like_a_path(name)) return true;
   if (!harness::sweep::holds_rows(name)) return false;
   if (is_scenario(name))

@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,9 +8,12 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/npm.h"
 #include "app/output.h"
 #include "harness/style.h"
 #include "reference/backend.h"
+#include "reference/guests.h"
+#include "reference/node_engines.h"
 
 namespace plumb::app {
 namespace {
@@ -17,9 +21,31 @@ namespace {
 using harness::Style;
 using reference::Backend;
 
+// Returns the engines that are linked in, and those from npm, installed or not.
+std::vector<const Backend*> listed() {
+  std::vector<const Backend*> all = reference::backends();
+  for (const Backend* guest : reference::linked_guests())
+    if (!guest->name().ends_with("-default")) all.push_back(guest);
+  for (const reference::NodeEngine& engine : reference::node_engines())
+    all.push_back(reference::find_guest(engine.name));
+  return all;
+}
+
+// Lists the versions of an engine from npm that are there, with what else may be asked for.
+std::string versions_of(const Backend& backend) {
+  for (const reference::NodeEngine& engine : reference::node_engines()) {
+    if (engine.name != backend.name()) continue;
+    std::string out;
+    for (const std::string& version : reference::installed_versions(engine))
+      out += " " + engine.name + "@" + version;
+    return out.empty() ? "" : fmt::format("also{}, and {}-default", out, engine.name);
+  }
+  return "";
+}
+
 std::string as_text(const Style& style) {
   std::string out;
-  for (const Backend* backend : reference::backends()) {
+  for (const Backend* backend : listed()) {
     const reference::Identity identity = backend->identity();
     out += style.paint(fmt::format("{:<15}", backend->name()), Style::Ink::Bold);
     if (identity.available) {
@@ -29,6 +55,12 @@ std::string as_text(const Style& style) {
       out += style.paint(harness::wrap(text, style.width - 15, 17), Style::Ink::Yellow) + "\n";
     }
     out += "  " + harness::wrap(std::string(backend->summary()), style.width - 2, 2) + "\n";
+    if (identity.foreign_cost)
+      out += "  " +
+             harness::wrap("its costs are those of WebAssembly or JavaScript, not ranked with native ones; " +
+                               versions_of(*backend),
+                           style.width - 2, 2) +
+             "\n";
     for (const reference::Option& option : backend->options()) {
       const std::string text = fmt::format("--set {}={}  {}", option.name, option.fallback, option.help);
       out += "    " + style.paint(harness::wrap(text, style.width - 4, 10), Style::Ink::Dim) + "\n";
@@ -40,7 +72,7 @@ std::string as_text(const Style& style) {
 std::string as_json() {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
-  for (const Backend* backend : reference::backends()) {
+  for (const Backend* backend : listed()) {
     const reference::Identity identity = backend->identity();
     Json options = Json::array();
     for (const reference::Option& option : backend->options())
@@ -51,6 +83,8 @@ std::string as_json() {
                    {"precision", identity.precision},
                    {"installed", identity.available},
                    {"reason", identity.reason},
+                   {"foreign_cost", identity.foreign_cost},
+                   {"limits", identity.limits},
                    {"options", options}});
   }
   return out.dump(2) + "\n";
@@ -63,9 +97,24 @@ void add_engines(CLI::App& app, Action& chosen) {
       app.add_subcommand("engines", "the engines: version, precision, options, and why one is missing");
   auto format = std::make_shared<std::string>("console");
   command->add_option("--format", *format, "console or json")->check(CLI::IsMember({"console", "json"}));
-  command->footer("Examples:\n  plumb engines\n  plumb engines --format json");
-  command->callback([&chosen, format] {
-    chosen = [format] {
+  auto wanted = std::make_shared<std::vector<std::string>>();
+  command
+      ->add_option("--install", *wanted, "instead: install an engine from npm, in a version; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME[@VERSION]");
+  command->footer(
+      "Examples:\n  plumb engines\n  plumb engines --format json\n  plumb engines --install rapier --install "
+      "rapier@0.21.0\n"
+      "Engines from npm go to PLUMB_ENGINES, by default plumb/engines in XDG_DATA_HOME or ~/.local/share.");
+  command->callback([&chosen, format, wanted] {
+    chosen = [format, wanted] {
+      for (const std::string& name : *wanted) {
+        const NamedVersion version = named_version(name);
+        install(version);
+        print(fmt::format("{}@{} is in {}\n", version.engine.name, version.version,
+                          reference::folder_of(version.engine, version.version)));
+      }
+      if (!wanted->empty()) return kOk;
       print(*format == "json" ? as_json() : as_text(Style::of_file(STDOUT_FILENO)));
       return kOk;
     };

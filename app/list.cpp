@@ -9,7 +9,9 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "app/selection.h"
 #include "app/usage.h"
+#include "harness/case_file/case_file.h"
 #include "harness/catalogue.h"
 #include "harness/known_limits_page.h"
 #include "harness/style.h"
@@ -85,16 +87,40 @@ std::string as_json(const CatalogueFilter& filter) {
   return out.dump(2) + "\n";
 }
 
+// Lists case files with what they expect.
+std::string cases_as_text(const std::vector<std::string>& names, const Style& style) {
+  std::string out;
+  for (const std::string& name : names) {
+    const std::vector<std::string> files = case_files(name);
+    if (files.empty())
+      throw UsageError(fmt::format("'{}' is no case file and no folder of them, see docs/cases.md", name));
+    for (const std::string& file : files) {
+      const harness::case_file::CaseFile read = harness::case_file::read_case(file);
+      std::vector<std::string> expected;
+      for (const scenarios::Expectation& expectation : read.problem.expected)
+        expected.push_back(expectation.name);
+      out += style.paint(read.name, Style::Ink::Bold) + "\n";
+      for (const std::string& line :
+           {read.summary, "expects: " + joined(expected), "source: " + read.problem.truth.source})
+        out += "  " + harness::wrap(line, style.width - 2, 4) + "\n";
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void add_list(CLI::App& app, Action& chosen) {
   struct Options {
     std::string format = "console";
     CatalogueFilter filter{};
+    std::vector<std::string> files;
     bool limits = false, page = false;
   };
   CLI::App* command = app.add_subcommand("list", "the scenarios by topic, with their variants and sizes");
   auto options = std::make_shared<Options>();
+  command->add_option("files", options->files, "instead: case files and folders of them")
+      ->type_name("FILE|DIR");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
   command->add_option("--filter", options->filter.text, "cases whose name, summary or source has this text")
@@ -109,7 +135,9 @@ void add_list(CLI::App& app, Action& chosen) {
       "json");
   command->callback([&chosen, options] {
     chosen = [options] {
-      if (options->limits) {
+      if (!options->files.empty()) {
+        print(cases_as_text(options->files, Style::of_file(STDOUT_FILENO)));
+      } else if (options->limits) {
         print(harness::known_limits_page());
       } else if (options->page) {
         print(harness::catalogue_page());

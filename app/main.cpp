@@ -91,6 +91,8 @@ int main(int argc, char** argv) {
   add_scene(app, action);
   add_compare(app, action);
   add_check(app, action);
+  add_verdict(app, action);
+  add_bisect(app, action);
   add_sweep(app, action);
   add_front(app, action);
   add_tune(app, action);

@@ -8,12 +8,19 @@
 
 #include "app/command_line.h"
 #include "app/usage.h"
+#include "harness/case_file/case_file.h"
+#include "reference/guests.h"
 #include "reference/process_backend.h"
 
 namespace plumb::app {
 
 void EngineOptions::add_to(CLI::App& command) {
-  command.add_option("--engine", names, "engines, separated by commas (default: all)")
+  command
+      .add_option(
+          "--engine", names,
+          "engines, separated by commas, with @VERSION for those from npm; linked: all that are linked "
+          "in; all: those "
+          "from npm too")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("E");
@@ -71,9 +78,33 @@ bool is_given(const std::vector<std::string>& commands, const std::string& name)
 
 }  // namespace
 
+std::vector<std::string> case_files(const std::string& name) {
+  if (harness::case_file::is_case(name)) return {name};
+  return harness::case_file::cases_in(name);
+}
+
+namespace {
+
+// Results and reports know a case by its name.
+void append_case(const std::string& file, std::vector<scenarios::Instance>& out) {
+  scenarios::Instance instance = harness::case_file::case_instance(file);
+  for (const scenarios::Instance& other : out)
+    if (other.label() == instance.label())
+      throw UsageError(fmt::format("'{}': there is another case by the name '{}'; give each its own", file,
+                                   instance.label()));
+  out.push_back(std::move(instance));
+}
+
+}  // namespace
+
 std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size) {
   std::vector<scenarios::Instance> out;
   const auto append = [&](const std::string& name) {
+    if (const std::vector<std::string> files = case_files(name); !files.empty()) {
+      if (size > 0) throw UsageError(fmt::format("--size goes with a scenario's name, not with '{}'", name));
+      for (const std::string& file : files) append_case(file, out);
+      return;
+    }
     for (scenarios::Instance& instance : scenarios::select(name, size)) out.push_back(std::move(instance));
   };
   for (const std::string& name : wanted) append(name);
@@ -89,6 +120,14 @@ std::vector<const reference::Backend*> chosen_engines(
   std::vector<const reference::Backend*> out;
   for (const std::string& name : options.names) {
     if (is_given(options.commands, name)) continue;  // added below
+    if (name == "all" || name == "linked") {
+      std::vector<const reference::Backend*> list = reference::backends();
+      for (const reference::Backend* guest : name == "all" ? reference::guests() : reference::linked_guests())
+        if (name == "all" || !guest->name().ends_with("-default")) list.push_back(guest);
+      for (const reference::Backend* each : list)
+        if (std::find(out.begin(), out.end(), each) == out.end()) out.push_back(each);
+      continue;
+    }
     const reference::Backend* backend = &reference::find_backend(name);
     if (std::find(out.begin(), out.end(), backend) == out.end()) out.push_back(backend);
   }

@@ -32,8 +32,11 @@ std::vector<std::unique_ptr<reference::Backend>> programs_of(const std::vector<s
 const reference::Backend& one_engine(const std::string& name,
                                      const std::vector<std::unique_ptr<reference::Backend>>& programs);
 
-/// Returns the instances that `wanted` names, or all; `size` > 0 overrides their sizes. Throws `UsageError`,
-/// `Error`.
+/// Returns the case files that `name` means: itself, or those in the folder; empty if it means none.
+std::vector<std::string> case_files(const std::string& name);
+
+/// Returns the instances that `wanted` names, or all: scenarios, case files and folders of them. `size` > 0
+/// overrides the sizes of scenarios. Throws `UsageError`, `Error`.
 std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>& wanted, int size);
 
 /// Returns the selected engines, or all; programs given with --engine-command come last and are kept in

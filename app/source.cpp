@@ -13,6 +13,7 @@
 #include "engine/core/text.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
+#include "harness/case_file/case_file.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -75,6 +76,10 @@ void add_file_duration(CLI::App& command, std::string& duration) {
 
 scenarios::Instance file_instance(const std::string& path, const std::string& duration,
                                   std::vector<std::unique_ptr<scenarios::Scenario>>& kept) {
+  if (harness::case_file::is_case(path)) {
+    if (!duration.empty()) throw UsageError("--duration goes with a scene file: a case file has its own");
+    return harness::case_file::case_instance(path);
+  }
   Source source = load(path, 0);
   if (!duration.empty()) source.duration = parse_positive("--duration", duration);
   auto scenario = std::make_unique<scenarios::Scenario>();
@@ -112,6 +117,10 @@ Source load(const std::string& name_or_file, int size) {
   if (size > 0)
     throw Error(Error::Kind::Value, "--size", "", std::to_string(size),
                 "goes with a scenario's name, not with a file");
+  if (harness::case_file::is_case(name_or_file)) {
+    harness::case_file::CaseFile file = harness::case_file::read_case(name_or_file);
+    return {std::move(file.problem.scene), file.problem.duration, {}};
+  }
   Source source;
   source.scene = scene_in(name_or_file);
   source.duration = duration_of(source.scene, source.duration);

@@ -47,7 +47,7 @@ int start(const Options& options) {
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
   sweep::SweepOptions what;
   for (const std::string& name : options.names) {
-    if (is_file(name)) {
+    if (is_file(name) && case_files(name).empty()) {
       what.instances.push_back(file_instance(name, options.duration, files));
     } else {
       for (scenarios::Instance& instance : chosen_instances({name}, options.size))
@@ -103,7 +103,9 @@ void add_sweep(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("sweep", "run every engine over its settings: what accuracy costs on each of them");
   auto options = std::make_shared<Options>();
-  command->add_option("names", options->names, "scenarios, variants, sizes or scene files (default: all)")
+  command
+      ->add_option("names", options->names,
+                   "scenarios, variants, sizes, scene files, case files or folders of these (default: all)")
       ->type_name("NAME|FILE");
   options->engines.add_to(*command);
   add_size(*command, options->size);

@@ -25,7 +25,7 @@ namespace {
 namespace sweep = harness::sweep;
 
 struct Options {
-  std::string name, tolerance, budget, step, seconds, duration, metric = "position_error", format = "console";
+  std::string name, tolerance, budget, step, seconds, duration, metric, format = "console";
   EngineOptions engines;
   int size = 0;
 };
@@ -33,7 +33,13 @@ struct Options {
 int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
-  if (options.tolerance.empty() == options.budget.empty())
+  // A case file has its tolerances with it.
+  const bool is_case = !case_files(options.name).empty();
+  const bool own = is_case && options.metric.empty() && options.budget.empty() && options.tolerance.empty();
+  const std::string metric = !options.metric.empty() ? options.metric
+                             : is_case               ? "expected_miss"
+                                                     : "position_error";
+  if (!own && options.tolerance.empty() == options.budget.empty())
     throw UsageError("give either --tolerance, what must be reached, or --cost-us, what a step may cost");
   if (options.size > 0 && is_file(options.name))
     throw UsageError("--size goes with a scenario's name, not with a file");
@@ -43,8 +49,9 @@ int start(const Options& options) {
                                           ? file_instance(options.name, options.duration, files)
                                           : one_instance(options.name, options.size),
                           .engines = chosen_engines(options.engines, programs),
-                          .metric = &metric_by_name(options.metric)};
+                          .metric = &metric_by_name(metric)};
   if (is_file(options.name)) what.run_as = options.name;
+  if (own) what.tolerance = 1;
   if (!options.tolerance.empty()) what.tolerance = parse_positive("--tolerance", options.tolerance);
   if (!options.budget.empty()) what.budget_ns = 1e3 * parse_positive("--cost-us", options.budget);
   if (!options.step.empty()) what.step = parse_positive("--dt", options.step);
@@ -73,14 +80,16 @@ void add_tune(CLI::App& app, Action& chosen) {
       "tune",
       "the cheapest settings that reach an accuracy, or the most accurate within a cost, on every engine");
   auto options = std::make_shared<Options>();
-  command->add_option("name", options->name, "a scenario or a scene file")
+  command->add_option("name", options->name, "a scenario, a scene file or a case file")
       ->required()
       ->type_name("NAME|FILE");
   command->add_option("--tolerance", options->tolerance, "what the metric may be, in its unit, like 1e-3")
       ->type_name("X");
   command->add_option("--cost-us", options->budget, "instead: microseconds that a step of the game may cost")
       ->type_name("US");
-  add_metric(*command, options->metric, "the error that is to be small (default position_error)");
+  add_metric(
+      *command, options->metric,
+      "the error that is to be small (default position_error; of a case file expected_miss, which is to be 1 at most)");
   command
       ->add_option("--dt", options->step,
                    "step of the game in s (default 1/60); the engines' steps are this or divide it")

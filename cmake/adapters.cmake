@@ -2,20 +2,24 @@
 #   //! cmake: find_package(box2d CONFIG QUIET)      evaluated as it stands
 #   //! link: box2d::box2d                           targets that must exist for the adapter to be built
 #   //! missing: install libbox2d-dev                what to say when they do not
+#   //! guest: yes                                   its misses are reported and fail nothing: reference/guests.h
 # An adapter whose targets do not exist is replaced by one that says so in `plumb engines`.
 function(plumb_add_adapters target)
   foreach(file IN LISTS ARGN)
     get_filename_component(name ${file} NAME_WE)
-    file(STRINGS ${file} directives REGEX "^//! (cmake|link|missing): ")
+    file(STRINGS ${file} directives REGEX "^//! (cmake|link|missing|guest): ")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     set(link "")
     set(missing "its library was not found")
+    set(PLUMB_ADAPTER_REGISTRATION Registration)
     foreach(line IN LISTS directives)
       string(REGEX MATCH "^//! ([a-z]+): (.*)$" _ "${line}")
       if(CMAKE_MATCH_1 STREQUAL "cmake")
         cmake_language(EVAL CODE "${CMAKE_MATCH_2}")
       elseif(CMAKE_MATCH_1 STREQUAL "link")
         string(REPLACE " " ";" link "${CMAKE_MATCH_2}")
+      elseif(CMAKE_MATCH_1 STREQUAL "guest")
+        set(PLUMB_ADAPTER_REGISTRATION GuestRegistration)
       else()
         set(missing "${CMAKE_MATCH_2}")
       endif()

@@ -18,6 +18,7 @@ struct Metrics {
   std::optional<double> angular_momentum_drift;  ///< relative to the largest sum of the bodies' |L|
   std::optional<double> joint_gap;               ///< m, largest violation of a joint's rigid constraints
   std::optional<double> penetration;             ///< m, deepest penetration of two shapes
+  std::optional<double> expected_miss;  ///< largest miss of what a case file expects, in its tolerances
 };
 
 /// A metric by name, for tables and files.
@@ -27,7 +28,7 @@ struct MetricField {
   std::optional<double> Metrics::*value;
 };
 
-inline constexpr std::array<MetricField, 9> kMetricFields{{
+inline constexpr std::array<MetricField, 10> kMetricFields{{
     {"position_error", "m", &Metrics::position_error},
     {"angle_error", "rad", &Metrics::angle_error},
     {"velocity_error", "m/s", &Metrics::velocity_error},
@@ -37,6 +38,7 @@ inline constexpr std::array<MetricField, 9> kMetricFields{{
     {"angular_momentum_drift", "", &Metrics::angular_momentum_drift},
     {"joint_gap", "m", &Metrics::joint_gap},
     {"penetration", "m", &Metrics::penetration},
+    {"expected_miss", "", &Metrics::expected_miss},
 }};
 
 }  // namespace plumb::harness

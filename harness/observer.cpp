@@ -37,7 +37,10 @@ Observer::Observer(const Case& scene_case, const reference::Method& method,
       penetration_(scene_case.problem.scene),
       track_(track),
       discrete_(scene_case.problem.scene.bodies.size()),
-      discrete_known_(static_cast<bool>(scene_case.problem.truth.discrete) && method.order != 0) {}
+      discrete_known_(static_cast<bool>(scene_case.problem.truth.discrete) && method.order != 0),
+      derived_(scene_case.problem.expected.empty()),
+      expected_(scene_case.problem.expected.size()),
+      times_done_(scene_case.problem.expected.size(), 0) {}
 
 void Observer::add(int sample, std::span<const BodyState> states) {
   if (!diverged()) watch_for_divergence(sample, states);
@@ -45,6 +48,7 @@ void Observer::add(int sample, std::span<const BodyState> states) {
   if (case_.truth.known()) against_truth(sample, states);
   against_discrete(sample, states);
   invariants(sample, states);
+  against_expected(sample, states);
   follow(sample, states);
 }
 
@@ -136,6 +140,110 @@ void Observer::invariants(int sample, std::span<const BodyState> states) {
   }
 }
 
+void Observer::expect_at(std::size_t index, double time, std::span<const BodyState> states) {
+  const scenarios::Expectation::Miss miss = case_.problem.expected[index].miss(time, states);
+  expected_[index].add(miss.value, miss.tolerance);
+}
+
+namespace {
+
+// Returns the state between two samples: the cubic that has both positions and velocities, at `part` of the
+// way over `span` seconds. Its error is that of a step of fourth order, below what any engine's steps make;
+// across an impact it is up to the jump times the span.
+double between(double a, double va, double b, double vb, double span, double part, double& rate) {
+  const double p = part, q = p * p;
+  const double slope = b - a - span * va, bend = span * (va + vb) - 2 * (b - a);
+  rate = span > 0 ? va + (2 * p * (slope - bend) + 3 * q * bend) / span : va;
+  return a + p * span * va + q * (slope - bend) + q * p * bend;
+}
+
+BodyState between(const BodyState& a, const BodyState& b, double span, double part) {
+  BodyState out;
+  out.position.x =
+      between(a.position.x, a.velocity.x, b.position.x, b.velocity.x, span, part, out.velocity.x);
+  out.position.y =
+      between(a.position.y, a.velocity.y, b.position.y, b.velocity.y, span, part, out.velocity.y);
+  out.angle =
+      between(a.angle, a.angular_velocity, b.angle, b.angular_velocity, span, part, out.angular_velocity);
+  return out;
+}
+
+}  // namespace
+
+// Drifts are relative to the largest of the truth; where that is unknown, to the largest of the whole run: a
+// run that makes energy without end comes to 1, above any tolerance that says something.
+double Observer::measured(scenarios::Expectation::Law law) const {
+  using Law = scenarios::Expectation::Law;
+  const auto relative = [&](const std::optional<double>& drift, double scale, double largest) {
+    if (!drift || case_.truth.known() || *drift == 0) return drift.value_or(NAN);
+    return *drift * scale / largest;
+  };
+  switch (law) {
+    case Law::Energy:
+      return relative(metrics_.energy_drift, scale_.energy, largest_.kinetic);
+    case Law::Momentum:
+      return relative(metrics_.momentum_drift, scale_.momentum, largest_.sum_of_momenta);
+    case Law::AngularMomentum:
+      return relative(metrics_.angular_momentum_drift, scale_.angular_momentum,
+                      largest_.sum_of_angular_momenta);
+    case Law::Joints:
+      return metrics_.joint_gap.value_or(0);
+    case Law::NoOverlap:
+      return metrics_.penetration.value_or(0);
+    case Law::None:
+      break;
+  }
+  return NAN;
+}
+
+void Observer::against_expected(int sample, std::span<const BodyState> states) {
+  const double dt = case_.truth.dt(), now = sample * dt, slack = 1e-9 * dt;
+  std::vector<BodyState> at;
+  for (std::size_t i = 0; i < expected_.size(); ++i) {
+    const scenarios::Expectation& expectation = case_.problem.expected[i];
+    if (expectation.law != scenarios::Expectation::Law::None) continue;  // known at the end
+    if (expectation.times.empty()) {
+      if (now >= expectation.from - slack && now <= expectation.until + slack) expect_at(i, now, states);
+    } else {
+      for (std::size_t& k = times_done_[i]; k < expectation.times.size(); ++k) {
+        const double time = expectation.times[k];
+        if (time > now + slack) break;
+        if (time >= now - slack || before_.empty()) {
+          expect_at(i, time, states);
+          continue;
+        }
+        at.resize(states.size());
+        for (std::size_t body = 0; body < states.size(); ++body)
+          at[body] = between(before_[body], states[body], dt, (time - (now - dt)) / dt);
+        expect_at(i, time, at);
+      }
+    }
+  }
+  if (expected_.empty()) return;
+  before_.assign(states.begin(), states.end());
+  const Mechanics sums = mechanics(case_.problem.scene, states);
+  largest_.kinetic = std::max(largest_.kinetic, sums.kinetic);
+  largest_.sum_of_momenta = std::max(largest_.sum_of_momenta, sums.sum_of_momenta);
+  largest_.sum_of_angular_momenta = std::max(largest_.sum_of_angular_momenta, sums.sum_of_angular_momenta);
+}
+
+// A time that no step of the run reached counts as a miss: nothing was seen of it.
+void Observer::finish_expected(Result& result) const {
+  std::optional<double> ratio;
+  for (std::size_t i = 0; i < expected_.size(); ++i) {
+    const scenarios::Expectation& expectation = case_.problem.expected[i];
+    WorstRatio worst = expected_[i];
+    if (expectation.law != scenarios::Expectation::Law::None)
+      worst.add(measured(expectation.law), expectation.tolerance);
+    if (!worst.any() || times_done_[i] < expectation.times.size()) worst.add(NAN, expectation.tolerance);
+    const bool law = expectation.law != scenarios::Expectation::Law::None;
+    const Check check = worst.check("expected " + expectation.name, law ? Oracle::Invariant : Oracle::Exact);
+    raise(ratio, check.pass && check.value <= 0 ? 0 : check.value / check.tolerance);
+    result.checks.push_back(check);
+  }
+  result.metrics.expected_miss = ratio;
+}
+
 void Observer::follow(int sample, std::span<const BodyState> states) {
   if (track_ == nullptr || !track_->keeps(sample)) return;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -156,6 +264,8 @@ void Observer::finish(Result& result) const {
   };
   put("finite", Oracle::Invariant, finite_);
   if (diverged()) return;  // figures of a partial run would mislead
+  finish_expected(result);
+  if (!derived_) return;
   put("position_error", Oracle::Exact, position_);
   put("angle_error", Oracle::Exact, angle_);
   put("velocity_error", Oracle::Exact, velocity_);

@@ -37,6 +37,10 @@ class Observer {
   void against_discrete(int sample, std::span<const BodyState> states);
   void invariants(int sample, std::span<const BodyState> states);
   void follow(int sample, std::span<const BodyState> states);
+  void against_expected(int sample, std::span<const BodyState> states);
+  void expect_at(std::size_t index, double time, std::span<const BodyState> states);
+  void finish_expected(Result& result) const;
+  double measured(scenarios::Expectation::Law law) const;
   bool near_impact(double time) const;
 
   const Case& case_;
@@ -54,6 +58,11 @@ class Observer {
   WorstRatio energy_, momentum_, angular_momentum_, gap_, depth_, finite_;
   std::vector<BodyState> discrete_;
   bool discrete_known_ = true;
+  bool derived_;                         // bounds that follow from the method are held
+  std::vector<WorstRatio> expected_;     // by expectation
+  std::vector<std::size_t> times_done_;  // by expectation
+  Mechanics largest_;                    // of the run so far, if expectations need them
+  std::vector<BodyState> before_;        // states of the sample before, if expectations need them
 };
 
 }  // namespace plumb::harness

@@ -77,26 +77,29 @@ Json result_json(const Result& result) {
     const auto& value = result.metrics.*field.value;
     metrics[std::string(field.name)] = value ? Json(*value) : Json(nullptr);
   }
-  return {{"scenario", result.scenario},
-          {"variant", result.variant},
-          {"size", result.size},
-          {"label", result.label},
-          {"engine", result.engine},
-          {"engine_version", result.engine_version},
-          {"precision", result.precision},
-          {"dt", result.dt},
-          {"duration", result.duration},
-          {"truth", result.truth},
-          {"asked", asked_json(result.asked)},
-          {"settings", settings},
-          {"status", name_of(result.status)},
-          {"reason", result.reason},
-          {"metrics", metrics},
-          {"cost", result.cost ? cost_json(*result.cost) : Json(nullptr)},
-          {"checks", checks_json(result.checks)},
-          {"agrees_with", result.agrees_with},
-          {"disagrees_with", result.disagrees_with},
-          {"unexpected", result.unexpected}};
+  Json json{{"scenario", result.scenario},
+            {"variant", result.variant},
+            {"size", result.size},
+            {"label", result.label},
+            {"engine", result.engine},
+            {"engine_version", result.engine_version},
+            {"precision", result.precision},
+            {"dt", result.dt},
+            {"duration", result.duration},
+            {"truth", result.truth},
+            {"asked", asked_json(result.asked)},
+            {"settings", settings},
+            {"status", name_of(result.status)},
+            {"reason", result.reason},
+            {"metrics", metrics},
+            {"cost", result.cost ? cost_json(*result.cost) : Json(nullptr)},
+            {"checks", checks_json(result.checks)},
+            {"agrees_with", result.agrees_with},
+            {"disagrees_with", result.disagrees_with},
+            {"unexpected", result.unexpected}};
+  if (result.foreign_cost) json["foreign_cost"] = true;
+  if (!result.excused.empty()) json["excused"] = result.excused;
+  return json;
 }
 
 // Replaces invalid bytes: engines' messages may hold anything, JSON holds only UTF-8.
@@ -129,7 +132,8 @@ Result result_from(const Json& json) {
   result.status = parse<Status>(json.at("status"), kStatuses);
   result.reason = json.at("reason");
   for (const MetricField& field : kMetricFields) {
-    const Json& value = json.at("metrics").at(std::string(field.name));
+    const Json& value =
+        json.at("metrics").value(std::string(field.name), Json());  // older results lack the newest
     if (!value.is_null()) result.metrics.*field.value = value.get<double>();
   }
   if (!json.at("cost").is_null()) result.cost = cost_from(json.at("cost"));
@@ -143,6 +147,8 @@ Result result_from(const Json& json) {
   result.unexpected = json.at("unexpected").get<std::vector<std::string>>();
   if (const auto where = json.find("environment"); where != json.end() && where->is_object())
     result.machine = where->value("machine", where->value("cpu", ""));
+  result.foreign_cost = json.value("foreign_cost", false);
+  result.excused = json.value("excused", "");
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "harness/run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -32,6 +33,14 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
   result.asked = settings;
   result.duration = scene_case.problem.duration;
   result.truth = scene_case.problem.truth.source;
+  const std::vector<std::string>& must_pass = scene_case.problem.must_pass;
+  if (identity.guest) {
+    result.excused = identity.limits.empty() ? std::string(kGuest) : identity.limits;
+  } else if (!must_pass.empty() &&
+             std::find(must_pass.begin(), must_pass.end(), result.engine) == must_pass.end()) {
+    result.excused = "the case does not ask this engine to pass";
+  }
+  result.foreign_cost = identity.foreign_cost;
   if (!identity.available) {
     result.status = Status::Skipped;
     result.reason = fmt::format("not installed: {}", identity.reason);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "harness/result.h"
 #include "harness/track.h"
 #include "harness/truth_table.h"
@@ -28,6 +30,9 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
 /// time. Throws `Error` if the engine does; runs in the caller's own process.
 Result run(const Case& scene_case, const reference::Backend& backend, const reference::StepSettings& settings,
            Track* track = nullptr, double* nanoseconds = nullptr);
+
+/// Says why a guest's miss fails nothing; see `reference::Identity::guest`.
+inline constexpr std::string_view kGuest = "measured, not held: this engine declares no limits";
 
 /// Limit of a sample's error or distance, in extents of the scene; beyond it the run counts as diverged.
 inline constexpr double kDiverged = 1e3;

@@ -83,7 +83,7 @@ std::string costs(const std::vector<Pair>& pairs) {
   std::vector<double> ratios;
   int hidden = 0, measured = 0;
   for (const auto& [ours, theirs] : pairs) {
-    if (!ours->cost || !theirs->cost) continue;
+    if (!ours->cost || !theirs->cost || theirs->foreign_cost) continue;
     ++measured;
     if (!clearly_differ(*ours->cost, *theirs->cost)) {
       ++hidden;
@@ -187,6 +187,12 @@ std::string summary(std::span<const Result> results, const Style& style) {
             Ink::Dim) +
         "\n";
   }
+  const bool foreign = std::any_of(results.begin(), results.end(),
+                                   [](const Result& result) { return result.cost && result.foreign_cost; });
+  if (foreign)
+    out +=
+        style.paint("* before a cost: WebAssembly or JavaScript, not ranked with native engines", Ink::Dim) +
+        "\n";
   return out + count_of(results, style);
 }
 

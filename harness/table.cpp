@@ -39,6 +39,7 @@ std::vector<Column> all_columns() {
           metric_column("energy", "drift", &Metrics::energy_drift, 2),
           metric_column("joint gap", "m", &Metrics::joint_gap, 3),
           metric_column("overlap", "m", &Metrics::penetration, 5),
+          metric_column("expected", "of tol.", &Metrics::expected_miss, 0),
           {"cost", "a step",
            [](const Result& result) {
              return result.cost ? std::optional(result.cost->ns_per_step) : std::nullopt;
@@ -67,7 +68,8 @@ std::vector<Column> columns_for(std::span<const Result> results, int width) {
 double best_of(std::span<const Result> results, const Column& column) {
   double best = std::numeric_limits<double>::infinity();
   for (const Result& result : results)
-    if (const auto value = column.value(result); value && result.status == Status::Ok)
+    if (const auto value = column.value(result);
+        value && result.status == Status::Ok && !(column.is_cost && result.foreign_cost))
       best = std::min(best, *value);
   return best;
 }
@@ -218,8 +220,10 @@ std::string row(const Result& result, const std::vector<Column>& columns, const 
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto value = columns[i].value(result);
     std::string text = value ? columns[i].text(*value) : "-";
+    const bool foreign = columns[i].is_cost && result.foreign_cost;
     if (columns[i].is_cost && value && is_noisy(*result.cost)) text = "~" + text;
-    const bool is_best = value && *value <= best[i] && result.status == Status::Ok;
+    if (foreign && value) text = "*" + text;
+    const bool is_best = value && *value <= best[i] && result.status == Status::Ok && !foreign;
     line += pad_left("", kFigureWidth - static_cast<int>(text.size())) +
             style.paint(text, is_best ? Ink::Green : Ink::Plain);
   }

@@ -44,6 +44,13 @@ struct Identity {
   bool available = true;
   std::string reason{};    ///< why it is not available and what to install
   std::string own_name{};  ///< name that a program gives itself; "" for engines that are built in
+
+  /// A guest's misses are reported and fail nothing: its versions come and go outside this project.
+  bool guest = false;
+  std::string limits{};  ///< of a guest: what is known to make it miss, as a sentence
+
+  /// Its costs are those of another platform (WebAssembly, JavaScript), never ranked with native ones.
+  bool foreign_cost = false;
 };
 
 /// An engine's time stepping method, from which error bounds are derived. `SoftStep`: semi-implicit Euler
@@ -89,7 +96,8 @@ class Backend {
 /// Every adapter linked in, plumb's first, then by name. An adapter adds itself with a `Registration`.
 std::vector<const Backend*> backends();
 
-/// The adapter called `name`; throws `Error` (Name) that suggests the nearest.
+/// The adapter called `name`, or a guest in a version of its own: "rapier@0.19.3" (see node_engines.h).
+/// Throws `Error` (Name) that suggests the nearest.
 const Backend& find_backend(std::string_view name);
 
 /// Adds an adapter that lives as long as the program: `static const Registration r{std::make_unique<X>()};`

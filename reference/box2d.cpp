@@ -1,4 +1,4 @@
-//! cmake: find_package(box2d 2.4 CONFIG QUIET)
+//! cmake: include(box2d/libraries.cmake)
 //! cmake: set_property(SOURCE ${file} PROPERTY COMPILE_DEFINITIONS PLUMB_BOX2D_VERSION="${box2d_VERSION}")
 //! link: box2d::box2d
 //! missing: Box2D 2.4 was not found; install libbox2d-dev and build again

@@ -63,6 +63,26 @@ struct Conserved {
   bool angular_momentum = false;  ///< about the origin
 };
 
+/// A statement about a run with a tolerance of its own, from a case file.
+struct Expectation {
+  /// Quantities that every run measures, held from the start to the end.
+  enum class Law { None, Energy, Momentum, AngularMomentum, Joints, NoOverlap };
+
+  /// Distance of a state from what is expected, and what that may be; in the unit of the quantity.
+  struct Miss {
+    double value = 0, tolerance = 0;
+  };
+
+  std::string name;  ///< of the check: "ball.x"
+  Law law = Law::None;
+  double tolerance = 0;  ///< of a law: relative for what is conserved, m for gaps and overlaps
+
+  /// Without a law: computes the miss at `time`.
+  std::function<Miss(double time, std::span<const BodyState> states)> miss{};
+  std::vector<double> times{};  ///< s, in order; empty: every sample from `from` to `until`
+  double from = 0, until = std::numeric_limits<double>::infinity();  ///< s
+};
+
 /// One scene with its answer and the bounds expected of engines.
 struct Problem {
   Scene scene;
@@ -76,6 +96,12 @@ struct Problem {
   /// For second-order engines: C in error <= C h^2 + rounding, h the substep. 0: exact up to rounding.
   /// Unstated bounds are derived from the truth's own motion, as for first-order engines.
   Bounds second_order{};
+
+  /// Expectations of a case file. Bounds derived from the method are then not held: these replace them.
+  std::vector<Expectation> expected{};
+
+  /// Engines whose misses are failures; empty: all.
+  std::vector<std::string> must_pass{};
 };
 
 /// A family of problems: one file, registered nowhere else.

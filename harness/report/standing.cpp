@@ -88,8 +88,14 @@ std::vector<Standing> standings(std::span<const Result> rows) {
     std::erase_if(plumb, [](const sweep::Point& point) { return !sweep::is_plumb(point.row->engine); });
     plumb = sweep::front_of(std::move(plumb));
     const std::vector<sweep::Dominance> dominances = sweep::dominance(scene, &metric);
+    // Costs of WebAssembly and JavaScript are not ranked with native ones.
+    const auto is_foreign = [&](const std::string& engine) {
+      return std::any_of(scene.begin(), scene.end(),
+                         [&](const Result& row) { return row.engine == engine && row.foreign_cost; });
+    };
     for (const std::string& engine : sweep::engines_of(scene))
-      if (!sweep::is_plumb(engine)) out.push_back(standing_of(scene, engine, metric, plumb, dominances));
+      if (!sweep::is_plumb(engine) && !is_foreign(engine))
+        out.push_back(standing_of(scene, engine, metric, plumb, dominances));
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Standing& a, const Standing& b) { return badness(a) > badness(b); });

@@ -166,7 +166,11 @@ std::vector<Dominance> dominance(std::span<const Result> rows, const MetricField
     std::erase_if(plumb, [](const Point& point) { return !is_plumb(point.row->engine); });
     plumb = front_of(std::move(plumb));
     for (const std::string& engine : engines_of(scene)) {
-      if (is_plumb(engine)) continue;
+      // Costs of WebAssembly and JavaScript are not ranked with native ones.
+      const bool foreign = std::any_of(scene.begin(), scene.end(), [&](const Result& result) {
+        return result.engine == engine && result.foreign_cost;
+      });
+      if (is_plumb(engine) || foreign) continue;
       Dominance row = compare_with(scene, engine, judged, plumb);
       if (row.points > 0 || row.failed > 0) out.push_back(std::move(row));
     }

@@ -151,8 +151,10 @@ class ProcessBackend final : public Backend {
   Identity identity() const override {
     const Known& known = ask_once();
     if (!known.hello) return {.available = false, .reason = known.reason};
-    return {
-        .version = known.hello->version, .precision = known.hello->precision, .own_name = known.hello->name};
+    return {.version = known.hello->version,
+            .precision = known.hello->precision,
+            .own_name = known.hello->name,
+            .limits = known.hello->limits};
   }
 
   std::vector<Option> options() const override {

@@ -178,19 +178,21 @@ Json to_json(const Hello& hello) {
   Json knobs = Json::array();
   for (const Knob& knob : hello.knobs)
     knobs.push_back({{"name", knob.name}, {"values", knob.values}, {"ordered", knob.ordered}});
-  return {{"protocol", kVersion},
-          {"name", hello.name},
-          {"version", hello.version},
-          {"precision", hello.precision},
-          {"summary", hello.summary},
-          {"method", method_json(hello.method, hello.substeps)},
-          {"methods", methods},
-          {"shapes", hello.shapes},
-          {"joints", hello.joints},
-          {"forces", hello.forces},
-          {"features", hello.features},
-          {"options", options},
-          {"knobs", knobs}};
+  Json out{{"protocol", kVersion},
+           {"name", hello.name},
+           {"version", hello.version},
+           {"precision", hello.precision},
+           {"summary", hello.summary},
+           {"method", method_json(hello.method, hello.substeps)},
+           {"methods", methods},
+           {"shapes", hello.shapes},
+           {"joints", hello.joints},
+           {"forces", hello.forces},
+           {"features", hello.features},
+           {"options", options},
+           {"knobs", knobs}};
+  if (!hello.limits.empty()) out["limits"] = hello.limits;
+  return out;
 }
 
 Hello hello_from_json(const Json& message) {
@@ -207,6 +209,7 @@ Hello hello_from_json(const Json& message) {
     throw Malformed("its \"precision\" is " + plumb::quoted(out.precision));
   }
   out.summary = text_for_people(message, "summary");
+  out.limits = text_for_people(message, "limits");
   const Json method = member<Json>(message, "method");
   out.method = method_from_json(method);
   out.substeps = substeps_from_json(method);

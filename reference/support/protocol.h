@@ -34,6 +34,7 @@ struct Hello {
   std::vector<std::string> shapes, joints, forces, features;
   std::vector<Option> options;
   std::vector<Knob> knobs{};
+  std::string limits{};  ///< known reasons for its misses, as a sentence
 };
 
 /// The answer to "load".

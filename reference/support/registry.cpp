@@ -8,6 +8,8 @@
 #include "engine/core/suggest.h"
 #include "engine/scene/error.h"
 #include "reference/backend.h"
+#include "reference/guests.h"
+#include "reference/node_engines.h"
 
 namespace plumb::reference {
 namespace {
@@ -40,6 +42,9 @@ const Backend& find_backend(std::string_view name) {
     if (backend->name() == name) return *backend;
     names.emplace_back(backend->name());
   }
+  if (const Backend* guest = find_guest(name)) return *guest;
+  for (const Backend* guest : linked_guests()) names.emplace_back(guest->name());
+  for (const NodeEngine& engine : node_engines()) names.push_back(engine.name);
   throw Error(Error::Kind::Name, "engine", "", std::string(name),
               "there is no such engine" + did_you_mean(name, names));
 }

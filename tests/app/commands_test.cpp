@@ -55,7 +55,7 @@ TEST(New, WritesAScenarioOnceAndNothingElse) {
 TEST(Engines, NamesEveryEngineAndWhyOneIsMissing) {
   const std::string text = plumb({"engines"}).out;
   const Json json = Json::parse(plumb({"engines", "--format", "json"}).out);
-  ASSERT_EQ(json.size(), reference::backends().size());
+  ASSERT_GT(json.size(), reference::backends().size()) << "those from npm are listed too";
   for (const Json& engine : json) {
     EXPECT_NE(text.find(engine["name"].get<std::string>()), std::string::npos);
     const std::string reason = engine["reason"];

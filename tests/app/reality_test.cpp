@@ -12,7 +12,7 @@ namespace {
 TEST(Reality, WithoutMeasurementsSaysWhereToGetThem) {
   const Folder folder;
   const Ran ran = plumb({"reality", "--data", folder.path()});
-  EXPECT_EQ(ran.code, 3);
+  EXPECT_EQ(ran.code, 4);
   EXPECT_EQ(ran.out, "");
   EXPECT_EQ(lines_of(ran.err).size(), 1u);
   for (const char* part : {"ellipse_impacts.csv", "docs/reality.md", "--data"})

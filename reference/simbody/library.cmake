@@ -1,0 +1,10 @@
+# Simbody behind an interface of its own: its headers are C++17 and not C++20.
+find_package(Simbody CONFIG QUIET)
+if(TARGET SimTKsimbody AND NOT TARGET plumb_simbody)
+  add_library(plumb_simbody STATIC ${CMAKE_CURRENT_LIST_DIR}/tree.cpp)
+  set_target_properties(plumb_simbody PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
+  target_include_directories(plumb_simbody PRIVATE ${PROJECT_SOURCE_DIR})
+  target_include_directories(plumb_simbody SYSTEM PRIVATE ${Simbody_INCLUDE_DIR})
+  target_compile_definitions(plumb_simbody INTERFACE PLUMB_SIMBODY_VERSION="${Simbody_VERSION}")
+  target_link_libraries(plumb_simbody PRIVATE ${Simbody_LIBRARIES})
+endif()
