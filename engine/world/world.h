@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/error.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/handles.h"

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Runs a program of the bindings from the installed package alone, in an empty folder, and compares what it prints with
+# what the same program in C++ prints.
+#
+#   run_installed.sh LANGUAGE PREFIX EXAMPLE EXPECTED_PROGRAM
+set -euo pipefail
+
+language=$1 prefix=$2 example=$3 expected=$4
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+cp "$example" "$work/"
+cd "$work"
+program=$(basename "$example")
+libraries=$(dirname "$(find "$prefix" -name 'libplumb.a')")
+export PKG_CONFIG_PATH="$libraries/pkgconfig"
+
+case $language in
+  c-shared)
+    read -ra flags <<<"$(pkg-config --cflags --libs plumb-c)"
+    cc -std=c99 -pedantic -Wall -Wextra -Werror "$program" "${flags[@]}" -o drop
+    LD_LIBRARY_PATH=$libraries ./drop >out
+    ;;
+  c-static)
+    read -ra flags <<<"$(pkg-config --static --cflags --libs plumb-c)"
+    cc -std=c99 -pedantic -Wall -Wextra -Werror "$program" "${flags[@]/#-lplumb/-l:libplumb.a}" -o drop
+    ./drop >out
+    ;;
+  c-cmake)
+    cat >CMakeLists.txt <<CMAKE
+cmake_minimum_required(VERSION 3.25)
+project(drop LANGUAGES C)
+set(CMAKE_C_STANDARD 99)
+find_package(plumb 0.1 REQUIRED COMPONENTS c)
+add_executable(drop $program)
+target_link_libraries(drop PRIVATE plumb::c)
+add_executable(drop_static $program)
+target_link_libraries(drop_static PRIVATE plumb::c_static)
+CMAKE
+    cmake -S . -B build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >log && cmake --build build >>log ||
+      { cat log && false; }
+    build/drop >out
+    build/drop_static >out_static
+    cmp out out_static
+    ;;
+  *)
+    echo "unknown language $language"
+    exit 2
+    ;;
+esac
+
+"$expected" >wanted
+diff wanted out
+cat out
