@@ -3,6 +3,8 @@
 # what the same program in C++ prints.
 #
 #   run_installed.sh LANGUAGE PREFIX EXAMPLE EXPECTED_PROGRAM
+#
+# PREFIX is the folder that was installed to; for Python, a build folder with the module, of which pip makes a wheel.
 set -euo pipefail
 
 language=$1 prefix=$2 example=$3 expected=$4
@@ -11,8 +13,10 @@ trap 'rm -rf -- "$work"' EXIT
 cp "$example" "$work/"
 cd "$work"
 program=$(basename "$example")
-libraries=$(dirname "$(find "$prefix" -name 'libplumb.a')")
-export PKG_CONFIG_PATH="$libraries/pkgconfig"
+if [[ $language == c-* ]]; then
+  libraries=$(dirname "$(find "$prefix" -name 'libplumb.a')")
+  export PKG_CONFIG_PATH="$libraries/pkgconfig"
+fi
 
 case $language in
   c-shared)
@@ -41,6 +45,16 @@ CMAKE
     build/drop >out
     build/drop_static >out_static
     cmp out out_static
+    ;;
+  python)
+    checkout=$(cd -- "$(dirname -- "$example")/../../.." && pwd)
+    # A copy of what pip needs: it writes beside the sources.
+    mkdir checkout
+    cp -r "$checkout/pyproject.toml" "$checkout/CMakeLists.txt" checkout/
+    mkdir -p checkout/bindings
+    cp -r "$checkout/bindings/python" checkout/bindings/
+    PLUMB_BUILD_DIR=$prefix /usr/bin/python3 -m pip install --quiet --no-index --no-deps --target site ./checkout
+    PYTHONPATH=$work/site /usr/bin/python3 "$program" >out
     ;;
   *)
     echo "unknown language $language"
