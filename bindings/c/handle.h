@@ -9,7 +9,9 @@
 
 #include "bindings/c/include/plumb/plumb.h"
 #include "engine/scene/error.h"
+#ifndef PLUMB_NO_FILES
 #include "engine/world/recorder.h"
+#endif
 #include "engine/world/world.h"
 
 /// Events in the form of the C interface.
@@ -24,8 +26,12 @@ struct plumb_event_arrays {
 
 /// A world of either precision, recorded or not.
 struct plumb_world {
-  std::variant<plumb::World, plumb::DoubleWorld, plumb::RecordedWorld<float>, plumb::RecordedWorld<double>>
+#ifdef PLUMB_NO_FILES
+  std::variant<plumb::World, plumb::DoubleWorld> world;
+#else
+  std::variant<plumb::World, plumb::DoubleWorld, plumb::RecordedWorld<float>, plumb::RecordedWorld<double> >
       world;
+#endif
   plumb_event_arrays events{};
   mutable std::vector<plumb_vec2> points{};  ///< of the shape that was read last
 };

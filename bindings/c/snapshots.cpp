@@ -1,7 +1,9 @@
 #include "engine/world/snapshot.h"
 
 #include "bindings/c/handle.h"
+#ifndef PLUMB_NO_FILES
 #include "engine/world/replay.h"
+#endif
 
 using namespace plumb::c;
 using plumb::Error;
@@ -21,6 +23,7 @@ plumb_status plumb_world_restore(plumb_world* world, const void* bytes, size_t c
   });
 }
 
+#ifndef PLUMB_NO_FILES
 namespace {
 
 template <class Real>
@@ -66,3 +69,4 @@ plumb_status plumb_replay(const char* file, plumb_precision precision, plumb_rep
     }
   });
 }
+#endif

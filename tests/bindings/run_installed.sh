@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Runs a program of the bindings from the installed package alone, in an empty folder, and compares what it prints with
-# what the same program in C++ prints.
+# what the command EXPECTED prints: the same program in C++, or the page that quotes it.
 #
-#   run_installed.sh LANGUAGE PREFIX EXAMPLE EXPECTED_PROGRAM
+#   run_installed.sh LANGUAGE PREFIX EXAMPLE EXPECTED [ARGUMENTS...]
 #
-# PREFIX is the folder that was installed to; for Python, a build folder with the module, of which pip makes a wheel.
+# PREFIX is the folder that was installed to; for Python, a build folder with the module, of which pip makes
+# a wheel; for JavaScript, the folder of the package.
 set -euo pipefail
 
-language=$1 prefix=$2 example=$3 expected=$4
+language=$1 prefix=$2 example=$3
+shift 3
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 cp "$example" "$work/"
@@ -56,12 +58,19 @@ CMAKE
     PLUMB_BUILD_DIR=$prefix /usr/bin/python3 -m pip install --quiet --no-index --no-deps --target site ./checkout
     PYTHONPATH=$work/site /usr/bin/python3 "$program" >out
     ;;
+  javascript)
+    # What `npm pack` packs is what npm installs, without a network.
+    tarball=$(npm pack --silent "$prefix")
+    echo '{"private": true}' >package.json
+    npm install --silent --offline --no-audit --no-fund "./$tarball"
+    node "$program" >out
+    ;;
   *)
     echo "unknown language $language"
     exit 2
     ;;
 esac
 
-"$expected" >wanted
+"$@" >wanted
 diff wanted out
 cat out
