@@ -157,6 +157,21 @@ uint64_t plumb_body_user_data(const plumb_world* world, plumb_body body) {
 const char* plumb_body_name(const plumb_world* world, plumb_body body) {
   return read_or<const char*>("", world, [&](const auto& w) { return w.name(in(body)).c_str(); });
 }
+plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint64_t data) {
+  return change_checked(world, [&](auto& w) { w.set_user_data(in(body), data); });
+}
+plumb_status plumb_body_set_name(plumb_world* world, plumb_body body, const char* name) {
+  return change_checked(world, [&](auto& w) { w.set_name(in(body), &require(name, "name")); });
+}
+plumb_status plumb_body_set_enabled(plumb_world* world, plumb_body body, bool enabled) {
+  return change_checked(world, [&](auto& w) { w.set_enabled(in(body), enabled); });
+}
+bool plumb_body_enabled(const plumb_world* world, plumb_body body) {
+  return read_or(false, world, [&](const auto& w) { return w.enabled(in(body)); });
+}
+plumb_box_bounds plumb_body_box(const plumb_world* world, plumb_body body) {
+  return read_or(plumb_box_bounds{}, world, [&](const auto& w) { return out(w.box(in(body))); });
+}
 bool plumb_body_quarantined(const plumb_world* world, plumb_body body) {
   return read_or(false, world, [&](const auto& w) { return w.quarantined(in(body)); });
 }

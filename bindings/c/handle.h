@@ -126,6 +126,8 @@ inline ShapeId in(plumb_shape id) { return {id.index, id.generation}; }
 inline JointId in(plumb_joint id) { return {id.index, id.generation}; }
 inline ChainId in(plumb_chain id) { return {id.index, id.generation}; }
 
+inline plumb_box_bounds out(const Aabb<double>& box) { return {out(box.lower), out(box.upper)}; }
+
 inline constexpr plumb_body kNoBody{PLUMB_NO_INDEX, 0};
 inline constexpr plumb_shape kNoShape{PLUMB_NO_INDEX, 0};
 inline constexpr plumb_joint kNoJoint{PLUMB_NO_INDEX, 0};

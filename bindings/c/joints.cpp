@@ -176,6 +176,9 @@ plumb_joint_reading plumb_joint_read(const plumb_world* world, plumb_joint joint
 uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint) {
   return read_or<uint64_t>(0, world, [&](const auto& w) { return w.user_data(in(joint)); });
 }
+plumb_status plumb_joint_set_user_data(plumb_world* world, plumb_joint joint, uint64_t data) {
+  return change_checked(world, [&](auto& w) { w.set_user_data(in(joint), data); });
+}
 plumb_status plumb_joint_bodies(const plumb_world* world, plumb_joint joint, plumb_body* a, plumb_body* b) {
   return read_checked(world, [&](const auto& w) {
     const auto [first, second] = w.bodies(in(joint));

@@ -1,4 +1,5 @@
 #include "bindings/c/handle.h"
+#include "engine/world/queries.h"
 
 using namespace plumb::c;
 
@@ -92,6 +93,39 @@ plumb_filter plumb_shape_filter(const plumb_world* world, plumb_shape shape) {
 }
 plumb_status plumb_shape_set_filter(plumb_world* world, plumb_shape shape, plumb_filter filter) {
   return change_checked(world, [&](auto& w) { w.set_filter(in(shape), in(filter)); });
+}
+plumb_status plumb_shape_set_user_data(plumb_world* world, plumb_shape shape, uint64_t data) {
+  return change_checked(world, [&](auto& w) { w.set_user_data(in(shape), data); });
+}
+plumb_status plumb_shape_set_density(plumb_world* world, plumb_shape shape, double density) {
+  return change_checked(world, [&](auto& w) { w.set_density(in(shape), density); });
+}
+plumb_status plumb_shape_set_sensor(plumb_world* world, plumb_shape shape, bool sensor) {
+  return change_checked(world, [&](auto& w) { w.set_sensor(in(shape), sensor); });
+}
+plumb_status plumb_shape_set_hit_events(plumb_world* world, plumb_shape shape, bool on) {
+  return change_checked(world, [&](auto& w) { w.set_hit_events(in(shape), on); });
+}
+plumb_status plumb_shape_set_pre_solve(plumb_world* world, plumb_shape shape, bool on) {
+  return change_checked(world, [&](auto& w) { w.set_pre_solve(in(shape), on); });
+}
+plumb_box_bounds plumb_shape_box(const plumb_world* world, plumb_shape shape) {
+  return read_or(plumb_box_bounds{}, world, [&](const auto& w) { return out(w.box(in(shape))); });
+}
+plumb_chain plumb_shape_chain(const plumb_world* world, plumb_shape shape) {
+  return read_or(kNoChain, world, [&](const auto& w) { return out(w.chain(in(shape))); });
+}
+bool plumb_shape_ray_cast(const plumb_world* world, plumb_shape shape, plumb_vec2 origin,
+                          plumb_vec2 translation, double* fraction, plumb_vec2* normal) {
+  return read_or(false, world, [&](const auto& w) {
+    const auto hit = plumb::ray_cast(w, in(shape), in(origin), in(translation));
+    if (hit && fraction != nullptr) *fraction = hit->fraction;
+    if (hit && normal != nullptr) *normal = out(hit->normal);
+    return hit.has_value();
+  });
+}
+bool plumb_shape_contains(const plumb_world* world, plumb_shape shape, plumb_vec2 point) {
+  return read_or(false, world, [&](const auto& w) { return plumb::contains(w, in(shape), in(point)); });
 }
 double plumb_shape_density(const plumb_world* world, plumb_shape shape) {
   return read_or(0.0, world, [&](const auto& w) { return w.density(in(shape)); });

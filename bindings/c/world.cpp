@@ -212,13 +212,15 @@ size_t plumb_body_contacts(const plumb_world* world, plumb_body body, plumb_cont
 }
 size_t plumb_world_contacts(const plumb_world* world, plumb_contact* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
-    // Each contact is in the lists of both of its bodies; that of shape a reports it.
-    std::vector<plumb::ContactReading> all;
-    for_each_body(w, [&](std::size_t, plumb::BodyId body) {
-      for (const plumb::ContactReading& contact : w.contacts(body)) {
-        if (w.body(contact.shape_a) == body) all.push_back(contact);
-      }
-    });
+    std::vector<plumb::ContactReading> all(w.contacts(std::span<plumb::ContactReading>{}));
+    w.contacts(all);
+    return fill(all, to, capacity);
+  });
+}
+size_t plumb_world_moved(const plumb_world* world, plumb_body* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) {
+    std::vector<plumb::BodyId> all(w.moved({}));
+    w.moved(all);
     return fill(all, to, capacity);
   });
 }

@@ -75,14 +75,6 @@ py::array view(HeldWorld& held, const Number* first, std::size_t count, std::siz
   return array;
 }
 
-template <class Real, class Visit>
-void for_each_body(const BasicWorld<Real>& world, Visit&& visit) {
-  const WorldData<Real>& data = world.data();
-  for (int body = 0; body < data.bodies.size(); ++body) {
-    if (data.bodies.used(body)) visit(BodyId{static_cast<std::uint32_t>(body), data.bodies.generation(body)});
-  }
-}
-
 /// A contact as numpy has it.
 struct ContactRow {
   std::uint32_t body_a, body_b;
@@ -98,26 +90,25 @@ struct ContactRow {
 py::array_t<ContactRow> contacts_of(HeldWorld& held) {
   std::vector<ContactRow> all;
   held.visit([&](auto& w) {
-    for_each_body(w, [&](BodyId body) {
-      for (const ContactReading& c : w.contacts(body)) {
-        if (w.body(c.shape_a) != body) continue;
-        ContactRow row{body.index,
-                       w.body(c.shape_b).index,
-                       c.shape_a.index,
-                       c.shape_b.index,
-                       c.count,
-                       0,
-                       {c.normal.x, c.normal.y},
-                       {},
-                       {},
-                       {}};
-        for (int i = 0; i < c.count; ++i) {
-          row.points[i][0] = c.points[i].x, row.points[i][1] = c.points[i].y;
-          row.separations[i] = c.separations[i], row.impulses[i] = c.impulses[i];
-        }
-        all.push_back(row);
+    std::vector<ContactReading> readings(w.contacts(std::span<ContactReading>{}));
+    w.contacts(readings);
+    for (const ContactReading& c : readings) {
+      ContactRow row{w.body(c.shape_a).index,
+                     w.body(c.shape_b).index,
+                     c.shape_a.index,
+                     c.shape_b.index,
+                     c.count,
+                     0,
+                     {c.normal.x, c.normal.y},
+                     {},
+                     {},
+                     {}};
+      for (int i = 0; i < c.count; ++i) {
+        row.points[i][0] = c.points[i].x, row.points[i][1] = c.points[i].y;
+        row.separations[i] = c.separations[i], row.impulses[i] = c.impulses[i];
       }
-    });
+      all.push_back(row);
+    }
   });
   py::array_t<ContactRow> out(static_cast<py::ssize_t>(all.size()));
   if (!all.empty()) std::memcpy(out.mutable_data(), all.data(), all.size() * sizeof(ContactRow));
@@ -248,8 +239,20 @@ void bind_handles(py::module_& module) {
                     PLUMB_SET(HeldBody, bool, w.set_awake(h.id, value)))
       .def_property("may_sleep", PLUMB_READ(HeldBody, w.may_sleep(h.id)),
                     PLUMB_SET(HeldBody, bool, w.set_may_sleep(h.id, value)))
-      .def_property_readonly("user_data", PLUMB_READ(HeldBody, w.user_data(h.id)))
-      .def_property_readonly("name", PLUMB_READ(HeldBody, std::string(w.name(h.id))))
+      .def_property("user_data", PLUMB_READ(HeldBody, w.user_data(h.id)),
+                    PLUMB_SET(HeldBody, std::uint64_t, w.set_user_data(h.id, value)))
+      .def_property("enabled", PLUMB_READ(HeldBody, w.enabled(h.id)),
+                    PLUMB_SET(HeldBody, bool, w.set_enabled(h.id, value)),
+                    "False takes the body out of the simulation until it is set again.")
+      .def_property_readonly(
+          "box",
+          [](const HeldBody& h) {
+            const Aabb<double> box = h.world->visit([&](auto& w) { return w.box(h.id); });
+            return py::make_tuple(box.lower, box.upper);
+          },
+          "lower and upper corner of the box around its shapes, m")
+      .def_property("name", PLUMB_READ(HeldBody, std::string(w.name(h.id))),
+                    PLUMB_SET(HeldBody, const std::string&, w.set_name(h.id, value)))
       .def_property_readonly("valid", PLUMB_READ(HeldBody, w.valid(h.id)))
       .def_property_readonly("quarantined", PLUMB_READ(HeldBody, w.quarantined(h.id)))
       .def_property_readonly("shapes", PLUMB_READ(HeldBody, handles(h.world, w.shapes(h.id))))
@@ -344,8 +347,12 @@ void bind_handles(py::module_& module) {
       .def_property_readonly("valid", PLUMB_READ(HeldShape, w.valid(h.id)))
       .def_property_readonly("definition", PLUMB_READ(HeldShape, w.definition(h.id)),
                              "As at present; a box is a polygon.")
-      .def_property_readonly("user_data", PLUMB_READ(HeldShape, w.user_data(h.id)))
-      .def_property_readonly("sensor", PLUMB_READ(HeldShape, w.sensor(h.id)))
+      .def_property("user_data", PLUMB_READ(HeldShape, w.user_data(h.id)),
+                    PLUMB_SET(HeldShape, std::uint64_t, w.set_user_data(h.id, value)))
+      .def_property("density", PLUMB_READ(HeldShape, w.density(h.id)),
+                    PLUMB_SET(HeldShape, double, w.set_density(h.id, value)), "kg/m^2")
+      .def_property("sensor", PLUMB_READ(HeldShape, w.sensor(h.id)),
+                    PLUMB_SET(HeldShape, bool, w.set_sensor(h.id, value)))
       .def_property_readonly("overlapping", PLUMB_READ(HeldShape, handles(h.world, w.overlapping(h.id))),
                              "Shapes in a sensor in the last step.")
       .def_property("friction", PLUMB_READ(HeldShape, w.material(h.id).friction),

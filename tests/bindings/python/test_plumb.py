@@ -5,6 +5,7 @@ import gc
 import inspect
 import math
 import pathlib
+import runpy
 import threading
 
 import numpy as np
@@ -237,6 +238,19 @@ def test_a_batch_steps_each_world_with_its_own_actions():
         batch.step(actions[:3])
 
 
+def test_a_pole_falls_unless_it_is_balanced():
+    path = pathlib.Path(__file__).resolve().parents[3] / "bindings/python/examples/cart_pole.py"
+    cart_pole = runpy.run_path(str(path))
+    for gains, stands in ((np.zeros(4), False), (np.array([-1.0, -2.0, 30.0, 6.0]), True)):
+        env = cart_pole["CartPole"](worlds=8, threads=2)
+        seen, _ = env.reset(seed=1)
+        fallen = np.zeros(8, bool)
+        for _ in range(250):
+            seen, _, terminated, _, _ = env.step(np.clip(-seen @ gains, -20, 20))
+            fallen |= terminated
+        assert fallen.any() != stands and fallen.all() != stands
+
+
 def test_worlds_step_on_threads():
     worlds = [plumb.World() for _ in range(4)]
     for world in worlds:
@@ -259,6 +273,22 @@ def test_forces_as_an_array_and_bodies_as_keys():
     assert {bodies[0]: "first"}[world.bodies[0]] == "first"
     with pytest.raises(plumb.InvalidValue, match="3 body indices"):
         world.apply_forces([[0, 0]])
+
+
+def test_bodies_and_shapes_are_changed_after_they_were_made():
+    world = plumb.World()
+    body = world.create_body(plumb.Box(1, 1), position=(0, 3))
+    body.name, body.user_data, body.shapes[0].density = "crate", 7, 4
+    assert (body.name, body.user_data, body.mass) == ("crate", 7, 4)
+    assert body.box == ((-0.5, 2.5), (0.5, 3.5))
+    body.enabled = False
+    world.step(count=10)
+    assert body.position == (0, 3) and not body.enabled
+    body.enabled = True
+    world.step(count=10)
+    assert body.position[1] < 3
+    body.shapes[0].sensor = True
+    assert body.shapes[0].sensor
 
 
 def test_the_stub_names_what_the_module_has():

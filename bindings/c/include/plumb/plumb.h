@@ -79,6 +79,11 @@ typedef struct plumb_velocity {
   double angular;
 } plumb_velocity;
 
+/* A box along the axes, m. */
+typedef struct plumb_box_bounds {
+  plumb_vec2 lower, upper;
+} plumb_box_bounds;
+
 /* Handles of a world's objects. They know when their object is gone. */
 #define PLUMB_NO_INDEX 0xFFFFFFFFu /* index of an invalid handle */
 typedef struct plumb_body {
@@ -320,6 +325,9 @@ PLUMB_API size_t plumb_world_bodies(const plumb_world* world, plumb_body* out, s
 PLUMB_API size_t plumb_world_poses(const plumb_world* world, plumb_pose* out, size_t capacity);
 PLUMB_API size_t plumb_world_velocities(const plumb_world* world, plumb_velocity* out, size_t capacity);
 
+/* Bodies whose pose the last step may have changed; not sorted. */
+PLUMB_API size_t plumb_world_moved(const plumb_world* world, plumb_body* out, size_t capacity);
+
 /* ---- Bodies ------------------------------------------------------------------------------------------ */
 
 PLUMB_API plumb_body plumb_body_create(plumb_world* world, const plumb_body_definition* definition,
@@ -372,6 +380,13 @@ PLUMB_API bool plumb_body_awake(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_awake(plumb_world* world, plumb_body body, bool awake);
 PLUMB_API plumb_status plumb_body_set_may_sleep(plumb_world* world, plumb_body body, bool may_sleep);
 PLUMB_API uint64_t plumb_body_user_data(const plumb_world* world, plumb_body body);
+PLUMB_API plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint64_t data);
+PLUMB_API plumb_status plumb_body_set_name(plumb_world* world, plumb_body body, const char* name);
+/* Takes a body out of the simulation, or puts it back with its pose and velocity. */
+PLUMB_API plumb_status plumb_body_set_enabled(plumb_world* world, plumb_body body, bool enabled);
+PLUMB_API bool plumb_body_enabled(const plumb_world* world, plumb_body body);
+/* The smallest box around the body's shapes, m. */
+PLUMB_API plumb_box_bounds plumb_body_box(const plumb_world* world, plumb_body body);
 /* Valid until the body is changed or destroyed; "" if it has none. */
 PLUMB_API const char* plumb_body_name(const plumb_world* world, plumb_body body);
 PLUMB_API bool plumb_body_quarantined(const plumb_world* world, plumb_body body);
@@ -410,6 +425,18 @@ PLUMB_API plumb_status plumb_shape_set_material(plumb_world* world, plumb_shape 
                                                 plumb_material material);
 PLUMB_API plumb_filter plumb_shape_filter(const plumb_world* world, plumb_shape shape);
 PLUMB_API plumb_status plumb_shape_set_filter(plumb_world* world, plumb_shape shape, plumb_filter filter);
+PLUMB_API plumb_status plumb_shape_set_user_data(plumb_world* world, plumb_shape shape, uint64_t data);
+PLUMB_API plumb_status plumb_shape_set_density(plumb_world* world, plumb_shape shape, double density);
+PLUMB_API plumb_status plumb_shape_set_sensor(plumb_world* world, plumb_shape shape, bool sensor);
+PLUMB_API plumb_status plumb_shape_set_hit_events(plumb_world* world, plumb_shape shape, bool on);
+PLUMB_API plumb_status plumb_shape_set_pre_solve(plumb_world* world, plumb_shape shape, bool on);
+PLUMB_API plumb_box_bounds plumb_shape_box(const plumb_world* world, plumb_shape shape);
+/* The chain of a segment; invalid for other shapes. */
+PLUMB_API plumb_chain plumb_shape_chain(const plumb_world* world, plumb_shape shape);
+/* One shape alone: no filter is asked. */
+PLUMB_API bool plumb_shape_ray_cast(const plumb_world* world, plumb_shape shape, plumb_vec2 origin,
+                                    plumb_vec2 translation, double* fraction, plumb_vec2* normal);
+PLUMB_API bool plumb_shape_contains(const plumb_world* world, plumb_shape shape, plumb_vec2 point);
 PLUMB_API double plumb_shape_density(const plumb_world* world, plumb_shape shape); /* kg/m^2 */
 PLUMB_API bool plumb_shape_sensor(const plumb_world* world, plumb_shape shape);
 /* Returns the present definition, in the body's frame; a box is a polygon then. The points of a polygon are
@@ -449,6 +476,7 @@ PLUMB_API plumb_status plumb_joint_change(plumb_world* world, plumb_joint joint,
                                           const plumb_joint_definition* definition);
 PLUMB_API plumb_joint_reading plumb_joint_read(const plumb_world* world, plumb_joint joint);
 PLUMB_API uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint);
+PLUMB_API plumb_status plumb_joint_set_user_data(plumb_world* world, plumb_joint joint, uint64_t data);
 PLUMB_API plumb_status plumb_joint_bodies(const plumb_world* world, plumb_joint joint, plumb_body* a,
                                           plumb_body* b);
 
