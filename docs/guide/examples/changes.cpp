@@ -16,7 +16,7 @@ int main() {
   world.set_name(crate, "crate");
   world.set_user_data(crate, 7);
   world.set_density(world.shapes(crate)[0], 5);  // kg/m^2
-  for (int i = 0; i < 60; ++i) world.step();
+  for (int i = 0; i < 10; ++i) world.step();
   std::printf("the %s weighs %.0f kg\n", world.name(crate).c_str(), world.mass(crate));
 
   std::array<plumb::BodyId, 8> moved;
