@@ -1,23 +1,42 @@
-# `cmake --install`: the library with its headers, a package for find_package(plumb) and one for pkg-config.
+# `cmake --install`: by component, `--component runtime` (libplumb.so), `c` (what C programs are built with) and `cpp`
+# (the library and headers for C++). Packages for find_package(plumb) and for pkg-config (plumb-c, plumb) go along.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers include each other from the project's root, so they keep their paths below a folder of their own.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumb
-  FILES_MATCHING PATTERN "*.h")
-target_include_directories(plumb_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/plumb>)
-install(TARGETS plumb_engine EXPORT plumbTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# Headers name each other as programs do, so only the folder above theirs is on a program's search path.
+install(CODE "
+  set(CHECKOUT \"${PROJECT_SOURCE_DIR}\")
+  include(\"${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake\")
+  plumb_write_public_headers(\"\${CHECKOUT}\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")"
+  COMPONENT cpp)
+install(TARGETS plumb_engine EXPORT plumbTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT cpp
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT cpp)
+
+install(TARGETS plumb_c plumb_c_static EXPORT plumbCTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT c)
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/include/plumb/plumb.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumb COMPONENT c)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plumb)
-install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION ${package_dir})
+install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION ${package_dir} COMPONENT cpp)
+install(EXPORT plumbCTargets NAMESPACE plumb:: DESTINATION ${package_dir} COMPONENT c)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/plumbConfig.cmake.in
   ${PROJECT_BINARY_DIR}/plumbConfig.cmake INSTALL_DESTINATION ${package_dir})
 # Below 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/plumbConfig.cmake ${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
-  DESTINATION ${package_dir})
 
-# Paths in plumb.pc are relative to the file itself: the installed tree can be moved as a whole.
+# Paths in the .pc files are relative to the files themselves: the installed tree can be moved as a whole.
 file(RELATIVE_PATH PLUMB_PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-configure_file(${PROJECT_SOURCE_DIR}/cmake/plumb.pc.in ${PROJECT_BINARY_DIR}/plumb.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/plumb.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(component c cpp)
+  install(FILES ${PROJECT_BINARY_DIR}/plumbConfig.cmake ${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake
+    DESTINATION ${package_dir} COMPONENT ${component})
+endforeach()
+foreach(package plumb-c:c plumb:cpp)
+  string(REPLACE ":" ";" package ${package})
+  list(POP_FRONT package name component)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT ${component})
+endforeach()

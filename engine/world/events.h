@@ -31,8 +31,9 @@ struct JointEvent {
 };
 
 /// Quantity of a body that was not finite, or beyond 1e12.
-enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity };
-inline constexpr const char* kBadFieldNames[] = {"force", "torque", "velocity", "angular_velocity"};
+/// `None`: of a body that its program disabled.
+enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity, None };
+inline constexpr const char* kBadFieldNames[] = {"force", "torque", "velocity", "angular_velocity", "none"};
 
 /// A body was quarantined, because one of its numbers was not finite, or beyond 1e12.
 struct QuarantineEvent {

@@ -115,6 +115,14 @@ template <class Real>
 std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point, double max_distance,
                                      const QueryFilter& filter = {});
 
+/// Casts a ray at one shape alone, of any kind: no filter is asked.
+template <class Real>
+std::optional<RayResult> ray_cast(const BasicWorld<Real>& world, ShapeId shape, Vec2d origin,
+                                  Vec2d translation);
+/// Returns true if a shape contains `point`, m, inside or on its surface.
+template <class Real>
+bool contains(const BasicWorld<Real>& world, ShapeId shape, Vec2d point);
+
 /// Returns the distance of any two shapes, including sensors and shapes of one body.
 template <class Real>
 ShapeDistance distance(const BasicWorld<Real>& world, ShapeId a, ShapeId b);

@@ -69,11 +69,19 @@ class RecordedWorld {
   void set_locks(BodyId body, bool x, bool y, bool rotation);
   void set_awake(BodyId body, bool awake);
   void set_may_sleep(BodyId body, bool may_sleep);
+  void set_user_data(BodyId body, std::uint64_t data);
+  void set_name(BodyId body, const std::string& name);
+  void set_enabled(BodyId body, bool enabled);
 
   ShapeId create_shape(BodyId body, const ShapeDefinition& definition);
   void destroy(ShapeId shape);
   void set_material(ShapeId shape, const Material& material);
   void set_filter(ShapeId shape, const Filter& filter);
+  void set_user_data(ShapeId shape, std::uint64_t data);
+  void set_density(ShapeId shape, double density);
+  void set_sensor(ShapeId shape, bool sensor);
+  void set_hit_events(ShapeId shape, bool on);
+  void set_pre_solve(ShapeId shape, bool on);
 
   ChainId create_chain(BodyId body, const ChainDefinition& definition);
   void destroy(ChainId chain);
@@ -81,6 +89,7 @@ class RecordedWorld {
   JointId create_joint(BodyId a, BodyId b, const JointDefinition& definition);
   void destroy(JointId joint);
   void change(JointId joint, const JointKind& kind);
+  void set_user_data(JointId joint, std::uint64_t data);
 
   /// Sets the hook. It is code and cannot be recorded: the replay needs the same one.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);

@@ -167,18 +167,21 @@ void BasicWorld<Real>::set_quarantine(bool on) {
 template <class Real>
 std::vector<QuarantineEvent> BasicWorld<Real>::quarantined() const {
   std::vector<QuarantineEvent> all;
-  for (const QuarantinedBody& each : data().quarantine) all.push_back(each.why);
+  for (const QuarantinedBody& each : data().quarantine) {
+    if (each.why.field != BadField::None) all.push_back(each.why);
+  }
   return all;
 }
 template <class Real>
 bool BasicWorld<Real>::quarantined(BodyId body) const {
-  return data_->bodies[place(body)].quarantined;
+  const int index = place(body);
+  return data_->bodies[index].quarantined && quarantine_of(*data_, index).why.field != BadField::None;
 }
 template <class Real>
 void BasicWorld<Real>::release(BodyId body) {
   unlocked(*this);
   const int index = place(body);
-  if (!data_->bodies[index].quarantined) return;
+  if (!quarantined(body)) return;
   settle(*data_);
   release_body(*data_, index);
 }

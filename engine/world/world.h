@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/aabb.h"
+#include "engine/scene/error.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/handles.h"
@@ -36,6 +38,12 @@ struct ContactReading {
   double separations[2] = {};  ///< m, negative: overlap
   double impulses[2] = {};     ///< N s, along the normal, of the last substep
   double approach = 0;         ///< m/s, along the normal at the start of the step, negative: closing
+};
+
+/// Pose of a body.
+struct BodyPose {
+  Vec2d position{};  ///< m, of its origin
+  double angle = 0;  ///< rad, whole turns counted
 };
 
 struct WorldCounts {
@@ -107,6 +115,17 @@ class BasicWorld {
   bool valid(BodyId body) const;
   std::vector<BodyId> bodies() const;  ///< all, by index
 
+  /// These fill `out`, as far as it goes, and return how many there are in all. Poses and states are in the
+  /// order of `bodies`, contacts (those with points) in that of their creation, each once.
+  std::size_t bodies(std::span<BodyId> out) const;
+  std::size_t poses(std::span<BodyPose> out) const;
+  std::size_t states(std::span<BodyState> out) const;
+  std::size_t contacts(std::span<ContactReading> out) const;
+  std::size_t contacts(BodyId body, std::span<ContactReading> out) const;
+  /// Fills in the bodies whose pose the last step may have changed: those awake, and those that it put to
+  /// sleep. Not sorted, but in the same order on every platform.
+  std::size_t moved(std::span<BodyId> out) const;
+
   Vec2d position(BodyId body) const;  ///< m, of the body's origin
   Vec2d centre(BodyId body) const;    ///< m, of the centre of mass; of a kinematic body, of its origin
   double angle(BodyId body) const;    ///< rad, whole turns counted
@@ -149,7 +168,16 @@ class BasicWorld {
   double angular_damping(BodyId body) const;  ///< 1/s
   BodyLocks locks(BodyId body) const;
   std::uint64_t user_data(BodyId body) const;
+  void set_user_data(BodyId body, std::uint64_t data);
   const std::string& name(BodyId body) const;
+  void set_name(BodyId body, const std::string& name);
+  /// Takes a body out of the simulation, or puts it back with its pose and velocity. Disabled bodies are
+  /// without contacts and active joints, and queries skip them; they can be changed like any other body. Does
+  /// not release from quarantine.
+  void set_enabled(BodyId body, bool enabled);
+  bool enabled(BodyId body) const;  ///< false: disabled, or in quarantine
+  /// Returns the smallest box around the body's shapes, m, rounded to `Real`: at its origin without shapes.
+  Aabb<double> box(BodyId body) const;
   std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order of creation
   std::vector<JointId> joints(BodyId body) const;           ///< in the order of creation
   std::vector<ContactReading> contacts(BodyId body) const;  ///< contacts with points
@@ -160,6 +188,9 @@ class BasicWorld {
   bool valid(ShapeId shape) const;
   BodyId body(ShapeId shape) const;
   std::uint64_t user_data(ShapeId shape) const;
+  void set_user_data(ShapeId shape, std::uint64_t data);
+  ChainId chain(ShapeId shape) const;     ///< of a segment; invalid for other shapes
+  Aabb<double> box(ShapeId shape) const;  ///< m, after the last step or call; rounded to `Real`
   Material material(ShapeId shape) const;
   void set_material(ShapeId shape, const Material& material);
   Filter filter(ShapeId shape) const;
@@ -171,6 +202,12 @@ class BasicWorld {
   bool hit_events(ShapeId shape) const;  ///< hard impacts on it are reported
   bool pre_solve(ShapeId shape) const;   ///< its contacts call the pre-solve hook
   void set_filter(ShapeId shape, const Filter& filter);
+  /// Sets the density, kg/m^2, >= 0; the body's mass follows, unless it was given.
+  void set_density(ShapeId shape, double density);
+  /// Makes a sensor of a shape, or the reverse. Its contacts, or overlaps, end.
+  void set_sensor(ShapeId shape, bool sensor);
+  void set_hit_events(ShapeId shape, bool on);
+  void set_pre_solve(ShapeId shape, bool on);
   std::vector<ShapeId> overlapping(ShapeId sensor) const;  ///< shapes in a sensor in the last step
 
   ChainId create_chain(BodyId body, const ChainDefinition& definition);
@@ -189,6 +226,7 @@ class BasicWorld {
   JointReading read(JointId joint) const;
   JointDefinition definition(JointId joint) const;  ///< the present one
   std::uint64_t user_data(JointId joint) const;
+  void set_user_data(JointId joint, std::uint64_t data);
   std::pair<BodyId, BodyId> bodies(JointId joint) const;
 
   /// Sets the hook that is called for contacts of shapes with `pre_solve`, before they are solved; false

@@ -17,6 +17,22 @@
 /// The members of BasicWorld about bodies; world.cpp instantiates them.
 namespace plumb {
 
+/// Writes `value(body)` for each body, by index, as far as `out` goes; returns the number of bodies.
+template <class Real, class Value, class Function>
+std::size_t fill_bodies(const WorldData<Real>& w, std::span<Value> out, const Function& value) {
+  std::size_t count = 0;
+  for (int body = 0; body < w.bodies.size() && count < out.size(); ++body) {
+    if (w.bodies.used(body))
+      out[count++] = value({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
+  }
+  return static_cast<std::size_t>(w.bodies.count());
+}
+
+/// Returns true if the contact has points.
+inline bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
 template <class Real>
 BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {
@@ -69,6 +85,35 @@ std::vector<BodyId> BasicWorld<Real>::bodies() const {
     if (w.bodies.used(body)) all.push_back({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
   }
   return all;
+}
+
+template <class Real>
+std::size_t BasicWorld<Real>::bodies(std::span<BodyId> out) const {
+  return fill_bodies(data(), out, [](BodyId body) { return body; });
+}
+template <class Real>
+std::size_t BasicWorld<Real>::poses(std::span<BodyPose> out) const {
+  return fill_bodies(data(), out, [&](BodyId body) { return BodyPose{position(body), angle(body)}; });
+}
+template <class Real>
+std::size_t BasicWorld<Real>::states(std::span<BodyState> out) const {
+  return fill_bodies(data(), out, [&](BodyId body) { return state(body); });
+}
+template <class Real>
+std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
+  const WorldData<Real>& w = data();
+  const std::vector<BodyId>& slept = w.events.fell_asleep;
+  std::size_t count = 0;
+  const auto add = [&](BodyId body) {
+    if (count < out.size()) out[count] = body;
+    ++count;
+  };
+  for (const int body : w.awake) add({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
+  // Those that were woken since are in both lists.
+  for (const BodyId body : slept) {
+    if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);
+  }
+  return count;
 }
 
 template <class Real>
@@ -340,6 +385,41 @@ std::uint64_t BasicWorld<Real>::user_data(BodyId body) const {
   return data_->body_data.get(place(body));
 }
 template <class Real>
+void BasicWorld<Real>::set_user_data(BodyId body, std::uint64_t data) {
+  unlocked(*this);
+  data_->body_data.at(place(body), data_->bodies.size()) = data;
+}
+template <class Real>
+void BasicWorld<Real>::set_name(BodyId body, const std::string& name) {
+  unlocked(*this);
+  const int index = place(body);
+  std::string copy = name;
+  make_uncommon(*data_, index).name.swap(copy);
+}
+template <class Real>
+void BasicWorld<Real>::set_enabled(BodyId body, bool enabled) {
+  unlocked(*this);
+  const int index = place(body);
+  settle(*data_);
+  if (enabled) {
+    enable_body(*data_, index);
+  } else {
+    disable_body(*data_, index);
+  }
+}
+template <class Real>
+bool BasicWorld<Real>::enabled(BodyId body) const {
+  return !data_->bodies[place(body)].quarantined;
+}
+template <class Real>
+Aabb<double> BasicWorld<Real>::box(BodyId body) const {
+  int shape = data_->bodies[place(body)].first_shape;
+  if (shape == kNone) return {position(body), position(body)};
+  Aabb<Real> all = data_->boxes[shape];
+  for (; shape != kNone; shape = data_->shapes[shape].next) all = merged(all, data_->boxes[shape]);
+  return {all.lower.template as<double>(), all.upper.template as<double>()};
+}
+template <class Real>
 bool BasicWorld<Real>::may_sleep(BodyId body) const {
   return data_->bodies[place(body)].may_sleep;
 }
@@ -388,10 +468,33 @@ std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
   std::vector<ContactReading> all;
   for_each_edge(data_->contacts, data_->bodies[place(body)].first_contact,
                 [&](int, const ContactRecord& contact) {
-                  if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
+                  if (!has_points(contact)) return;
                   all.push_back(reading_of(*data_, contact, constraint_of(*data_, contact)));
                 });
   return all;
+}
+template <class Real>
+std::size_t BasicWorld<Real>::contacts(BodyId body, std::span<ContactReading> out) const {
+  std::size_t count = 0;
+  for_each_edge(data_->contacts, data_->bodies[place(body)].first_contact,
+                [&](int, const ContactRecord& contact) {
+                  if (!has_points(contact)) return;
+                  if (count < out.size())
+                    out[count] = reading_of(*data_, contact, constraint_of(*data_, contact));
+                  ++count;
+                });
+  return count;
+}
+template <class Real>
+std::size_t BasicWorld<Real>::contacts(std::span<ContactReading> out) const {
+  WorldData<Real>& w = *data_;
+  std::size_t count = 0;
+  w.contacts.for_each([&](int, const ContactRecord& contact) {
+    if (!has_points(contact)) return;
+    if (count < out.size()) out[count] = reading_of(w, contact, constraint_of(w, contact));
+    ++count;
+  });
+  return count;
 }
 
 // Wakes a body and resets its sleep timer, because a change from outside must not be followed by sleep at

@@ -90,6 +90,47 @@ void BasicWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
   plumb::set_filter(*data_, place(shape), filter);
 }
 template <class Real>
+void BasicWorld<Real>::set_user_data(ShapeId shape, std::uint64_t data) {
+  unlocked(*this);
+  data_->shape_data.at(place(shape), data_->shapes.size()) = data;
+}
+template <class Real>
+ChainId BasicWorld<Real>::chain(ShapeId shape) const {
+  const int chain = data_->shapes[place(shape)].chain;
+  return chain == kNone ? ChainId{}
+                        : ChainId{static_cast<std::uint32_t>(chain), data_->chains.generation(chain)};
+}
+template <class Real>
+Aabb<double> BasicWorld<Real>::box(ShapeId shape) const {
+  const Aabb<Real>& box = data_->boxes[place(shape)];
+  return {box.lower.template as<double>(), box.upper.template as<double>()};
+}
+template <class Real>
+void BasicWorld<Real>::set_density(ShapeId shape, double density) {
+  unlocked(*this);
+  const int index = place(shape);
+  naming_part(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
+              [&] { validate(ShapeDefinition{.density = density}); });
+  plumb::set_density(*data_, index, density);
+}
+template <class Real>
+void BasicWorld<Real>::set_sensor(ShapeId shape, bool sensor) {
+  unlocked(*this);
+  plumb::set_sensor(*data_, place(shape), sensor);
+}
+template <class Real>
+void BasicWorld<Real>::set_hit_events(ShapeId shape, bool on) {
+  unlocked(*this);
+  const int index = place(shape);
+  plumb::set_flags(*data_, index, on, data_->shapes[index].pre_solve);
+}
+template <class Real>
+void BasicWorld<Real>::set_pre_solve(ShapeId shape, bool on) {
+  unlocked(*this);
+  const int index = place(shape);
+  plumb::set_flags(*data_, index, data_->shapes[index].hit_events, on);
+}
+template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::overlapping(ShapeId sensor) const {
   const int index = place(sensor);
   for (const SensorRecord& record : data_->sensors) {
@@ -205,6 +246,11 @@ JointDefinition BasicWorld<Real>::definition(JointId joint) const {
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(JointId joint) const {
   return data_->joints[place(joint)].user_data;
+}
+template <class Real>
+void BasicWorld<Real>::set_user_data(JointId joint, std::uint64_t data) {
+  unlocked(*this);
+  data_->joints[place(joint)].user_data = data;
 }
 template <class Real>
 BodyId BasicWorld<Real>::body(ChainId chain) const {

@@ -103,6 +103,10 @@ void add_force_calls(CallList<Real>& list) {
               [](T& t, double x) { t.world.set_type(t.box, static_cast<BodyType>(x)); });
   list.number("set_gravity_scale", "gravity_scale", kAny,
               [](T& t, double x) { t.world.set_gravity_scale(t.box, x); });
+  list.subject = "shape 2 of body 'box'";
+  list.number("set_density", "density", kNotNegative,
+              [](T& t, double x) { t.world.set_density(t.shape, x); });
+  list.subject = "body 'box'";
   list.number("set_damping", "linear_damping", kNotNegative,
               [](T& t, double x) { t.world.set_damping(t.box, x, 0); });
   list.number("set_damping", "angular_damping", kNotNegative,
@@ -263,6 +267,8 @@ void add_place_calls(CallList<Real>& list) {
     std::vector<ShapeId> found;
     overlap_box(t.world, {{-1e12, -1e12}, v}, {}, found);
   });
+  list.subject = "contains";
+  list.vector("contains", "point", [](T& t, Vec2d v) { contains(t.world, t.shape, v); });
   list.subject = "shapes_at";
   list.vector("shapes_at", "point", [](T& t, Vec2d v) {
     std::vector<ShapeId> found;

@@ -19,7 +19,7 @@ if [[ -z $formatter ]]; then
   exit 77
 fi
 
-mapfile -d '' files < <(find engine reference scenarios harness extremes app bench demos tests \
+mapfile -d '' files < <(find engine reference scenarios harness extremes app bench bindings demos tests \
   \( -name '*.h' -o -name '*.cpp' \) -type f -print0 2>/dev/null | sort -z)
 if ((${#files[@]} == 0)); then
   echo "no sources were found"

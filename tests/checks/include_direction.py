@@ -28,12 +28,13 @@ RULES = {
     "demos": ["demos/"] + EVERYTHING,
     "demos/core": ["demos/core/", "engine/"],
     "bench": ["bench/"] + EVERYTHING,
-    "tests": ["tests/", "app/", "demos/"] + EVERYTHING,
+    "bindings": ["bindings/", "engine/"],
+    "tests": ["tests/", "app/", "demos/", "bindings/"] + EVERYTHING,
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 SUFFIXES = {".h", ".hpp", ".cpp", ".in"}
-OWN_FOLDERS = ("engine", "scenarios", "reference", "harness", "extremes", "app", "demos", "bench", "tests")
+OWN_FOLDERS = ("engine", "scenarios", "reference", "harness", "extremes", "app", "demos", "bench", "bindings", "tests")
 
 
 def rule_for(path):

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("engine", "reference", "harness", "scenarios", "extremes", "app", "demos", "bench", "tests")
+FOLDERS = ("engine", "reference", "harness", "scenarios", "extremes", "app", "demos", "bench", "bindings", "tests")
 LINE = re.compile(r"^\s*//[/!]?<?\s*(?P<text>.*)$")
 TRAILING = re.compile(r"[;,{})]\s*//[/!]?<?\s*(?P<text>.*)$")
 MARKER = re.compile(r"(What|Whether|Where|Who)\b", re.IGNORECASE)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles and runs the consumer with what pkg-config says about an installed plumb.
+# Compiles and runs the consumer with what pkg-config says about an installed plumb, and compiles each header alone.
 #
 #   pkg_config.sh PREFIX OUTPUT COMPILER [FLAGS...]
 set -euo pipefail
@@ -13,3 +13,12 @@ export PKG_CONFIG_PATH
 read -ra flags <<<"$(pkg-config --cflags --libs plumb)"
 "$compiler" -std=c++20 "$@" "$here/consumer/fall.cpp" "${flags[@]}" -o "$output"
 "$output"
+
+# Public headers are few, and each includes what it needs; strictly by the standard, so that other compilers read them.
+headers=("$prefix"/include/plumb/*.h)
+((${#headers[@]} >= 9 && ${#headers[@]} <= 16)) || { echo "${#headers[@]} headers are public" && exit 1; }
+for header in "${headers[@]}"; do
+  echo "#include <plumb/$(basename "$header")>" |
+    "$compiler" -std=c++20 -pedantic-errors -Wall -Wextra -Werror -fsyntax-only -x c++ - "${flags[@]/#-l*/}"
+done
+echo "${#headers[@]} headers compile alone"

@@ -33,6 +33,10 @@ FEATURES = [
             "apply_mass(w, body, mass, {}); w.bodies[body].mass_given = true;", "world/shapes"),
     feature("Reading back", WORLD + "state/shapes.cpp", "made.record.density = static_cast<Real>(definition.density);",
             "made.record.density = 2 * static_cast<Real>(definition.density);", "world/readers"),
+    feature("Density, sensor, hit events, hook changed later", WORLD + "state/shapes.cpp",
+            "note_mass_change(w, body); wake_body(w, body); }", "wake_body(w, body); }", "world/changes"),
+    feature("Boxes; rays and points at one shape", WORLD + "world_bodies.h", "all = merged(all, data_->boxes[shape]);",
+            "all = data_->boxes[shape];", "world/changes"),
 
     # Bodies.
     feature("Static, kinematic, dynamic", WORLD + "integration/free_motion.cpp",
@@ -45,6 +49,12 @@ FEATURES = [
     feature("Gravity scale", WORLD + "integration/free_motion.cpp", "own.gravity_scale * gravity", "gravity", "world/motion"),
     feature("Exponential damping", WORLD + "integration/free_motion.cpp", "decay(time * double(own.linear_damping))",
             "1 / (1 + time * double(own.linear_damping))", "world/motion"),
+    feature("User data and name, set later", WORLD + "world_shapes.h",
+            "data_->joints[place(joint)].user_data = data;", "data_->joints[place(joint)].user_data = 0;", "world/changes"),
+    feature("Enabled and disabled", WORLD + "state/quarantine.cpp",
+            "why.field != BadField::None) return; release_body(w, body);", "why.field != BadField::None) return;", "world/changes"),
+    feature("Bodies that moved, poses, states, contacts into a span", WORLD + "world_bodies.h",
+            "if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);", "", "world/changes"),
 
     # Materials.
     feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * pressure;", "most = pressure / 2;",

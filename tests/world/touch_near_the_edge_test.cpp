@@ -177,6 +177,16 @@ std::vector<Call<Real>> default_calls() {
       {WorldCall::SetDirectIslands, [](W& w) { w.set_direct_islands(WorldDefinition{}.direct_islands); }},
       {WorldCall::SetQuarantine, [](W& w) { w.set_quarantine(WorldDefinition{}.quarantine); }},
       {WorldCall::Release, [](W& w) { w.release(only_body(w)); }},
+      {WorldCall::SetBodyData, [](W& w) { w.set_user_data(only_body(w), 0); }},
+      {WorldCall::SetShapeData, [](W& w) { w.set_user_data(w->shapes(only_body(w)).front(), 0); }},
+      {WorldCall::SetJointData, [](W& w) { w.set_user_data(w->joints(w->bodies().front()).front(), 0); }},
+      {WorldCall::SetName, [](W& w) { w.set_name(only_body(w), ""); }},
+      {WorldCall::SetEnabled, [](W& w) { w.set_enabled(only_body(w), true); }},
+      {WorldCall::SetDensity,
+       [](W& w) { w.set_density(w->shapes(only_body(w)).front(), ShapeDefinition{}.density); }},
+      {WorldCall::SetSensor, [](W& w) { w.set_sensor(w->shapes(only_body(w)).front(), false); }},
+      {WorldCall::SetHitEvents, [](W& w) { w.set_hit_events(w->shapes(only_body(w)).front(), false); }},
+      {WorldCall::SetShapePreSolve, [](W& w) { w.set_pre_solve(w->shapes(only_body(w)).front(), false); }},
   };
 }
 

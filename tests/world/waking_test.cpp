@@ -115,6 +115,18 @@ std::vector<Row<Real>> rows_of_body(BodyId Ids::*who, bool dynamic) {
       {"set_may_sleep", [=](W& w, S& s) { w.set_may_sleep(s.*who, false); }},
       {"set_awake", [=](W& w, S& s) { w.set_awake(s.*who, true); }},
       {"release", [=](W& w, S& s) { w.release(s.*who); }},
+      {"set_user_data", [=](W& w, S& s) { w.set_user_data(s.*who, 5); }},
+      {"set_name", [=](W& w, S& s) { w.set_name(s.*who, "other"); }},
+      {"set_enabled", [=](W& w, S& s) { w.set_enabled(s.*who, false); }},
+      {"set_enabled",
+       [=](W& w, S& s) {
+         w.set_enabled(s.*who, false);
+         w.set_enabled(s.*who, true);
+       }},
+      {"set_density", [=](W& w, S& s) { w.set_density(w.shapes(s.*who)[0], 5); }},
+      {"set_sensor", [=](W& w, S& s) { w.set_sensor(w.shapes(s.*who)[0], true); }},
+      {"set_hit_events", [=](W& w, S& s) { w.set_hit_events(w.shapes(s.*who)[0], true); }},
+      {"set_pre_solve", [=](W& w, S& s) { w.set_pre_solve(w.shapes(s.*who)[0], true); }},
       {"destroy", [=](W& w, S& s) { w.destroy(s.*who); }},
       {"destroy", [=](W& w, S& s) { w.destroy(w.shapes(s.*who)[0]); }},
       {"create_shape",
@@ -210,6 +222,8 @@ std::vector<Row<Real>> rows_of_world() {
       {"destroy", [](W& w, S& s) { w.destroy(s.rod); }},
       {"destroy", [](W& w, S& s) { w.destroy(s.sensor); }},
       {"set_filter", [](W& w, S& s) { w.set_filter(s.tile, {.mask = 0}); }},
+      {"set_sensor", [](W& w, S& s) { w.set_sensor(s.tile, true); }},
+      {"set_sensor", [](W& w, S& s) { w.set_sensor(s.sensor, false); }},
       {"set_material", [](W& w, S& s) { w.set_material(s.tile, {.friction = 1, .surface_speed = 1}); }},
       {"change",
        [](W& w, S& s) {

@@ -182,19 +182,25 @@ void overlap_placed(const WorldData<Real>& w, const QueryShape& shape, Vec2d pos
   });
 }
 
+// Casts a ray at one shape, up to a fraction.
+template <class Real>
+std::optional<RayResult> ray_at(const WorldData<Real>& w, int shape, Vec2d origin, Vec2d translation,
+                                double limit) {
+  const PlacedShape placed(w, shape, origin);
+  const RayHit<double> hit = w.forms[shape].chain ? ray_cast_one_sided(placed.convex(), Vec2d{}, translation)
+                                                  : ray_cast(placed.convex(), Vec2d{}, translation);
+  if (!hit.hit || hit.fraction > limit) return std::nullopt;
+  return RayResult{shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal};
+}
+
 template <class Real, class Visit>
 void visit_ray(const WorldData<Real>& w, Vec2d origin, Vec2d translation, const QueryFilter& filter,
                Visit&& visit) {
   check("ray", "origin", origin);
   check("ray", "translation", translation);
   for_each_on_way(w, origin, translation, {}, filter, [&](int shape, double limit) {
-    const PlacedShape placed(w, shape, origin);
-    const RayHit<double> hit = w.forms[shape].chain
-                                   ? ray_cast_one_sided(placed.convex(), Vec2d{}, translation)
-                                   : ray_cast(placed.convex(), Vec2d{}, translation);
-    if (!hit.hit || hit.fraction > limit) return limit;
-    return visit(
-        RayResult{shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal});
+    const std::optional<RayResult> hit = ray_at(w, shape, origin, translation, limit);
+    return hit ? visit(*hit) : limit;
   });
 }
 
@@ -381,6 +387,22 @@ ShapeDistance distance(const BasicWorld<Real>& world, ShapeId a, ShapeId b) {
           hulls.separation - (convex_a.radius + convex_b.radius)};
 }
 
+template <class Real>
+std::optional<RayResult> ray_cast(const BasicWorld<Real>& world, ShapeId shape, Vec2d origin,
+                                  Vec2d translation) {
+  world.body(shape);  // throws for the handle of a destroyed shape
+  check("ray", "origin", origin);
+  check("ray", "translation", translation);
+  return ray_at(world.data(), static_cast<int>(shape.index), origin, translation, 1);
+}
+template <class Real>
+bool contains(const BasicWorld<Real>& world, ShapeId shape, Vec2d point) {
+  world.body(shape);  // throws for the handle of a destroyed shape
+  check("contains", "point", point);
+  const PlacedShape placed(world.data(), static_cast<int>(shape.index), point);
+  return contains(placed.convex(), Vec2d{});
+}
+
 #define PLUMB_FOR(Real)                                                                                      \
   template std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>&, Vec2d, Vec2d,                  \
                                                      const QueryFilter&);                                    \
@@ -401,6 +423,8 @@ ShapeDistance distance(const BasicWorld<Real>& world, ShapeId a, ShapeId b) {
   template void shapes_at(const BasicWorld<Real>&, Vec2d, const QueryFilter&, VisitShape);                   \
   template void shapes_at(const BasicWorld<Real>&, Vec2d, const QueryFilter&, std::vector<ShapeId>&);        \
   template std::optional<NearestResult> nearest(const BasicWorld<Real>&, Vec2d, double, const QueryFilter&); \
+  template std::optional<RayResult> ray_cast(const BasicWorld<Real>&, ShapeId, Vec2d, Vec2d);                \
+  template bool contains(const BasicWorld<Real>&, ShapeId, Vec2d);                                           \
   template ShapeDistance distance(const BasicWorld<Real>&, ShapeId, ShapeId);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

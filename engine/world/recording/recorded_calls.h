@@ -48,7 +48,16 @@ namespace plumb {
   X(SetIterations, set_iterations, void, int)                                                 \
   X(SetDirectIslands, set_direct_islands, void, bool)                                         \
   X(SetQuarantine, set_quarantine, void, bool)                                                \
-  X(Release, release, void, BodyId)
+  X(Release, release, void, BodyId)                                                           \
+  X(SetBodyData, set_user_data, void, BodyId, std::uint64_t)                                  \
+  X(SetShapeData, set_user_data, void, ShapeId, std::uint64_t)                                \
+  X(SetJointData, set_user_data, void, JointId, std::uint64_t)                                \
+  X(SetName, set_name, void, BodyId, const std::string&)                                      \
+  X(SetEnabled, set_enabled, void, BodyId, bool)                                              \
+  X(SetDensity, set_density, void, ShapeId, double)                                           \
+  X(SetSensor, set_sensor, void, ShapeId, bool)                                               \
+  X(SetHitEvents, set_hit_events, void, ShapeId, bool)                                        \
+  X(SetShapePreSolve, set_pre_solve, void, ShapeId, bool)
 
 enum class WorldCall : std::uint8_t {
 #define PLUMB_NAME(id, name, result, ...) id,

@@ -243,6 +243,42 @@ void RecordedWorld<Real>::set_material(ShapeId shape, const Material& material) 
   call<WorldCall::SetMaterial>(shape, material);
 }
 template <class Real>
+void RecordedWorld<Real>::set_user_data(BodyId body, std::uint64_t data) {
+  call<WorldCall::SetBodyData>(body, data);
+}
+template <class Real>
+void RecordedWorld<Real>::set_name(BodyId body, const std::string& name) {
+  call<WorldCall::SetName>(body, name);
+}
+template <class Real>
+void RecordedWorld<Real>::set_enabled(BodyId body, bool enabled) {
+  call<WorldCall::SetEnabled>(body, enabled);
+}
+template <class Real>
+void RecordedWorld<Real>::set_user_data(ShapeId shape, std::uint64_t data) {
+  call<WorldCall::SetShapeData>(shape, data);
+}
+template <class Real>
+void RecordedWorld<Real>::set_density(ShapeId shape, double density) {
+  call<WorldCall::SetDensity>(shape, density);
+}
+template <class Real>
+void RecordedWorld<Real>::set_sensor(ShapeId shape, bool sensor) {
+  call<WorldCall::SetSensor>(shape, sensor);
+}
+template <class Real>
+void RecordedWorld<Real>::set_hit_events(ShapeId shape, bool on) {
+  call<WorldCall::SetHitEvents>(shape, on);
+}
+template <class Real>
+void RecordedWorld<Real>::set_pre_solve(ShapeId shape, bool on) {
+  call<WorldCall::SetShapePreSolve>(shape, on);
+}
+template <class Real>
+void RecordedWorld<Real>::set_user_data(JointId joint, std::uint64_t data) {
+  call<WorldCall::SetJointData>(joint, data);
+}
+template <class Real>
 void RecordedWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
   call<WorldCall::SetFilter>(shape, filter);
 }

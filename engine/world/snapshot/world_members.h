@@ -19,7 +19,7 @@ inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
 template <>
-inline constexpr int kEnumerators<BadField> = 4;
+inline constexpr int kEnumerators<BadField> = 5;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 

@@ -59,6 +59,15 @@ template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter);
 template <class Real>
 void set_material(WorldData<Real>& w, int shape, const Material& material);
+/// Sets a shape's density, kg/m^2. Throws Error (Value) if the body's mass would be beyond `Real`, and then
+/// changes nothing.
+template <class Real>
+void set_density(WorldData<Real>& w, int shape, double density);
+template <class Real>
+void set_sensor(WorldData<Real>& w, int shape, bool sensor);
+/// Sets hit events and the pre-solve hook, for contacts that exist as well.
+template <class Real>
+void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve);
 
 template <class Real>
 int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition);

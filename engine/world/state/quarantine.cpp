@@ -57,6 +57,26 @@ void hold_again(WorldData<Real>& w, JointRecord& joint) {
   if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
 }
 
+// Removes a body from the simulation: it is static meanwhile, without contacts, joints and boxes.
+template <class Real>
+void take_out(WorldData<Real>& w, int body, const QuarantineEvent& why) {
+  ensure_room(w.quarantine, w.quarantine.size() + 1);
+  QuarantinedBody entry{body, w.bodies[body].type, why};
+  wake_neighbours(w, body);
+  destroy_contacts_of(w, body);
+  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) { let_go(w, joint); });
+  BodyRecord<Real>& record = w.bodies[body];
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
+  if (record.awake) leave_awake(w, body);
+  w.quarantine.push_back(std::move(entry));
+  record.type = BodyType::Static;
+  record.quarantined = true;
+  w.motion[body].moved = {}, w.motion[body].turned = 0;
+  w.loads.renew(body, w.bodies.size());
+  w.enlarged[body] = 0;
+  w.topology_changed = true;
+}
+
 // Returns the field of a motion that is not valid, with its value.
 template <class Real>
 std::pair<BadField, double> fault_of(const BodyMotion<Real>& motion) {
@@ -202,26 +222,27 @@ void quarantine_body(WorldData<Real>& w, int body, BadField field, double value)
                       one_nan(value),
                       w.steps + 1};
   if (!w.settings.quarantine) report(why);
-  ensure_room(w.quarantine, w.quarantine.size() + 1);
   ensure_room(w.log().quarantined, w.log().quarantined.size() + 1);
-  QuarantinedBody entry{body, w.bodies[body].type, why};
-  wake_neighbours(w, body);
-  destroy_contacts_of(w, body);
-  for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) { let_go(w, joint); });
-  BodyRecord<Real>& record = w.bodies[body];
-  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
-  if (record.awake) leave_awake(w, body);
-  w.quarantine.push_back(std::move(entry));
-  record.type = BodyType::Static;
-  record.quarantined = true;
-  w.motion[body].moved = {}, w.motion[body].turned = 0;
-  w.loads.renew(body, w.bodies.size());
-  w.enlarged[body] = 0;
-  w.topology_changed = true;
+  take_out(w, body, why);
   // Between two steps, a body that is released and pushed beyond the limits again is reported once.
   std::vector<QuarantineEvent>& told = w.log().quarantined;
   if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
   told.push_back(std::move(why));
+}
+
+template <class Real>
+void disable_body(WorldData<Real>& w, int body) {
+  if (w.bodies[body].quarantined) return;
+  take_out(w, body, {{static_cast<std::uint32_t>(body), w.bodies.generation(body)}, {}, BadField::None});
+}
+
+template <class Real>
+void enable_body(WorldData<Real>& w, int body) {
+  if (!w.bodies[body].quarantined || quarantine_of(w, body).why.field != BadField::None) return;
+  release_body(w, body);
+  wake_body(w, body);
+  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    wake_touched(w, shape);
 }
 
 template <class Real>
@@ -318,6 +339,8 @@ void quarantine_diverged(WorldData<Real>& w, double dt) {
   template void push_body(WorldData<Real>&, int, Vec2d, double);          \
   template void quarantine_body(WorldData<Real>&, int, BadField, double); \
   template void release_body(WorldData<Real>&, int);                      \
+  template void disable_body(WorldData<Real>&, int);                      \
+  template void enable_body(WorldData<Real>&, int);                       \
   template void quarantine_overloaded(WorldData<Real>&, double);          \
   template void quarantine_diverged(WorldData<Real>&, double);
 PLUMB_FOR(float)

@@ -11,6 +11,14 @@ namespace plumb {
 template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value);
 
+/// Takes the body out in the same way, because its program says so; without an event. A body in quarantine
+/// stays there.
+template <class Real>
+void disable_body(WorldData<Real>& w, int body);
+/// Puts back a body that `disable_body` took out.
+template <class Real>
+void enable_body(WorldData<Real>& w, int body);
+
 /// Releases the body from quarantine, with its previous type, pose and velocity.
 template <class Real>
 void release_body(WorldData<Real>& w, int body);

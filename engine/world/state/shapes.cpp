@@ -9,6 +9,7 @@
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/mass.h"
+#include "engine/world/state/naming.h"
 #include "engine/world/state/new_shape.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/sleeping.h"
@@ -257,6 +258,60 @@ void set_material(WorldData<Real>& w, int shape, const Material& material) {
   });
 }
 
+template <class Real>
+void set_density(WorldData<Real>& w, int shape, double density) {
+  const int body = w.shapes[shape].body;
+  const Real before = std::exchange(w.shapes[shape].density, static_cast<Real>(density));
+  if (w.is_dynamic(body) && !w.bodies[body].mass_given) {
+    try {
+      naming_part(w, "shape", body, [&] { require_weights(w, body); });
+    } catch (...) {
+      w.shapes[shape].density = before;
+      throw;
+    }
+  }
+  note_mass_change(w, body);
+  wake_body(w, body);
+}
+
+template <class Real>
+void set_sensor(WorldData<Real>& w, int shape, bool sensor) {
+  if (w.forms[shape].sensor == sensor) return;
+  const int body = w.shapes[shape].body;
+  w.tree_of(w.bodies[body].type).make_room(1);
+  ensure_room(w.move_buffer, w.move_buffer.size() + 1);
+  ensure_room(w.sensors, w.sensors.size() + 1);
+  wake_body(w, body);
+  if (sensor) {
+    destroy_contacts_of(w, body, shape);
+    w.sensors.push_back({shape, {}});
+  } else {
+    end_visits(w, shape);
+  }
+  w.forms[shape].sensor = sensor;
+  leave_tree(w, shape);
+  enter_tree(w, shape);
+  wake_touched(w, shape);
+}
+
+template <class Real>
+void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
+  ShapeRecord<Real>& record = w.shapes[shape];
+  // Manifolds that are kept from step to step would not ask the hook.
+  if (record.pre_solve != pre_solve)
+    wake_body(w, record.body), wake_touched(w, shape), invalidate_manifolds(w, record.body);
+  record.hit_events = hit_events, record.pre_solve = pre_solve;
+  w.reports_hits = w.reports_hits || hit_events;
+  for_each_contact_of(w, shape, [&](int, ContactRecord& contact) {
+    const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
+    contact.hit_events = a.hit_events || b.hit_events;
+    contact.pre_solve = a.pre_solve || b.pre_solve;
+    if (!has_points<Real>(contact)) return;
+    ContactConstraint<Real>& c = constraint_of(w, contact);
+    c.watched = records_impact(contact, c);
+  });
+}
+
 #define PLUMB_FOR(Real)                                                                     \
   template NewShape<Real> prepare_shape(const ShapeDefinition&);                            \
   template NewShape<Real> prepare_segment(const ChainDefinition&, int);                     \
@@ -269,7 +324,10 @@ void set_material(WorldData<Real>& w, int shape, const Material& material) {
   template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                    \
   template void remove_shape(WorldData<Real>&, int);                                        \
   template void set_filter(WorldData<Real>&, int, const Filter&);                           \
-  template void set_material(WorldData<Real>&, int, const Material&);
+  template void set_material(WorldData<Real>&, int, const Material&);                       \
+  template void set_density(WorldData<Real>&, int, double);                                 \
+  template void set_sensor(WorldData<Real>&, int, bool);                                    \
+  template void set_flags(WorldData<Real>&, int, bool, bool);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -2,7 +2,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/simulation/simulation.h"
+#include <plumb/simulation.h>
+
+#if __has_include("engine/simulation/simulation.h")
+#error "the checkout's own folders are on the path"
+#endif
 
 int main() {
   plumb::Scene scene;

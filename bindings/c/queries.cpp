@@ -1,0 +1,182 @@
+#include "engine/world/queries.h"
+
+#include "bindings/c/handle.h"
+#include "engine/world/mover.h"
+
+using namespace plumb::c;
+
+namespace {
+
+/// A filter of a query, with the condition that it views.
+class Filter {
+ public:
+  explicit Filter(const plumb_query_filter* from) {
+    if (from == nullptr) return;
+    filter_.category = from->category, filter_.mask = from->mask;
+    filter_.sensors = from->sensors;
+    filter_.ignore = in(from->ignore);
+    condition_ = {from->condition, from->context};
+    if (from->condition != nullptr) filter_.condition = condition_;
+  }
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+  const plumb::QueryFilter& get() const { return filter_; }
+
+ private:
+  struct Condition {
+    bool (*call)(plumb_shape, void*) = nullptr;
+    void* context = nullptr;
+    bool operator()(plumb::ShapeId shape) const { return call(out(shape), context); }
+  };
+  Condition condition_{};
+  plumb::QueryFilter filter_{};
+};
+
+plumb_ray_hit hit_of(const plumb::RayResult& r) {
+  return {out(r.shape), out(r.body), r.fraction, out(r.point), out(r.normal)};
+}
+plumb_cast_hit hit_of(const plumb::CastShapeResult& r) {
+  return {out(r.shape), out(r.body), r.fraction, out(r.point), out(r.normal), r.overlapped};
+}
+plumb_nearest_hit hit_of(const plumb::NearestResult& r) {
+  return {out(r.shape), out(r.body), out(r.point), out(r.normal), r.distance};
+}
+
+template <class Hit>
+bool give(const auto& found, Hit* hit) {
+  if (found && hit != nullptr) *hit = hit_of(*found);
+  return found.has_value();
+}
+
+plumb::QueryShape shape_of(const plumb_geometry* geometry) { return {in(require(geometry, "shape"))}; }
+
+}  // namespace
+
+bool plumb_ray_cast_closest(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
+                            const plumb_query_filter* filter, plumb_ray_hit* hit) {
+  return read_or(false, world, [&](const auto& w) {
+    const Filter only(filter);
+    return give(plumb::ray_cast_closest(w, in(origin), in(translation), only.get()), hit);
+  });
+}
+plumb_status plumb_ray_cast(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
+                            const plumb_query_filter* filter, plumb_ray_visitor visit, void* context) {
+  return read_checked(world, [&](const auto& w) {
+    const Filter only(filter);
+    require(visit, "visitor");
+    plumb::ray_cast(w, in(origin), in(translation), only.get(), [&](const plumb::RayResult& result) {
+      const plumb_ray_hit hit = hit_of(result);
+      return visit(&hit, context);
+    });
+  });
+}
+size_t plumb_ray_cast_all(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
+                          const plumb_query_filter* filter, plumb_ray_hit* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) {
+    const Filter only(filter);
+    std::vector<plumb::RayResult> hits;
+    plumb::ray_cast_all(w, in(origin), in(translation), only.get(), hits);
+    if (!hits.empty() && capacity > 0) require(to, "out");
+    for (size_t i = 0; i < hits.size() && i < capacity; ++i) to[i] = hit_of(hits[i]);
+    return hits.size();
+  });
+}
+bool plumb_cast_shape_closest(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
+                              plumb_vec2 translation, const plumb_query_filter* filter, plumb_cast_hit* hit) {
+  return read_or(false, world, [&](const auto& w) {
+    const Filter only(filter);
+    return give(plumb::cast_shape_closest(w, shape_of(shape), in(pose.position), pose.angle, in(translation),
+                                          only.get()),
+                hit);
+  });
+}
+plumb_status plumb_cast_shape(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
+                              plumb_vec2 translation, const plumb_query_filter* filter,
+                              plumb_cast_visitor visit, void* context) {
+  return read_checked(world, [&](const auto& w) {
+    const Filter only(filter);
+    require(visit, "visitor");
+    plumb::cast_shape(w, shape_of(shape), in(pose.position), pose.angle, in(translation), only.get(),
+                      [&](const plumb::CastShapeResult& result) {
+                        const plumb_cast_hit hit = hit_of(result);
+                        return visit(&hit, context);
+                      });
+  });
+}
+size_t plumb_overlap_shape(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
+                           const plumb_query_filter* filter, plumb_shape* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) {
+    const Filter only(filter);
+    std::vector<plumb::ShapeId> found;
+    plumb::overlap_shape(w, shape_of(shape), in(pose.position), pose.angle, only.get(), found);
+    return fill(found, to, capacity);
+  });
+}
+size_t plumb_overlap_box(const plumb_world* world, plumb_vec2 lower, plumb_vec2 upper,
+                         const plumb_query_filter* filter, plumb_shape* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) {
+    const Filter only(filter);
+    std::vector<plumb::ShapeId> found;
+    plumb::overlap_box(w, plumb::Aabb<double>{in(lower), in(upper)}, only.get(), found);
+    return fill(found, to, capacity);
+  });
+}
+size_t plumb_shapes_at(const plumb_world* world, plumb_vec2 point, const plumb_query_filter* filter,
+                       plumb_shape* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) {
+    const Filter only(filter);
+    std::vector<plumb::ShapeId> found;
+    plumb::shapes_at(w, in(point), only.get(), found);
+    return fill(found, to, capacity);
+  });
+}
+bool plumb_nearest(const plumb_world* world, plumb_vec2 point, double max_distance,
+                   const plumb_query_filter* filter, plumb_nearest_hit* hit) {
+  return read_or(false, world, [&](const auto& w) {
+    const Filter only(filter);
+    return give(plumb::nearest(w, in(point), max_distance, only.get()), hit);
+  });
+}
+plumb_distance_result plumb_distance_between(const plumb_world* world, plumb_shape a, plumb_shape b) {
+  return read_or(plumb_distance_result{}, world, [&](const auto& w) {
+    const plumb::ShapeDistance d = plumb::distance(w, in(a), in(b));
+    return plumb_distance_result{out(d.point_a), out(d.point_b), out(d.normal), d.distance};
+  });
+}
+
+plumb_mover_result plumb_move(const plumb_world* world, const plumb_geometry* capsule, plumb_vec2 position,
+                              plumb_vec2 velocity, double dt, const plumb_mover_options* options,
+                              plumb_mover_hit* hits, size_t capacity) {
+  return read_or(plumb_mover_result{}, world, [&](const auto& w) {
+    const plumb_geometry& shape = require(capsule, "capsule");
+    if (shape.kind != PLUMB_CAPSULE) {
+      throw plumb::Error(plumb::Error::Kind::Value, "mover", "kind", std::to_string(shape.kind),
+                         "must be a capsule; make it with plumb_capsule");
+    }
+    const plumb_mover_options o = options != nullptr ? *options : plumb_default_mover();
+    const Filter only(&o.filter);
+    const plumb::MoverOptions settings{in(o.up), o.max_slope,  o.step_height, o.skin,
+                                       o.mass,   o.push_force, only.get()};
+    const plumb::MoverResult r = plumb::move(w, plumb::Capsule{in(shape.start), in(shape.end), shape.radius},
+                                             in(position), in(velocity), dt, settings);
+    if (!r.hits.empty() && capacity > 0) require(hits, "hits");
+    for (size_t i = 0; i < r.hits.size() && i < capacity; ++i) {
+      const plumb::MoverHit& hit = r.hits[i];
+      hits[i] = {out(hit.shape), out(hit.body), out(hit.point), out(hit.normal), hit.impulse};
+    }
+    return plumb_mover_result{
+        out(r.position), out(r.velocity),        r.on_ground,  r.squeezed, out(r.ground_normal),
+        out(r.ground),   out(r.ground_velocity), r.hits.size()};
+  });
+}
+plumb_status plumb_apply_pushes(plumb_world* world, const plumb_mover_hit* hits, size_t count) {
+  return checked([&] {
+    plumb::MoverResult result;
+    if (count > 0) require(hits, "hits");
+    for (size_t i = 0; i < count; ++i) {
+      result.hits.push_back(
+          {in(hits[i].shape), in(hits[i].body), in(hits[i].point), in(hits[i].normal), hits[i].impulse});
+    }
+    edit(world, [&](auto& w) { plumb::apply_pushes(w, result); });
+  });
+}

@@ -1,0 +1,158 @@
+#include "engine/simulation/simulation.h"
+
+#include "bindings/c/handle.h"
+#include "engine/scene/json.h"
+#include "engine/world/add_scene.h"
+
+using namespace plumb::c;
+using plumb::Error;
+
+/// A compiled scene and the names of its bodies.
+struct plumb_simulation {
+  plumb::Simulation simulation;
+  std::vector<std::string> names;
+};
+
+namespace {
+
+plumb::Accuracy accuracy_of(const plumb_accuracy& a) {
+  if (in<int>(a.method, 2, "accuracy", "method") == PLUMB_REALTIME) {
+    plumb::Realtime r;
+    r.dt = a.dt, r.substeps = a.substeps, r.iterations = a.iterations;
+    r.precision = in<plumb::Precision>(a.precision, 2, "accuracy", "precision");
+    r.integrator = in<plumb::Integrator>(a.integrator, 3, "accuracy", "integrator");
+    r.solver = in<plumb::Solver>(a.solver, 5, "accuracy", "solver");
+    r.continuous = a.continuous, r.sleeping = a.sleeping;
+    r.on_violation = in<plumb::OnViolation>(a.on_violation, 3, "accuracy", "on_violation");
+    return r;
+  }
+  plumb::Precise p;
+  p.tolerance = a.tolerance, p.max_dt = a.dt;
+  p.method = in<plumb::MotionMethod>(a.motion, 4, "accuracy", "motion");
+  p.estimate_error = a.estimate_error;
+  return p;
+}
+
+plumb_accuracy default_accuracy(plumb_method method) {
+  const plumb::Realtime r;
+  const plumb::Precise p;
+  plumb_accuracy a{};
+  a.method = method;
+  a.dt = method == PLUMB_REALTIME ? r.dt : p.max_dt;
+  a.substeps = r.substeps, a.iterations = r.iterations;
+  a.precision = static_cast<plumb_precision>(r.precision);
+  a.integrator = static_cast<plumb_integrator>(r.integrator);
+  a.solver = static_cast<plumb_solver>(r.solver);
+  a.continuous = r.continuous, a.sleeping = r.sleeping;
+  a.on_violation = static_cast<plumb_on_violation>(r.on_violation);
+  a.tolerance = p.tolerance;
+  a.motion = static_cast<plumb_motion>(p.method);
+  a.estimate_error = p.estimate_error;
+  return a;
+}
+
+plumb_body_state state_of(const plumb::BodyState& s) {
+  return {out(s.position), s.angle, out(s.velocity), s.angular_velocity};
+}
+
+const plumb_simulation& opened(const plumb_simulation* simulation) {
+  return require(simulation, "simulation");
+}
+
+std::size_t existing(const plumb_simulation& simulation, std::size_t body) {
+  if (body < simulation.names.size()) return body;
+  throw Error(Error::Kind::Name, "simulation", "body", std::to_string(body),
+              "the scene has " + std::to_string(simulation.names.size()) + " bodies, from 0");
+}
+
+}  // namespace
+
+size_t plumb_world_add_scene(plumb_world* world, const char* json, plumb_body* to, size_t capacity) {
+  return checked_or<size_t>(0, [&] {
+    const plumb::Scene scene = plumb::scene_from_json(&require(json, "json"));
+    std::vector<plumb::BodyId> bodies;
+    edit(world, [&](auto& w) { bodies = plumb::add_scene(w, scene).bodies; });
+    return fill(bodies, to, capacity);
+  });
+}
+
+plumb_accuracy plumb_default_realtime(void) { return default_accuracy(PLUMB_REALTIME); }
+plumb_accuracy plumb_default_precise(void) { return default_accuracy(PLUMB_PRECISE); }
+
+plumb_simulation* plumb_simulation_create(const char* json, const plumb_accuracy* accuracy) {
+  return checked_or<plumb_simulation*>(nullptr, [&] {
+    const plumb::Scene scene = plumb::scene_from_json(&require(json, "json"));
+    const plumb_accuracy a = accuracy != nullptr ? *accuracy : plumb_default_realtime();
+    std::vector<std::string> names;
+    for (const plumb::Body& body : scene.bodies) names.push_back(body.name);
+    return new plumb_simulation{plumb::compile(scene, accuracy_of(a)), std::move(names)};
+  });
+}
+void plumb_simulation_destroy(plumb_simulation* simulation) { delete simulation; }
+plumb_status plumb_simulation_step(plumb_simulation* simulation, int count) {
+  return checked([&] { require(simulation, "simulation").simulation.step(count); });
+}
+double plumb_simulation_time(const plumb_simulation* simulation) {
+  return checked_or(0.0, [&] { return opened(simulation).simulation.time(); });
+}
+size_t plumb_simulation_body_count(const plumb_simulation* simulation) {
+  return checked_or<size_t>(0, [&] { return opened(simulation).names.size(); });
+}
+int plumb_simulation_find(const plumb_simulation* simulation, const char* name) {
+  return checked_or(-1, [&] {
+    const auto& names = opened(simulation).names;
+    const auto found = std::find(names.begin(), names.end(), &require(name, "name"));
+    if (found != names.end()) return static_cast<int>(found - names.begin());
+    throw Error(Error::Kind::Name, "simulation", "body", name, "the scene has no body of this name");
+  });
+}
+plumb_body_state plumb_simulation_state(const plumb_simulation* simulation, size_t body) {
+  return checked_or(plumb_body_state{}, [&] {
+    const plumb_simulation& s = opened(simulation);
+    return state_of(s.simulation.state(existing(s, body)));
+  });
+}
+size_t plumb_simulation_states(const plumb_simulation* simulation, plumb_body_state* to, size_t capacity) {
+  return checked_or<size_t>(0, [&] {
+    const plumb_simulation& s = opened(simulation);
+    std::vector<plumb::BodyState> states(s.names.size());
+    s.simulation.read(states);
+    if (!states.empty() && capacity > 0) require(to, "out");
+    for (size_t i = 0; i < states.size() && i < capacity; ++i) to[i] = state_of(states[i]);
+    return states.size();
+  });
+}
+plumb_status plumb_simulation_set_state(plumb_simulation* simulation, size_t body, plumb_body_state state) {
+  return checked([&] {
+    plumb_simulation& s = require(simulation, "simulation");
+    s.simulation.set_state(existing(s, body),
+                           {in(state.position), state.angle, in(state.velocity), state.angular_velocity});
+  });
+}
+uint64_t plumb_simulation_hash(const plumb_simulation* simulation) {
+  return checked_or<uint64_t>(0, [&] { return opened(simulation).simulation.hash(); });
+}
+size_t plumb_simulation_save(const plumb_simulation* simulation, void* to, size_t capacity) {
+  return checked_or<size_t>(0,
+                            [&] { return fill_bytes(opened(simulation).simulation.save(), to, capacity); });
+}
+plumb_status plumb_simulation_restore(plumb_simulation* simulation, const void* bytes, size_t count) {
+  return checked([&] {
+    plumb_simulation& s = require(simulation, "simulation");
+    const auto* first = count > 0 ? &require(static_cast<const std::byte*>(bytes), "bytes") : nullptr;
+    s.simulation.restore({first, count});
+  });
+}
+plumb_statistics plumb_simulation_statistics(const plumb_simulation* simulation) {
+  return checked_or(plumb_statistics{}, [&] {
+    const plumb::Statistics s = opened(simulation).simulation.statistics();
+    return plumb_statistics{s.steps,       s.rejected,       s.impacts,     s.evaluations,
+                            s.error.known, s.error.position, s.error.angle, s.error.velocity};
+  });
+}
+const char* plumb_simulation_violation(const plumb_simulation* simulation) {
+  return checked_or<const char*>(nullptr, [&]() -> const char* {
+    const Error* violation = opened(simulation).simulation.violation();
+    return violation != nullptr ? violation->what() : nullptr;
+  });
+}

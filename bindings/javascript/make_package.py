@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+"""Puts the npm package together: make_package.py SOURCES PROGRAM.wasm TO VERSION
+
+The program is inlined as text, so that the package works from a file, a server or a bundle alike."""
+
+import base64
+import gzip
+import pathlib
+import shutil
+import sys
+
+
+def main():
+    sources, program, to = map(pathlib.Path, sys.argv[1:4])
+    to.mkdir(parents=True, exist_ok=True)
+    for name in ("plumb.mjs", "plumb.d.ts", "README.md"):
+        shutil.copy(sources / name, to / name)
+    (to / "package.json").write_text((sources / "package.json.in").read_text().replace("@VERSION@", sys.argv[4]))
+    packed = base64.b64encode(gzip.compress(program.read_bytes(), 9, mtime=0)).decode()
+    (to / "plumb.wasm.mjs").write_text(f'// plumb, compiled for WebAssembly; gzip, base64.\nexport default "{packed}";\n')
+
+
+if __name__ == "__main__":
+    main()

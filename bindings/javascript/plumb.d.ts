@@ -1,0 +1,256 @@
+/** plumb, a 2D rigid-body engine. SI units: m, kg, s, rad, N; y up; angles counter-clockwise. */
+
+export interface Vec2 { x: number; y: number }
+export type BodyType = "static" | "kinematic" | "dynamic";
+export type Combine = "geometric_mean" | "product" | "maximum" | "minimum" | "average";
+export type Solver = "soft_steps" | "sequential_impulses" | "jakobsen" | "xpbd" | "direct";
+export type JointKind = "distance" | "revolute" | "prismatic" | "weld" | "wheel" | "motor" | "mouse" | "gear" |
+  "pulley" | "ratchet" | "friction";
+
+/** Something that plumb refuses. `message` is the whole sentence. */
+export class PlumbError extends Error {
+  kind: "SyntaxError" | "InvalidValue" | "UnknownName" | "Unsupported" | "RunError" | "FileError" | "InternalError";
+  subject: string;
+  field: string;
+  value: string;
+}
+
+/** Exactly one of these; lengths in m. A box is given by its whole sides. */
+export interface Geometry {
+  circle?: {radius: number};
+  box?: {width: number; height: number};
+  capsule?: Capsule;
+  polygon?: {points: Vec2[]; radius?: number};
+  segment?: {start: Vec2; end: Vec2};
+}
+export interface Capsule { start: Vec2; end: Vec2; radius: number }
+export interface Material {
+  friction?: number;
+  restitution?: number;
+  rollingResistance?: number;
+  /** m/s */
+  surfaceSpeed?: number;
+}
+export interface Filter { category?: number; mask?: number; group?: number }
+export interface ShapeDefinition extends Geometry, Material {
+  position?: Vec2;
+  angle?: number;
+  /** kg/m^2, 1 by default */
+  density?: number;
+  filter?: Filter;
+  sensor?: boolean;
+  hitEvents?: boolean;
+  preSolve?: boolean;
+  userData?: number | bigint;
+}
+export interface BodyDefinition {
+  type?: BodyType;
+  position?: Vec2;
+  angle?: number;
+  velocity?: Vec2;
+  angularVelocity?: number;
+  /** kg, kg m^2; without it the shapes' densities count */
+  mass?: {mass: number; inertia: number; centre?: Vec2};
+  gravityScale?: number;
+  /** 1/s */
+  linearDamping?: number;
+  angularDamping?: number;
+  lockX?: boolean;
+  lockY?: boolean;
+  lockRotation?: boolean;
+  maySleep?: boolean;
+  awake?: boolean;
+  userData?: number | bigint;
+  name?: string;
+  shapes?: ShapeDefinition[];
+}
+export interface Spring { hertz: number; dampingRatio?: number }
+export interface JointDefinition {
+  collide?: boolean;
+  /** N and N m; 0: never */
+  breakForce?: number;
+  breakTorque?: number;
+  userData?: number | bigint;
+  anchorA?: Vec2;
+  anchorB?: Vec2;
+  axis?: Vec2;
+  referenceAngle?: number;
+  spring?: Spring;
+  linearSpring?: Spring;
+  angularSpring?: Spring;
+  limits?: {lower?: number; upper?: number};
+  motor?: {speed: number; maxForce: number};
+  length?: number;
+  targetAngle?: number;
+  targetTranslation?: number;
+  targetPosition?: Vec2;
+  maxForce?: number;
+  maxTorque?: number;
+  ratio?: number;
+  phase?: number;
+  tooth?: number;
+  groundA?: Vec2;
+  groundB?: Vec2;
+}
+
+declare class Handle {
+  readonly world: World;
+  readonly index: number;
+  readonly generation: number;
+  equals(other: unknown): boolean;
+}
+export class Body extends Handle {
+  readonly valid: boolean;
+  position: Vec2;
+  readonly centre: Vec2;
+  angle: number;
+  velocity: Vec2;
+  angularVelocity: number;
+  type: BodyType;
+  readonly mass: number;
+  readonly inertia: number;
+  gravityScale: number;
+  linearDamping: number;
+  angularDamping: number;
+  awake: boolean;
+  set maySleep(on: boolean);
+  readonly userData: bigint;
+  readonly name: string;
+  readonly quarantined: boolean;
+  readonly shapes: Shape[];
+  setPose(position: Vec2, angle: number): void;
+  setMass(mass: {mass: number; inertia: number; centre?: Vec2}): void;
+  useDensities(): void;
+  setLocks(locks: {x?: boolean; y?: boolean; rotation?: boolean}): void;
+  moveTowards(position: Vec2, angle: number, dt: number): void;
+  /** N, during the next step; at the centre of mass, or at a point of the world */
+  applyForce(force: Vec2, at?: Vec2 | null): void;
+  applyTorque(torque: number): void;
+  /** N s, at once */
+  applyImpulse(impulse: Vec2, at?: Vec2 | null): void;
+  applyAngularImpulse(impulse: number): void;
+  createShape(shape: ShapeDefinition): Shape;
+  createChain(chain: Material & {points: Vec2[]; closed?: boolean; filter?: Filter}): Chain;
+  release(): void;
+  destroy(): void;
+}
+export class Shape extends Handle {
+  readonly valid: boolean;
+  readonly body: Body;
+  readonly userData: bigint;
+  material: Material;
+  set filter(filter: Filter);
+  readonly overlapping: Shape[];
+  destroy(): void;
+}
+export class Chain extends Handle {
+  destroy(): void;
+}
+export interface JointReading {
+  force: number;
+  torque: number;
+  linearError: number;
+  angularError: number;
+  angle: number;
+  translation: number;
+  length: number;
+}
+export class Joint extends Handle {
+  readonly valid: boolean;
+  change(kind: JointKind, definition?: JointDefinition): void;
+  read(): JointReading;
+  destroy(): void;
+}
+export interface Contact {
+  shapeA: Shape;
+  shapeB: Shape;
+  normal: Vec2;
+  points: {point: Vec2; separation: number; impulse: number}[];
+  approach: number;
+}
+export interface Touch { shapeA: Shape; shapeB: Shape }
+export interface Events {
+  begin: Touch[];
+  end: Touch[];
+  hits: (Touch & {point: Vec2; normal: Vec2; speed: number})[];
+  sensorBegin: {sensor: Shape; visitor: Shape}[];
+  sensorEnd: {sensor: Shape; visitor: Shape}[];
+  broken: Joint[];
+  fellAsleep: Body[];
+  woke: Body[];
+  quarantined: Body[];
+}
+export interface QueryFilter { category?: number; mask?: number; sensors?: boolean; ignore?: Body }
+export interface Hit { shape: Shape; body: Body; point: Vec2; normal: Vec2 }
+export interface MoverOptions {
+  up?: Vec2;
+  maxSlope?: number;
+  stepHeight?: number;
+  skin?: number;
+  mass?: number;
+  pushForce?: number;
+  push?: boolean;
+  filter?: QueryFilter;
+}
+export interface MoverResult {
+  position: Vec2;
+  velocity: Vec2;
+  onGround: boolean;
+  squeezed: boolean;
+  groundNormal: Vec2;
+  ground: Body;
+  groundVelocity: Vec2;
+}
+export interface WorldDefinition {
+  precision?: "float" | "double";
+  gravity?: Vec2;
+  combineFriction?: Combine;
+  combineRestitution?: Combine;
+  sleeping?: boolean;
+  continuous?: boolean;
+  solver?: Solver;
+  integrator?: "velocity_verlet" | "semi_implicit_euler" | "explicit_euler";
+  iterations?: number;
+  directIslands?: boolean;
+  quarantine?: boolean;
+}
+
+/** A world of bodies, shapes and joints that advances in fixed steps. */
+export class World {
+  constructor(definition?: WorldDefinition);
+  destroy(): void;
+  step(dt?: number, substeps?: number, count?: number): void;
+  readonly time: number;
+  /** 16 hexadecimal digits; equal on every platform and in every language for the same calls */
+  hash(): string;
+  fullHash(): string;
+  gravity: Vec2;
+  set sleeping(on: boolean);
+  set continuous(on: boolean);
+  set solver(name: Solver);
+  set profiling(on: boolean);
+  /** ns */
+  readonly profile: {broadPhase: number; narrowPhase: number; solver: number; finalize: number; continuous: number;
+    events: number; sleep: number; steps: number};
+  readonly counts: {bodies: number; awake: number; shapes: number; contacts: number; touching: number; joints: number};
+  createBody(definition?: BodyDefinition): Body;
+  createJoint(a: Body, b: Body, kind: JointKind, definition?: JointDefinition): Joint;
+  /** All bodies, by index: the order of the rows of `poses` and `velocities`. */
+  readonly bodies: Body[];
+  /** x, y (m) and angle (rad) of each body, three numbers a body; valid until the next call */
+  readonly poses: Float64Array;
+  /** x, y (m/s) and angular velocity (rad/s) of each body; valid until the next call */
+  readonly velocities: Float64Array;
+  readonly contacts: Contact[];
+  readonly events: Events;
+  onPreSolve(hook: ((contact: Contact) => boolean) | null): void;
+  save(): Uint8Array;
+  restore(bytes: Uint8Array): void;
+  rayCast(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number}) | null;
+  castShape(shape: Geometry, position: Vec2, angle: number, translation: Vec2, filter?: QueryFilter):
+    (Hit & {fraction: number}) | null;
+  overlapShape(shape: Geometry, position: Vec2, angle?: number, filter?: QueryFilter): Shape[];
+  shapesAt(point: Vec2, filter?: QueryFilter): Shape[];
+  nearest(point: Vec2, maxDistance: number, filter?: QueryFilter): (Hit & {distance: number}) | null;
+  move(capsule: Capsule, position: Vec2, velocity: Vec2, dt: number, options?: MoverOptions): MoverResult;
+}

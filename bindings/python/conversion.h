@@ -1,0 +1,74 @@
+#pragma once
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "engine/math/vec2.h"
+#include "engine/scene/error.h"
+
+namespace pybind11::detail {
+
+/// A vector is a pair of numbers in Python: a tuple when returned, any sequence of two when passed.
+template <>
+struct type_caster<plumb::Vec2d> {
+  PYBIND11_TYPE_CASTER(plumb::Vec2d, const_name("tuple[float, float]"));
+
+  bool load(handle source, bool) {
+    if (!PySequence_Check(source.ptr()) || PySequence_Size(source.ptr()) != 2) {
+      PyErr_Clear();
+      return false;
+    }
+    double parts[2];
+    for (int i = 0; i < 2; ++i) {
+      const object part = reinterpret_steal<object>(PySequence_GetItem(source.ptr(), i));
+      parts[i] = part ? PyFloat_AsDouble(part.ptr()) : 0;
+      if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        return false;
+      }
+    }
+    value = {parts[0], parts[1]};
+    return true;
+  }
+  static handle cast(plumb::Vec2d v, return_value_policy, handle) { return make_tuple(v.x, v.y).release(); }
+};
+
+}  // namespace pybind11::detail
+
+namespace plumb::python {
+
+namespace py = pybind11;
+
+/// Returns the enumerator called `name`. Throws Error (Name) that lists the names.
+template <class Enum, std::size_t kCount>
+Enum named(const std::array<const char*, kCount>& names, const std::string& name, const char* field) {
+  std::string all;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (name == names[i]) return static_cast<Enum>(i);
+    all += std::string(i > 0 ? ", " : "") + names[i];
+  }
+  throw Error(Error::Kind::Name, "", field, name, "must be one of " + all);
+}
+template <class Enum, std::size_t kCount>
+std::string name_in(const std::array<const char*, kCount>& names, Enum value) {
+  return names[static_cast<std::size_t>(value)];
+}
+
+inline constexpr std::array kPrecisions{"float", "double"};
+inline constexpr std::array kBodyTypes{"static", "kinematic", "dynamic"};
+inline constexpr std::array kCombines{"geometric_mean", "product", "maximum", "minimum", "average"};
+inline constexpr std::array kSolvers{"soft_steps", "sequential_impulses", "jakobsen", "xpbd", "direct"};
+inline constexpr std::array kIntegrators{"velocity_verlet", "semi_implicit_euler", "explicit_euler"};
+
+void bind_errors();
+void bind_definitions(py::module_& module);
+void bind_world(py::module_& module);
+void bind_simulation(py::module_& module);
+
+}  // namespace plumb::python

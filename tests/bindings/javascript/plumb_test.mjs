@@ -1,0 +1,172 @@
+// The npm package in Node: node plumb_test.mjs PACKAGE
+import assert from "node:assert/strict";
+import {readFileSync, statSync} from "node:fs";
+import path from "node:path";
+import test from "node:test";
+import {pathToFileURL} from "node:url";
+import {gzipSync} from "node:zlib";
+
+const folder = path.resolve(process.argv[2]);
+const {World, Body, Shape, Joint, Chain, PlumbError} = await import(pathToFileURL(path.join(folder, "plumb.mjs")));
+const kG = 9.81;
+
+function withGround() {
+  const world = new World();
+  const ground = world.createBody({type: "static", position: {x: 0, y: -1}, shapes: [{box: {width: 40, height: 2}}]});
+  return {world, ground};
+}
+function near(value, wanted, tolerance) {
+  assert.ok(Math.abs(value - wanted) <= tolerance, `${value} is not within ${tolerance} of ${wanted}`);
+}
+
+test("a body in free flight follows its parabola", () => {
+  const world = new World({precision: "double"});
+  const ball = world.createBody({position: {x: 0, y: 10}, velocity: {x: 2, y: 1}, shapes: [{circle: {radius: 0.5}}]});
+  world.step(1 / 60, 4, 60);
+  near(ball.position.x, 2, 1e-12);
+  near(ball.position.y, 11 - kG / 2, 1e-12);
+  near(ball.mass, Math.PI / 4, 1e-12);
+});
+
+test("arrays have the poses and velocities of all bodies", () => {
+  const {world} = withGround();
+  const gone = world.createBody({position: {x: 5, y: 5}});
+  const stays = world.createBody({position: {x: -5, y: 7}, angle: 0.5, velocity: {x: 1, y: 2}, angularVelocity: 3});
+  gone.destroy();
+  assert.deepEqual([...world.poses], [0, -1, 0, -5, 7, 0.5]);
+  assert.deepEqual([...world.velocities].slice(3), [1, 2, 3]);
+  assert.ok(world.bodies[1].equals(stays));
+  assert.equal(gone.valid, false);
+  for (let i = 0; i < 3000; ++i) world.createBody({position: {x: i, y: 50}});
+  assert.equal(world.poses.length, 3 * 3002);
+});
+
+test("errors name the field and the value, and leave the world as it was", () => {
+  const {world} = withGround();
+  const before = world.fullHash();
+  for (let i = 0; i < 2000; ++i) {
+    assert.throws(() => world.createBody({shapes: [{circle: {radius: -0.5}}]}), (error) =>
+      error instanceof PlumbError && error.kind === "InvalidValue" && error.field === "radius" && error.value === "-0.5");
+  }
+  assert.equal(world.fullHash(), before);
+  assert.throws(() => world.createBody({colour: "red"}), /colour/);
+  assert.throws(() => world.createBody({type: "fixed"}), /static, kinematic, dynamic/);
+  assert.throws(() => world.createBody({position: [1, 2]}), /position/);
+  assert.throws(() => world.createBody({shapes: [{}]}), /circle, box/);
+  const dead = world.createBody();
+  dead.destroy();
+  assert.throws(() => dead.position, {kind: "UnknownName"});
+  world.step();
+});
+
+test("a saved state goes on to the same hash; damaged ones are refused", () => {
+  const {world} = withGround();
+  for (let i = 0; i < 5; ++i) world.createBody({position: {x: 0.05 * i, y: 0.5 + i}, shapes: [{box: {width: 1, height: 1}}]});
+  world.step(1 / 60, 4, 30);
+  const saved = world.save();
+  world.step(1 / 60, 4, 60);
+  const end = world.fullHash();
+  world.restore(saved);
+  world.step(1 / 60, 4, 60);
+  assert.equal(world.fullHash(), end);
+  saved[saved.length >> 1] ^= 1;
+  assert.throws(() => world.restore(saved), /snapshot/);
+  assert.equal(world.fullHash(), end);
+});
+
+test("joints of every kind are made, read and changed", () => {
+  const {world, ground} = withGround();
+  const kinds = {distance: {length: 3}, revolute: {}, prismatic: {}, weld: {}, wheel: {spring: {hertz: 4}}, motor: {maxForce: 10},
+    mouse: {maxForce: 10, targetPosition: {x: 0, y: 3}}, gear: {}, pulley: {groundA: {x: 0, y: 9}, groundB: {x: 1, y: 9}},
+    ratchet: {}, friction: {maxForce: 1}};
+  for (const [kind, definition] of Object.entries(kinds)) {
+    const wheel = world.createBody({position: {x: 0, y: 3}, shapes: [{circle: {radius: 0.5}, filter: {mask: 0}}]});
+    const joint = world.createJoint(ground, wheel, kind, definition);
+    assert.ok(joint instanceof Joint && joint.valid, kind);
+    joint.destroy();
+    wheel.destroy();
+  }
+  const wheel = world.createBody({position: {x: 0, y: 3}, shapes: [{circle: {radius: 0.5}}]});
+  const motor = (speed) => ({anchorA: {x: 0, y: 4}, motor: {speed, maxForce: 1000}});
+  const joint = world.createJoint(ground, wheel, "revolute", motor(2));
+  world.step(1 / 60, 4, 60);
+  near(wheel.angularVelocity, 2, 1e-4);
+  joint.change("revolute", motor(-1));
+  world.step(1 / 60, 4, 60);
+  near(wheel.angularVelocity, -1, 1e-4);
+  near(joint.read().force, wheel.mass * kG, 1e-2);
+});
+
+test("queries, events, contacts and hooks", () => {
+  const {world, ground} = withGround();
+  const box = world.createBody({position: {x: 0, y: 3}, shapes: [{box: {width: 1, height: 1}, hitEvents: true, preSolve: true}]});
+  const down = [{x: 0, y: 10}, {x: 0, y: -20}];
+  assert.ok(world.rayCast(...down).body.equals(box));
+  near(world.rayCast(...down).fraction, 6.5 / 20, 1e-7);
+  assert.ok(world.rayCast(...down, {ignore: box}).body.equals(ground));
+  assert.equal(world.rayCast({x: 0, y: 10}, {x: 0, y: 5}), null);
+  assert.equal(world.shapesAt({x: 0, y: 3})[0].index, box.shapes[0].index);
+  assert.equal(world.overlapShape({circle: {radius: 0.2}}, {x: 0.6, y: 3}).length, 1);
+  near(world.nearest({x: 0, y: 5}, 10).distance, 1.5, 1e-6);
+  near(world.castShape({circle: {radius: 0.5}}, {x: 0, y: 10}, 0, {x: 0, y: -20}).fraction, 0.3, 1e-6);
+  const hits = [], seen = [];
+  world.onPreSolve((contact) => { seen.push(contact); return true; });
+  for (let i = 0; i < 60; ++i) {
+    world.step();
+    hits.push(...world.events.hits);
+  }
+  assert.equal(hits.length, 1);
+  near(hits[0].speed, Math.sqrt(2 * kG * 2.5), 0.15);
+  assert.ok(seen.length > 0 && Math.abs(Math.abs(seen[0].normal.y) - 1) < 1e-6);
+  assert.equal(world.contacts.length, 1);
+  assert.equal(world.contacts[0].points.length, 2);
+  world.onPreSolve(() => false);
+  world.step(1 / 60, 4, 60);
+  assert.ok(box.position.y < -2);
+});
+
+test("a character walks, chains carry, and shapes change", () => {
+  const world = new World();
+  const ground = world.createBody({type: "static"});
+  const chain = ground.createChain({points: [{x: -10, y: 0}, {x: 0, y: 0}, {x: 10, y: 0}].reverse()});
+  assert.ok(chain instanceof Chain);
+  let at = {x: 0, y: 0.02};
+  const capsule = {start: {x: 0, y: 0.3}, end: {x: 0, y: 1}, radius: 0.3};
+  let moved;
+  for (let i = 0; i < 30; ++i) {
+    moved = world.move(capsule, at, {x: 3, y: -1}, 1 / 60);
+    at = moved.position;
+    world.step();
+  }
+  assert.ok(moved.onGround);
+  near(at.x, 1.5, 1e-3);
+  const ball = world.createBody({position: {x: -5, y: 0.5}, shapes: [{circle: {radius: 0.5}}]});
+  const [shape] = ball.shapes;
+  assert.ok(shape instanceof Shape && shape.body instanceof Body);
+  shape.material = {restitution: 0.5};
+  assert.equal(shape.material.restitution, 0.5);
+  near(shape.material.friction, 0.6, 1e-7);
+});
+
+test("worlds give their memory back", () => {
+  for (let i = 0; i < 3000; ++i) {
+    const {world} = withGround();
+    world.step();
+    world.destroy();
+  }
+});
+
+test("the package is small, and its types name what it exports", () => {
+  const files = JSON.parse(readFileSync(path.join(folder, "package.json"))).files;
+  const size = files.reduce((sum, file) => sum + gzipSync(readFileSync(path.join(folder, file))).length, 0);
+  console.log(`the package is ${Math.round(size / 1000)} kB compressed, ${Math.round(statSync(path.join(folder, "plumb.wasm.mjs")).size / 1000)} kB as a file`);
+  assert.ok(size < 700e3, `${size} bytes`);
+  const types = readFileSync(path.join(folder, "plumb.d.ts"), "utf8");
+  for (const [name, Type] of Object.entries({World, Body, Shape, Chain, Joint})) {
+    const block = types.match(new RegExp(`class ${name}(?: extends \\w+)? \\{([^]*?)\\n\\}`))[1];
+    const declared = new Set([...block.matchAll(/^ {2}(?:readonly |set )?(\w+)[(:?]/gm)].map((match) => match[1]));
+    declared.delete("constructor");
+    const real = Object.getOwnPropertyNames(Type.prototype).filter((each) => each !== "constructor" && !each.startsWith("_"));
+    assert.deepEqual([...declared].sort(), real.sort(), name);
+  }
+});
