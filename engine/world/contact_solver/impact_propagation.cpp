@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
+#include "engine/core/room.h"
 #include "engine/math/small_turn.h"
 #include "engine/world/contact_solver/contact_pair.h"
 
@@ -16,7 +19,9 @@ constexpr double kSlow = 1e-4;
 // The iterations of a round end when no velocity changes by more than this fraction of the fastest.
 constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
-// Maximum number of contacts examined in all rounds of a substep.
+// Maximum number of contacts examined in all rounds of a substep, and of points solved in all iterations of
+// theirs: a few ms. A heap of ten thousand that is stirred has far more impacts at once than that; it is held
+// by the constraints in any case.
 constexpr int kLooks = 1 << 17;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
 // An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
@@ -63,32 +68,47 @@ Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<Restitutio
   return fastest;
 }
 
+// Time of a point without an impact to come.
+template <class Real>
+constexpr Real kNever = std::numeric_limits<Real>::infinity();
+
 template <class Real>
 void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScratch<Real>& room) {
   int bodies = 0;
   for (const RestitutionContact<Real>& bounce : bounces)
     bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
   if (static_cast<int>(room.reached.size()) < bodies) {
-    room.reached.resize(bodies);
-    room.earliest.resize(bodies), room.last.resize(bodies);
+    make_room(room.reached, bodies), make_room(room.marked, bodies), make_room(room.earliest, bodies);
+    make_room(room.last, bodies), make_room(room.first_contact, bodies), make_room(room.group, bodies);
+  }
+  const int contacts = static_cast<int>(bounces.size());
+  if (static_cast<int>(room.in_list.size()) < contacts) {
+    make_room(room.in_list, contacts), make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
   }
   for (const RestitutionContact<Real>& bounce : bounces) {
-    for (const int body : {bounce.contact->body_a, bounce.contact->body_b})
-      room.reached[body] = 0, room.last[body] = 0;
+    for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
+      room.reached[body] = room.marked[body] = 0, room.last[body] = 0;
+      room.first_contact[body] = room.group[body] = -1;
+    }
   }
-  room.cluster.clear();
+  std::fill_n(room.in_list.begin(), contacts, char(0));
+  room.crowd.clear(), room.looked.clear(), room.bodies.clear(), room.struck.clear();
 }
 
-// Marks the contact's bodies as reachable by impact propagation. Returns true if one was not marked before.
+// Calls visit(contact) for the contacts of a body to which impacts may propagate.
+template <class Real, class Visit>
+void for_each_at(const ImpactScratch<Real>& room, int body, const Visit& visit) {
+  for (int edge = room.first_contact[body]; edge != -1; edge = room.next[edge]) visit(edge / 2);
+}
+
+// Marks the contact's bodies as reachable by impact propagation, and lists those that were not before.
 template <class Real>
-bool reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, ImpactScratch<Real>& room) {
-  bool more = false;
+void reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, ImpactScratch<Real>& room) {
   for (const int body : {c.body_a, c.body_b}) {
     if (!has_mass(motion[body]) || room.reached[body]) continue;
     room.reached[body] = 1;
-    more = true;
+    append(room.bodies, body);
   }
-  return more;
 }
 
 // Collects the contacts with impacts and all contacts to which these may propagate.
@@ -96,64 +116,137 @@ template <class Real>
 void find_crowd(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real within,
                 ImpactScratch<Real>& room) {
   clear_room(bounces, room);
-  const auto is_near = [&](const RestitutionContact<Real>& bounce) {
-    return is_struck(bounce) || nearest_point(*bounce.contact) <= within;
-  };
-  bool more = false;
-  for (const RestitutionContact<Real>& bounce : bounces)
-    if (is_struck(bounce)) more = reach(motion, *bounce.contact, room) || more;
-  const auto is_reached = [&](const RestitutionContact<Real>& bounce) {
-    return is_near(bounce) && (room.reached[bounce.contact->body_a] || room.reached[bounce.contact->body_b]);
-  };
-  if (!more) return;
-  while (more) {
-    more = false;
-    for (const RestitutionContact<Real>& bounce : bounces) {
-      if (is_reached(bounce)) more = reach(motion, *bounce.contact, room) || more;
+  const int contacts = static_cast<int>(bounces.size());
+  for (int i = contacts - 1; i >= 0; --i) {
+    const ContactConstraint<Real>& c = *bounces[i].contact;
+    if (!is_struck(bounces[i]) && !(nearest_point(c) <= within)) continue;
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? c.body_a : c.body_b;
+      if (!is_dynamic(motion[body])) continue;
+      room.next[2 * i + side] = room.first_contact[body], room.first_contact[body] = 2 * i + side;
     }
+    if (is_struck(bounces[i])) reach(motion, c, room);
   }
-  for (RestitutionContact<Real>& bounce : bounces) {
-    if (is_reached(bounce)) room.cluster.push_back(&bounce);
+  for (std::size_t next = 0; next < room.bodies.size(); ++next) {
+    for_each_at(room, room.bodies[next], [&](int i) {
+      room.in_list[i] = 1;
+      reach(motion, *bounces[i].contact, room);
+    });
+  }
+  room.bodies.clear();
+  for (int i = 0; i < contacts; ++i) {
+    if (room.in_list[i] == 0) continue;
+    room.in_list[i] = 0;
+    append(room.crowd, i);
   }
 }
 
-// Finds the points of the next impacts: for each body those of its earliest one.
+// Adds an item to a list, unless it is in there.
+inline void note(std::vector<int>& list, std::vector<char>& noted, int item) {
+  if (noted[item]) return;
+  noted[item] = 1;
+  append(list, item);
+}
+
+// Finds when the points of a contact have their next impact, as its bodies move now.
 template <class Real>
-void find_struck(const BodyMotion<Real>* motion, Real least, Real h, ImpactScratch<Real>& room) {
-  room.struck.clear();
-  for (const RestitutionContact<Real>* bounce : room.cluster) {
-    room.earliest[bounce->contact->body_a] = room.earliest[bounce->contact->body_b] = 2 * h;
+void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real least, Real h,
+             const ImpactScratch<Real>& room, ComingImpact<Real>& coming) {
+  ContactConstraint<Real>& c = *bounce.contact;
+  const Real start = std::max(room.last[c.body_a], room.last[c.body_b]);
+  face(motion, bounce, h, std::min(start, h));
+  for (int i = 0; i < 2; ++i) {
+    coming.time[i] = kNever<Real>;
+    if (i >= c.count) continue;
+    const Real closing = -velocity_along_normal(motion, c, i);
+    const Real s = std::max(separation_of(motion, c, i), Real(0));
+    if (!(closing > least) || s > closing * h) continue;
+    // A point without an earlier impact bounces as `schedule_impacts` set it, with the effect of gravity
+    // before and after.
+    const bool placed = start == 0 && bounce.strikes[i];
+    coming.time[i] = std::max(s / closing, start);
+    coming.wanted[i] = placed ? bounce.speed[i] : c.restitution * closing;
+    coming.before[i] = -closing;
   }
-  for (RestitutionContact<Real>* bounce : room.cluster) {
-    ContactConstraint<Real>& c = *bounce->contact;
-    const Real start = std::max(room.last[c.body_a], room.last[c.body_b]);
-    face(motion, *bounce, h, std::min(start, h));
-    for (int i = 0; i < c.count; ++i) {
-      const Real closing = -velocity_along_normal(motion, c, i);
-      const Real s = std::max(separation_of(motion, c, i), Real(0));
-      if (!(closing > least) || s > closing * h) continue;
-      const Real time = std::max(s / closing, start);
-      // A point without an earlier impact bounces as `schedule_impacts` set it, with the effect of gravity
-      // before and after.
-      const bool placed = start == 0 && bounce->strikes[i];
-      const Real wanted = placed ? bounce->speed[i] : c.restitution * closing;
-      room.struck.push_back({bounce, i, time, wanted, -closing, 0});
-      for (const int body : {c.body_a, c.body_b}) {
-        if (has_mass(motion[body])) room.earliest[body] = std::min(room.earliest[body], time);
-      }
+}
+
+// Finds the points of the next impacts: for each body those of its earliest one. Looks only at the contacts
+// that are listed, whose bodies have had an impact since they were looked at: what is expected of the others
+// has not changed.
+template <class Real>
+void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real least,
+                 Real h, ImpactScratch<Real>& room) {
+  room.struck.clear(), room.bodies.clear();
+  for (const int i : room.looked) {
+    room.in_list[i] = 0;
+    look_at(motion, bounces[i], least, h, room, room.coming[i]);
+    for (const int body : {bounces[i].contact->body_a, bounces[i].contact->body_b})
+      if (has_mass(motion[body])) note(room.bodies, room.marked, body);
+  }
+  room.looked.clear();
+  for (const int body : room.bodies) {
+    Real earliest = kNever<Real>;
+    for_each_at(room, body, [&](int i) {
+      const Real(&time)[2] = room.coming[i].time;
+      earliest = std::min(earliest, std::min(time[0], time[1]));
+      note(room.looked, room.in_list, i);
+    });
+    room.earliest[body] = earliest;
+    room.marked[body] = 0;
+  }
+  std::sort(room.looked.begin(), room.looked.end());
+  for (const int i : room.looked) {
+    room.in_list[i] = 0;
+    const ContactConstraint<Real>& c = *bounces[i].contact;
+    const ComingImpact<Real>& coming = room.coming[i];
+    Real until = kNever<Real>;
+    for (const int body : {c.body_a, c.body_b})
+      if (has_mass(motion[body])) until = std::min(until, room.earliest[body]);
+    until += Real(kAtOnce) * h;
+    for (int k = 0; k < c.count; ++k) {
+      if (coming.time[k] == kNever<Real> || coming.time[k] > until) continue;
+      append(room.struck,
+             StruckPoint<Real>{&bounces[i], k, coming.time[k], coming.wanted[k], coming.before[k], 0});
     }
   }
-  std::erase_if(room.struck, [&](const StruckPoint<Real>& at) {
-    const ContactConstraint<Real>& c = *at.bounce->contact;
-    return at.time > std::min(room.earliest[c.body_a], room.earliest[c.body_b]) + Real(kAtOnce) * h;
+  room.looked.clear();
+}
+
+// Orders the struck points by groups that share no dynamic body, and within a group as they were.
+template <class Real>
+void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
+  std::vector<StruckPoint<Real>>& struck = room.struck;
+  const int count = static_cast<int>(struck.size());
+  const auto first_of = [&](int i) {
+    while (struck[i].group != i) i = struck[i].group = struck[struck[i].group].group;
+    return i;
+  };
+  for (int i = 0; i < count; ++i) {
+    struck[i].group = i;
+    for (const int body : {struck[i].bounce->contact->body_a, struck[i].bounce->contact->body_b}) {
+      if (!is_dynamic(motion[body])) continue;
+      if (room.group[body] == -1) room.group[body] = i;
+      const int one = first_of(i), other = first_of(room.group[body]);
+      struck[std::max(one, other)].group = std::min(one, other);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    struck[i].group = first_of(i);
+    room.group[struck[i].bounce->contact->body_a] = room.group[struck[i].bounce->contact->body_b] = -1;
+  }
+  // The list is in the order of contacts and points.
+  std::sort(struck.begin(), struck.end(), [](const StruckPoint<Real>& a, const StruckPoint<Real>& b) {
+    if (a.group != b.group) return a.group < b.group;
+    return a.bounce != b.bounce ? a.bounce < b.bounce : a.point < b.point;
   });
 }
 
 // Solves lambda >= 0 with n.v >= wanted by sequential impulses, such that no energy is gained.
 template <class Real>
-void exchange(BodyMotion<Real>* motion, std::vector<StruckPoint<Real>>& struck, Real fastest) {
+void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
   bool changes = true;
-  for (int sweep = 0; changes && sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
+    looks -= static_cast<int>(struck.size());
     changes = false;
     for (StruckPoint<Real>& at : struck) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
@@ -176,6 +269,16 @@ void exchange(BodyMotion<Real>* motion, std::vector<StruckPoint<Real>>& struck, 
   for (StruckPoint<Real>& at : struck) {
     push(motion, *at.bounce->contact, at.point, (scale - 1) * at.impulse);
     at.impulse *= scale;
+  }
+}
+
+template <class Real>
+void exchange_by_groups(BodyMotion<Real>* motion, Real fastest, int& looks, ImpactScratch<Real>& room) {
+  group_struck(motion, room);
+  const std::span<StruckPoint<Real>> struck(room.struck);
+  for (std::size_t first = 0, end = 0; first < struck.size(); first = end) {
+    while (end < struck.size() && struck[end].group == struck[first].group) ++end;
+    exchange(motion, struck.subspan(first, end - first), fastest, looks);
   }
 }
 
@@ -226,32 +329,40 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
                       ImpactScratch<Real>& room) {
   const Real fastest = fastest_strike(motion, bounces);
   find_crowd(motion, bounces, 2 * step.h * fastest, room);
-  if (room.cluster.empty()) return 0;
+  if (room.crowd.empty()) return 0;
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
-  const int size = static_cast<int>(room.cluster.size());
-  const int rounds = std::max(kLooks / size, 8);
+  const int size = static_cast<int>(room.crowd.size());
+  int looks = kLooks;
   int at_one_time = kAtOneTime + kAtOneTimeEach * size;
   int round = 0;
-  for (; round < rounds && at_one_time > 0; ++round) {
-    find_struck(motion, least, step.h, room);
+  room.looked = room.crowd;
+  for (; looks > 0 && at_one_time > 0; ++round) {
+    looks -= static_cast<int>(room.looked.size());
+    find_struck(motion, bounces, least, step.h, room);
     if (room.struck.empty()) break;
     if (!time_passes(room)) --at_one_time;
-    exchange(motion, room.struck, fastest);
-    for (const StruckPoint<Real>& at : room.struck) finish_impact(motion, rotation, at, room);
-  }
-  for (RestitutionContact<Real>* bounce : room.cluster) {
-    ContactConstraint<Real>& c = *bounce->contact;
-    // The remaining approaches are too slow or do not touch within this substep.
-    bounce->closes = false;
-    bool open = true;
-    for (int i = 0; i < c.count; ++i) {
-      const Real closing = -velocity_along_normal(motion, c, i);
-      c.now[i] = separation_of(motion, c, i);
-      bounce->strikes[i] = false;
-      bounce->closes = bounce->closes || closing > step.bounce_threshold;
-      open = open && c.now[i] > step.h * closing;
+    exchange_by_groups(motion, fastest, looks, room);
+    for (const StruckPoint<Real>& at : room.struck) {
+      finish_impact(motion, rotation, at, room);
+      for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
+        if (is_dynamic(motion[body]))
+          for_each_at(room, body, [&](int i) { note(room.looked, room.in_list, i); });
     }
-    bounce->closes = bounce->closes && open;
+  }
+  for (const int i : room.crowd) {
+    RestitutionContact<Real>& bounce = bounces[i];
+    ContactConstraint<Real>& c = *bounce.contact;
+    // The remaining approaches are too slow or do not touch within this substep.
+    bounce.closes = false;
+    bool open = true;
+    for (int k = 0; k < c.count; ++k) {
+      const Real closing = -velocity_along_normal(motion, c, k);
+      c.now[k] = separation_of(motion, c, k);
+      bounce.strikes[k] = false;
+      bounce.closes = bounce.closes || closing > step.bounce_threshold;
+      open = open && c.now[k] > step.h * closing;
+    }
+    bounce.closes = bounce.closes && open;
   }
   return round;
 }

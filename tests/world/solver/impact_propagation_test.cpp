@@ -50,6 +50,24 @@ TEST(BounceCrowds, GoOnAsLongAsTimePasses) {
   EXPECT_NEAR(Line(2, 1e-5).resolve(), 4 * 10e-3 / 60e-6, 1);
 }
 
+TEST(BounceCrowds, LeaveAnImpactElsewhereAsItIsAlone) {
+  // All discs of a line are struck at once, which iterations do not solve to rounding. Two others meet far
+  // away at the same time: they exchange their velocities exactly.
+  Line line(60, 0);
+  for (int i = 1; i <= 60; ++i) line.bodies[i].velocity = {i % 3 == 0 ? -1.0 : 1.0 / i, 0};
+  const int a = static_cast<int>(line.bodies.size());
+  line.bodies.resize(a + 2), line.rotations.resize(a + 2);
+  for (const int body : {a, a + 1}) line.bodies[body].inverse_mass = 1;
+  line.bodies[a].velocity = {1, 0};
+  ContactConstraint<double> pair = line.contacts[1];
+  pair.body_a = a, pair.body_b = a + 1;
+  line.bounces.push_back({.contact = &pair, .strikes = {true}});
+  line.bounces.back().speed[0] = 1;
+  line.resolve();
+  EXPECT_EQ(line.bodies[a].velocity.x, 0);
+  EXPECT_EQ(line.bodies[a + 1].velocity.x, 1);
+}
+
 TEST(BounceCrowds, EndWhereABodyIsTurnedBackAtOnceForEver) {
   // As in the one above, but the walls hold what they push tight.
   Line line(2, -1e-3);
