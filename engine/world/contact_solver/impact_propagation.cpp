@@ -20,9 +20,10 @@ constexpr double kSlow = 1e-4;
 constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
 // Maximum number of contacts examined in all rounds of a substep, and of points solved in all iterations of
-// theirs: a few ms. A heap of ten thousand that is stirred has far more impacts at once than that; it is held
-// by the constraints in any case.
-constexpr int kLooks = 1 << 17;
+// theirs: some 2 ms. A stirred heap of 6000 bodies with e = 0.1 always
+// reaches it; overlaps and escapes are the same from 4e4 to without a bound, as constraints hold what is
+// left.
+constexpr int kLooks = 1 << 16;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
 // An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
 // presses a body back at once.
