@@ -47,7 +47,7 @@ FEATURES = [
             "1 / (1 + time * double(own.linear_damping))", "world/motion"),
 
     # Materials.
-    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * pressure;", "most = pressure / 2;",
+    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * normal_sum(c);", "most = normal_sum(c) / 2;",
             "world/contacts"),
     feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
             "world/restitution"),

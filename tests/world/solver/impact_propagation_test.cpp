@@ -27,7 +27,9 @@ struct Line {
   }
 
   int resolve() {
-    return propagate_impacts(bodies.data(), rotations.data(), bounces, {.h = 0.01, .inverse_h = 100}, room);
+    const ContactStep<double> step{.h = 0.01, .inverse_h = 100};
+    if (!find_reached_contacts(bodies.data(), bounces, step, room)) return 0;
+    return propagate_impacts(bodies.data(), rotations.data(), bounces, step, room);
   }
 
   std::vector<BodyMotion<double>> bodies;
