@@ -4,6 +4,20 @@
 #include <cassert>
 
 namespace plumb {
+namespace {
+
+// Sums four products at a time, in an order that no compiler or vector width changes.
+double dot_product(const double* a, const double* b, int count) {
+  double sums[4] = {0, 0, 0, 0};
+  int i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (int lane = 0; lane < 4; ++lane) sums[lane] += a[i + lane] * b[i + lane];
+  double rest = 0;
+  for (; i < count; ++i) rest += a[i] * b[i];
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest;
+}
+
+}  // namespace
 
 void EnvelopeMatrix::reset(std::span<const int> first) {
   first_.assign(first.begin(), first.end());
@@ -18,18 +32,17 @@ void EnvelopeMatrix::reset(std::span<const int> first) {
   pivots_.resize(first.size()), inverse_pivots_.resize(first.size());
 }
 
-void EnvelopeMatrix::factorise() {
+void EnvelopeMatrix::factorise(int from) {
   constexpr double kNothing = 1e-12;  // of the diagonal: below it a row is dependent up to rounding
-  for (int i = 0; i < size(); ++i) {
+  for (int i = from; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];
     assert(!(diagonal < 0));  // positive definite; not a number where a body is quarantined later
     // row[j] <- (L D)_ij = a_ij - sum_k (L D)_ik L_jk
     for (int j = first_[i]; j < i; ++j) {
       const double* above = &values_[start_[j]] - first_[j];
-      double sum = row[j];
-      for (int k = std::max(first_[i], first_[j]); k < j; ++k) sum -= row[k] * above[k];
-      row[j] = sum;
+      const int k = std::max(first_[i], first_[j]);
+      row[j] -= dot_product(row + k, above + k, j - k);
     }
     double pivot = diagonal;
     for (int j = first_[i]; j < i; ++j) {
@@ -46,14 +59,13 @@ void EnvelopeMatrix::factorise() {
 void EnvelopeMatrix::solve(double* x) const {
   for (int i = 0; i < size(); ++i) {
     const double* row = &values_[start_[i]] - first_[i];
-    double sum = x[i];
-    for (int j = first_[i]; j < i; ++j) sum -= row[j] * x[j];
-    x[i] = sum;
+    x[i] -= dot_product(row + first_[i], x + first_[i], i - first_[i]);
   }
   for (int i = 0; i < size(); ++i) x[i] *= inverse_pivots_[i];
   for (int i = size() - 1; i >= 0; --i) {
     const double* row = &values_[start_[i]] - first_[i];
-    for (int j = first_[i]; j < i; ++j) x[j] -= row[j] * x[i];
+    const double xi = x[i];
+    for (int j = first_[i]; j < i; ++j) x[j] -= row[j] * xi;
   }
 }
 

@@ -23,8 +23,9 @@ class EnvelopeMatrix {
   double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
   double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 
-  /// Factorises in place. Dependent rows are left out: their unknown is 0.
-  void factorise();
+  /// Factorises in place. Dependent rows are left out: their unknown is 0. If rows before `from` have been
+  /// factorised already, and those from there on entered anew, only the latter are factorised.
+  void factorise(int from = 0);
 
   /// Solves: x <- A^-1 x.
   void solve(double* x) const;

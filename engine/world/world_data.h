@@ -278,7 +278,7 @@ struct Scratch {
   std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step
   std::vector<int> expecting_bodies;
   std::vector<char> pressed, expecting;  ///< by body: it is in the list; all 0 if the list is empty
-  ImpactScratch<Real> impacts;
+  ImpactScratch<Real> impacts{&room};
   std::vector<char> cannot_sleep;
   std::vector<FastBody> fast_bodies;
   std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores

@@ -116,6 +116,26 @@ TEST(Boxes, CornersApartGiveTheDirectionBetweenThem) {
                 {Vec2d{0.4, 0.4} + 0.095 * Vec2d{0.6, 0.8}}, -0.01);
 }
 
+// The lower side ends right above the start of the other's upper side, or a rounding before it: the corners
+// there are nearest, not those at the far ends, which lie as deep.
+TEST(RoundedPolygons, SidesThatJustMissTouchAtTheNearCorners) {
+  const Solid<double> tile(box_corners(0.5, 0.5), 0);
+  for (const double miss : {0.0, 1e-15, -1e-15, 1e-9}) {
+    for (const double gap : {0.0, -0.005, 0.01}) {
+      const Pose<double> pose = at(-0.9 - miss, 1 + gap);
+      for (const auto& [found, x] : {std::pair{collide(tile, kRounded, pose, 0.1), -0.5},
+                                     std::pair{collide(kRounded, tile, pose, 0.1), -0.4}}) {
+        ASSERT_GT(found.count, 0) << miss << ' ' << gap;
+        EXPECT_NEAR(found.normal.y, 1, 1e-7) << miss << ' ' << gap;
+        for (int i = 0; i < found.count; ++i) {
+          EXPECT_NEAR(found.points[i].point.x, x, 1e-7) << miss << ' ' << gap;
+          EXPECT_NEAR(found.points[i].separation, gap, 1e-7) << miss << ' ' << gap;
+        }
+      }
+    }
+  }
+}
+
 // Points at rest keep their feature ids: trembling by roundings must not change them, on top of each other,
 // overhanging, in a brick wall and on a broad floor, hovering or sunk in.
 template <class Real>

@@ -57,7 +57,7 @@ FEATURES = [
             "if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);", "", "world/changes"),
 
     # Materials.
-    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * pressure;", "most = pressure / 2;",
+    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * normal_sum(c);", "most = normal_sum(c) / 2;",
             "world/contacts"),
     feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
             "world/restitution"),

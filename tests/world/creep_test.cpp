@@ -92,5 +92,24 @@ TYPED_TEST(Creep, ASlopeHoldsUpToItsFriction) {
   }
 }
 
+// Friction that holds by a thousandth more than the load. In the first substep the block moves before
+// friction acts, by g sin(a) h^2 = 0.1 mm; then it stands. It slid by 1 to 50 mm while a block free to turn
+// took up its friction over several substeps.
+TYPED_TEST(Creep, ABlockNearTheLimitOfFrictionHoldsAtOnce) {
+  for (const double friction : {0.2, 0.5, 0.9}) {
+    for (const double height : {0.25, 0.5, 1.0}) {
+      const double angle = std::atan(friction);
+      WorldDefinition definition = without_sleep();
+      definition.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle)};
+      BasicWorld<TypeParam> world(definition);
+      const auto boxes = add_pile(world, {.height = height, .friction = 1.001 * friction, .rows = {1}});
+      run(world, 240);
+      const double substep = 1.0 / 240;
+      EXPECT_LT(world.position(boxes[0]).x, 1.2 * 9.81 * std::sin(angle) * substep * substep)
+          << friction << ' ' << height;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb

@@ -8,3 +8,11 @@ if(TARGET plumb_field_objects)
   gtest_discover_tests(test_bench_field NO_PRETTY_VALUES TEST_PREFIX bench/field/
     PROPERTIES LABELS unit TIMEOUT 300 DISCOVERY_TIMEOUT 60)
 endif()
+
+# Instructions a step of six scenes: what a change costs shows here where times are noise.
+if(TARGET plumb_field AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME bench/field/instructions
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/bench/field/instructions.py $<TARGET_FILE:plumb_field>)
+  set_tests_properties(bench/field/instructions PROPERTIES LABELS slow SKIP_RETURN_CODE 77 TIMEOUT 900)
+endif()

@@ -267,10 +267,12 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
-  // A line has no thickness that would separate its far end: of two equally deep ends take the nearer one.
-  const bool line = a.count == 2 || b.count == 2;
+  // Of two equally deep ends of parallel edges beside each other take the nearer one, where the far one may
+  // be within reach: a line has no thickness, and what is rounded no edge, that would separate it.
+  const bool either = a.count == 2 || b.count == 2 || a.radius + b.radius > 0;
   const int deepest = support<0>(other, reference.normal(edge));
-  const int corner = line ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
+  const int corner =
+      either ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
   const int place = along(reference, edge, other.point(corner));
   bool use_b = nearer_b;
   if (place != 0) {

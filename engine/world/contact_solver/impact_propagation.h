@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory_resource>
+#include <utility>
 #include <vector>
 
+#include "engine/linear_algebra/bounded_rows.h"
 #include "engine/world/contact_solver/restitution_contacts.h"
 
 namespace plumb {
@@ -15,25 +18,84 @@ struct StruckPoint {
   Real wanted = 0;   ///< m/s, target velocity along the normal
   Real before = 0;   ///< m/s, velocity along the normal before the round
   Real impulse = 0;  ///< N s
+  int group = 0;     ///< the same for points that share a body, directly or through others
 };
 
-/// Scratch memory of `propagate_impacts`, kept to avoid allocations. All but the last two lists are indexed
-/// by body.
+/// The points of a contact with an impact to come, as its bodies move now; infinity: none.
+template <class Real>
+struct ComingImpact {
+  Real time[2] = {};    ///< s, since the start of the substep
+  Real wanted[2] = {};  ///< m/s, target velocity along the normal
+  Real before[2] = {};  ///< m/s, velocity along the normal
+};
+
+/// A joint that passes impacts on at once.
+struct ImpactJoint {
+  int a = 0, b = 0;             ///< bodies
+  int slot = 0;                 ///< in the joint set
+  int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
+};
+
+/// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is what joints hold together,
+/// known by its body of the lowest index; a body without joints is a group of its own.
 template <class Real>
 struct ImpactScratch {
-  std::vector<char> reached;   ///< impacts may propagate to the body
-  std::vector<Real> earliest;  ///< s, time of its next impact
-  std::vector<Real> last;      ///< s, time of its last impact
-  std::vector<RestitutionContact<Real>*> cluster;
+  explicit ImpactScratch(std::pmr::memory_resource* room = std::pmr::get_default_resource()) : system(room) {}
+
+  // Joints, filled by the caller; all empty where there are none.
+  std::vector<int> group;  ///< by body
+  std::vector<ImpactJoint> joints;
+  std::vector<BoundedRow> rows;  ///< between bodies of the world: equalities, or an impulse of at least 0
+
+  // By group; valid for those of the present crowd.
+  std::vector<char> reached;       ///< impacts may propagate to it
+  std::vector<char> struck_now;    ///< it has an impact in this round
+  std::vector<char> marked;        ///< it is in `groups`
+  std::vector<Real> earliest;      ///< s, time of its next impact
+  std::vector<Real> last;          ///< s, time of its last impact
+  std::vector<int> first_contact;  ///< first of the crowd's contacts at it: edge = 2 contact + side
+  std::vector<int> struck_at;      ///< struck point of the present round at it
+  // By contact.
+  std::vector<int> next;      ///< by edge: the next one at the same group
+  std::vector<char> in_list;  ///< it is in a list of the present round
+  std::vector<ComingImpact<Real>> coming;
+  // Lists.
+  std::vector<int> crowd;   ///< contacts to which impacts may propagate, ascending
+  std::vector<int> looked;  ///< contacts to look at
+  std::vector<int> groups;  ///< those whose impacts have changed
   std::vector<StruckPoint<Real>> struck;
+
+  // The bodies of a round with joints, and their rows.
+  struct Link {
+    int body = 0;
+    Vec2<Real> velocity{};  ///< m/s, before the round
+    Real spin = 0;          ///< rad/s
+  };
+  std::vector<Link> links;
+  std::vector<int> link_of;  ///< by body
+  std::vector<std::pair<int, int>> blocks;
+  std::vector<int> sizes;
+  BoundedRows system;
 };
+
+/// Finds the contacts that impacts may reach, before `propagate_impacts`. Returns false if there are none.
+/// Joints are given by `room.group` alone so far; the rows of those whose group is reached are to be filled
+/// in afterwards.
+template <class Real>
+bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+                           const ContactStep<Real>& step, ImpactScratch<Real>& room);
 
 /// Resolves the impacts of a substep by impact propagation. A body with an impact passes it on to others that
 /// it touches or is about to touch (the break of a rack). Runs before the constraints are solved, in rounds.
 /// Each resolves the earliest impacts; simultaneous ones are resolved together by Newton's law, (n.v)' = -e
 /// n.v. With lambda >= 0 the impulses of a round change its energy by the sum of lambda (n.v + (n.v)') / 2.
 /// Impulses of iterations that have not converged are scaled back until this is not positive, so no round
-/// gains energy. Friction follows, at most as much as stops the sliding.
+/// gains energy. Friction follows, at most as much as stops the sliding. Impacts of a round that share no
+/// body are solved apart. A round looks at the contacts of bodies that the last one has struck, and at no
+/// others: the cost is that of the impacts, not of the crowd.
+///
+/// Joints pass impacts on at once: in the rounds of what they hold together their rows have impulses of their
+/// own, such that no rate of theirs changes, J M^-1 (J^T mu + N^T lambda) = 0. The impulses mu do no work.
 ///
 /// An impulse at the time t displaces a body by (h - t) times the change in velocity. The excess of the
 /// substep's motion is subtracted from the position.

@@ -199,7 +199,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
       continue;
     }
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
-    island.system.factorise(w.motion.data());
+    island.system.assemble(w.motion.data());
   }
   prepare_jointed_islands(w);
 }
@@ -210,9 +210,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
     DirectIsland<Real>& island = w.scratch.direct[i];
     if (island.system.rows.empty()) continue;  // solved by iterations
     std::size_t next = 0;
-    double push_speed = 0;
     for (ContactConstraint<Real>* c : island.contacts) {
-      push_speed = std::max(push_speed, static_cast<double>(c->push_speed));
       for (int k = 0; k < c->count; ++k) {
         if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
           continue;
@@ -222,7 +220,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
         row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
       }
     }
-    if (island.system.find(w.motion.data(), push_speed)) {
+    if (island.system.find(w.motion.data(), push)) {
       island.system.apply(w.motion.data());
     } else if (island.system.contradicted()) {
       give_up(w, island);

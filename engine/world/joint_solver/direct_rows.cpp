@@ -4,38 +4,33 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/math/small_turn.h"
-
 namespace plumb {
 namespace {
 
 // Regularisation (CFM): added to the diagonal, as a fraction of it, so that redundant rows share their load.
-// Smaller for large mass ratios, because there the smallest eigenvalues are a fraction 1 / ratio of the
-// largest.
-constexpr double kSharing = 1e-7;
-// The same where kRigidTries have found no set of pressing rows. Redundant supports that are not level, such
-// as those of a brick on two others, would brace against each other by more than their loads.
-constexpr double kMoreSharing = 1e-4;
-constexpr int kRigidTries = 3;
+// Supports that are redundant and not quite level brace against each other by the error in their levels over
+// this: below 3e-5 the impulses of a pyramid change from substep to substep, and its boxes shake. Above 1e-2
+// they give way for several substeps after a load has changed.
+constexpr double kSharing = 1e-4;
+// Mass ratio, and number of rows, above which the regularisation is smaller: by the ratio, and by the square
+// of the number. The smallest eigenvalues that hold a load are a fraction 1 / (2 ratio) of the largest, and
+// in a tower 5 / rows^2.
+constexpr double kFarApart = 100, kMany = 96;
+// Refinements, which remove what the regularisation has left of the rates, and the rest at which they end, as
+// a fraction of the rate that the load causes. More would let redundant rows brace.
+constexpr int kRefinements = 2;
+constexpr double kExact = 1e-8;
+// Rows contradict each other (a body is pushed out of two walls at once) if the last refinement leaves more
+// than kInVain of the rest before it, while no impulse falls by more than kPulls of what the most rises by:
+// all press, and nothing would end it. Redundant supports that are not level also leave a rest, but some of
+// their impulses fall, until those rows no longer press.
+constexpr double kInVain = 0.5, kPulls = 0.1;
 // Maximum number of times that rows are removed or come back before giving up.
 constexpr int kTries = 10;
 // Times that this may fail to make the wrong rows fewer before they are changed one by one.
 constexpr int kPatience = 3;
 // Velocity at which a removed row counts as entered, relative to the largest velocity asked for: rounding.
 constexpr double kEntered = 1e-5;
-// Maximum velocity that an impulse may cause along its own row, relative to the largest velocity asked for.
-// Contradicting rows (a body pushed out of two walls at once) respond with up to 1 / kSharing. A load on a
-// lighter body responds with the mass ratio, and has a higher limit.
-constexpr double kContradiction = 1e5;
-// For large velocities contradictions show in the residual: more than kMissed of the contacts' depenetration
-// speed, and impulses kInVain times those asked for.
-constexpr double kMissed = 0.1, kInVain = 1e3;
-// Mass ratio above which both limits grow with it.
-constexpr double kFarApart = 1e3;
-// Number of one-sided rows above which both limits grow with (rows / kMany)^2. In a tower a velocity
-// correction at the top is amplified by that much.
-constexpr double kMany = 512;
-
 // Returns J_r M^-1 J_s^T: the part of one body that both rows act on.
 template <class Real>
 double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
@@ -52,15 +47,6 @@ double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const 
   if (r.b == s.a) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
   if (r.b == s.b) sum += coupling(motion[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
   return sum;
-}
-
-template <class Real>
-void move_body(BodyMotion<Real>& body, Rotation<Real>& rotation, Vec2<Real> push, Real turning_push) {
-  body.moved += body.inverse_mass * push;
-  const Real turn = body.inverse_inertia * turning_push;
-  if (turn == 0) return;
-  body.turned += turn;
-  rotation = turned_by(rotation, turn);
 }
 
 }  // namespace
@@ -108,88 +94,130 @@ void DirectRows<Real>::note_masses(const BodyMotion<Real>* motion) {
       if (inverse > 0) least = std::min(least, inverse), most = std::max(most, inverse);
     }
   }
-  apart_ = most > 0 ? std::max(1.0, double(most) / double(least) / kFarApart) : 1;
-  const auto of_contacts =
-      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.one_sided; });
-  const double many = static_cast<double>(of_contacts) / kMany;
-  apart_ *= std::max(1.0, many * many);
+  const double ratio = most > 0 ? double(most) / double(least) : 1, many = double(rows.size()) / kMany;
+  sharing_ = kSharing / (std::max(1.0, ratio / kFarApart) * std::max(1.0, many * many));
 }
 
 template <class Real>
-void DirectRows<Real>::factorise(const BodyMotion<Real>* motion) {
+void DirectRows<Real>::assemble(const BodyMotion<Real>* motion) {
   note_masses(motion);
-  sharing_ = kSharing;
-  factorise_again(motion);
-}
-
-template <class Real>
-void DirectRows<Real>::factorise_again(const BodyMotion<Real>* motion) {
-  const double sharing = sharing_ / apart_;
-  matrix_.reset(first_);
-  for (int i = 0; i < matrix_.size(); ++i) {
+  push_.made = relax_.made = false;
+  all_.reset(first_);
+  for (int i = 0; i < all_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
-    if (!row.active) {
-      matrix_.at(i, i) = 1;  // no coupling, and no impulse
-      continue;
-    }
-    for (int j = first_[i]; j <= i; ++j) {
-      const DirectRow<Real>& other = rows[sequence_[j]];
-      if (other.active) matrix_.at(i, j) = coupling(motion, row, other);
-    }
-    matrix_.at(i, i) *= 1 + sharing;
+    const auto couple = [&](int block) {
+      for (int other = block_first_[block]; other < block_first_[block + 1] && place_[other] <= i; ++other)
+        all_.at(i, place_[other]) = coupling(motion, row, rows[other]);
+    };
+    couple(row.block);
+    for (const int block : order_.neighbours(row.block)) couple(block);
   }
-  matrix_.factorise();
+}
+
+// Factorises for the active rows. Those before the place `from` are as they were.
+template <class Real>
+void DirectRows<Real>::factorise(Factors& factors, int from) {
+  EnvelopeMatrix& matrix = factors.matrix;
+  for (int i = from; i < matrix.size(); ++i) {
+    const bool active = rows[sequence_[i]].active;
+    for (int j = first_[i]; j < i; ++j)
+      matrix.at(i, j) = active && rows[sequence_[j]].active ? all_.at(i, j) : 0;
+    matrix.at(i, i) = active ? all_.at(i, i) * (1 + sharing_) : 1;  // 1: no coupling, and no impulse
+  }
+  matrix.factorise(from);
+}
+
+// Lets rows on the wrong side leave or come back. Returns the first place that changed.
+template <class Real>
+int DirectRows<Real>::change_sides(Factors& factors) {
+  int from = factors.matrix.size();
+  for (int i = factors.matrix.size() - 1; i >= 0; --i) {
+    DirectRow<Real>& row = rows[sequence_[i]];
+    if (row.wrong) row.active = !row.active, from = i;
+  }
+  return from;
 }
 
 template <class Real>
-bool DirectRows<Real>::find(BodyMotion<Real>* motion, double push_speed) {
+bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
+  Factors& factors = push ? push_ : relax_;
   x_.resize(rows.size());
   for (DirectRow<Real>& row : rows) row.taken = 0;
-  bool out = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return !row.active; });
-  double asked = 0;
+  if (factors.made) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].active = factors.active[i] != 0;
+  } else if (const Factors& other = push ? relax_ : push_; other.made) {
+    factors.matrix = other.matrix;
+  } else {
+    factors.matrix.reset(first_);
+    factorise(factors, 0);
+  }
+  factors.made = true;
+  factors.active.resize(rows.size());
+  take_back(motion);
+  bool found = false;
   int fewest = std::numeric_limits<int>::max(), patience = kPatience;
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    asked = 0;
-    for (int i = 0; i < matrix_.size(); ++i) {
-      const DirectRow<Real>& row = rows[sequence_[i]];
-      x_[i] = row.active ? -rate_of(motion, row) : 0;
-      asked = std::max(asked, std::abs(x_[i]));
-    }
-    matrix_.solve(x_.data());
-    // Block principal pivoting (Judice and Pires, 1994): rows that would pull leave, those that would be
-    // entered come back, all at once while that makes them fewer, else the last one alone.
+    const double asked = solve(motion, factors.matrix);
+    // Rows that would pull leave, those that would be entered come back, all at once while that makes them
+    // fewer, else the last one alone.
     int wrong = 0;
     DirectRow<Real>* last = nullptr;
-    for (int i = 0; i < matrix_.size(); ++i) {
+    for (int i = 0; i < all_.size(); ++i) {
       DirectRow<Real>& row = rows[sequence_[i]];
-      row.wrong = row.one_sided &&
-                  (row.active ? double(*row.impulse) + x_[i] < 0
-                              : out && rate_of(motion, row) + answer_of(motion, i) < -kEntered * asked);
+      row.wrong = row.one_sided && (row.active ? double(*row.impulse) + x_[i] < 0
+                                               : rate_of(motion, row) + response_of(i) < -kEntered * asked);
       if (row.wrong) ++wrong, last = &row;
     }
-    if (wrong == 0) break;
-    if (attempt + 1 == kTries) {
-      contradicted_ = contradicts(asked, push_speed);
-      give_back(motion);
-      return false;
-    }
+    found = wrong == 0;
+    if (found || attempt + 1 == kTries) break;
     if (wrong < fewest) {
       fewest = wrong, patience = kPatience;
     } else if (--patience < 0) {
       for (DirectRow<Real>& row : rows) row.wrong = &row == last;
     }
-    for (DirectRow<Real>& row : rows) row.active = row.active != row.wrong;
-    out = true;
+    const int from = change_sides(factors);
     take_back(motion);
-    if (attempt + 1 == kRigidTries) {
-      sharing_ = kMoreSharing;
-      fewest = std::numeric_limits<int>::max();
-    }
-    factorise_again(motion);
+    factorise(factors, from);
   }
-  contradicted_ = contradicts(asked, push_speed);
-  if (contradicted_) give_back(motion);
-  return !contradicted_;
+  for (std::size_t i = 0; i < rows.size(); ++i) factors.active[i] = rows[i].active;
+  if (found && !contradicted_) return true;
+  give_back(motion);
+  return false;
+}
+
+// Solves for the impulses x of the active rows. Returns the largest rate asked for, m/s.
+template <class Real>
+double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix) {
+  const int count = matrix.size();
+  double asked = 0, load = 0;
+  for (int i = 0; i < count; ++i) {
+    const DirectRow<Real>& row = rows[sequence_[i]];
+    x_[i] = row.active ? -rate_of(motion, row) : 0;
+    asked = std::max(asked, std::abs(x_[i]));
+    load = std::max(load, all_.at(i, i) * double(*row.impulse));
+  }
+  matrix.solve(x_.data());
+  contradicted_ = false;
+  rest_.assign(x_.begin(), x_.end());
+  double before = asked;
+  for (int refinement = 0;; ++refinement) {
+    // (A + D) x = b leaves b - A x = D x.
+    double rest = 0, least = 0, most = 0;
+    for (int i = 0; i < count; ++i) {
+      least = std::min(least, rest_[i]), most = std::max(most, rest_[i]);
+      rest_[i] *= sharing_ * all_.at(i, i);
+      rest = std::max(rest, std::abs(rest_[i]));
+    }
+    if (rest <= kExact * std::max(load, asked)) break;
+    if (refinement == kRefinements) {
+      contradicted_ = rest > kInVain * before && least > -kPulls * most;
+      break;
+    }
+    before = rest;
+    matrix.solve(rest_.data());
+    for (int i = 0; i < count; ++i) x_[i] += rest_[i];
+  }
+  return asked;
 }
 
 // Returns the velocity that a row misses, m/s: J v + bias.
@@ -202,23 +230,18 @@ double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow
 
 // Returns the velocity that the impulses found cause along the row at a place, m/s.
 template <class Real>
-double DirectRows<Real>::answer_of(const BodyMotion<Real>* motion, int place) const {
-  const DirectRow<Real>& row = rows[sequence_[place]];
+double DirectRows<Real>::response_of(int place) const {
   double sum = 0;
-  const auto add = [&](int other) {
-    const DirectRow<Real>& from = rows[sequence_[other]];
-    if (from.active) sum += coupling(motion, row, from) * x_[other];
-  };
-  for (int i = first_[place]; i < place; ++i) add(i);
-  for (int i = place + 1; i < matrix_.size(); ++i)
-    if (first_[i] <= place) add(i);
+  for (int i = first_[place]; i < place; ++i) sum += all_.at(place, i) * x_[i];
+  for (int i = place + 1; i < all_.size(); ++i)
+    if (first_[i] <= place) sum += all_.at(i, place) * x_[i];
   return sum;
 }
 
 // Takes back the impulses of the removed rows.
 template <class Real>
 void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
-  for (int i = 0; i < matrix_.size(); ++i) {
+  for (int i = 0; i < all_.size(); ++i) {
     DirectRow<Real>& row = rows[sequence_[i]];
     if (row.active || *row.impulse == 0) continue;
     row.taken = *row.impulse;
@@ -238,30 +261,6 @@ void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
     *row.impulse += row.taken;
     row.taken = 0;
   }
-}
-
-template <class Real>
-bool DirectRows<Real>::contradicts(double asked, double push_speed) const {
-  // The residual of a row is kSharing / apart_ of the velocity that its impulse causes by itself.
-  const double most =
-      std::min(kContradiction * asked, std::max(kInVain * asked, kMissed / kSharing * push_speed));
-  for (int i = 0; i < matrix_.size(); ++i) {
-    if (std::abs(x_[i]) * matrix_.at(i, i) > most * apart_) return true;
-  }
-  return false;
-}
-
-template <class Real>
-bool DirectRows<Real>::correct() {
-  x_.resize(rows.size());
-  double asked = 0;
-  for (int i = 0; i < matrix_.size(); ++i) {
-    const DirectRow<Real>& row = rows[sequence_[i]];
-    x_[i] = row.active ? -double(row.gap) : 0;
-    asked = std::max(asked, std::abs(x_[i]));
-  }
-  matrix_.solve(x_.data());
-  return !contradicts(asked, std::numeric_limits<double>::infinity());
 }
 
 // Sums each body's impulses before its velocity is rounded. Between a heavy load and the ground the impulses
@@ -289,20 +288,9 @@ void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
     moving.angular_velocity =
         static_cast<Real>(double(moving.angular_velocity) + double(moving.inverse_inertia) * turning);
   }
-  for (int i = 0; i < matrix_.size(); ++i) {
+  for (int i = 0; i < all_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
     if (row.active) *row.impulse += static_cast<Real>(x_[i]);
-  }
-}
-
-template <class Real>
-void DirectRows<Real>::move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const {
-  for (int i = 0; i < matrix_.size(); ++i) {
-    const DirectRow<Real>& row = rows[sequence_[i]];
-    const Real push = static_cast<Real>(x_[i]);
-    if (push == 0) continue;
-    move_body(motion[row.a], rotation[row.a], push * row.linear_a, push * row.angular_a);
-    move_body(motion[row.b], rotation[row.b], push * row.linear_b, push * row.angular_b);
   }
 }
 

@@ -16,7 +16,6 @@ struct DirectRow {
   Vec2<Real> linear_a{}, linear_b{};  ///< J
   Real angular_a = 0, angular_b = 0;
   Real bias = 0;            ///< m/s: target J v + bias = 0
-  Real gap = 0;             ///< m or rad: closed by `correct`
   Real* impulse = nullptr;  ///< the impulse that is kept between substeps
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part; a one-sided row that would have to pull does not
@@ -25,10 +24,12 @@ struct DirectRow {
   int block = 0;            ///< index of its constraint
 };
 
-/// The rows of a few connected constraints, solved together: J M^-1 J^T x = -(J v + bias). The sparse
-/// factorisation is made once a step and used in all its substeps. It replaces the many iterations that
-/// sequential impulses need for a heavy load on light bodies, far above the ground. Rows that would have to
-/// pull are removed, and the system is factorised again without them.
+/// The rows of a few connected constraints, solved together: J M^-1 J^T x = -(J v + bias), sparsely. It
+/// replaces the many iterations that sequential impulses need for a heavy load on light bodies, far above the
+/// ground. Rows that would have to pull do not take part, which block principal pivoting finds out (Judice
+/// and Pires, Computers and Operations Research 21, 1994). The two passes of a substep, with depenetration
+/// and without, press on different rows for as long as bodies rest. So each keeps its rows and their
+/// factorisation to its next substep.
 template <class Real>
 class DirectRows {
  public:
@@ -41,36 +42,41 @@ class DirectRows {
         ends_(room),
         block_first_(room),
         x_(room),
-        matrix_(room) {}
+        rest_(room),
+        all_(room),
+        push_(room),
+        relax_(room) {}
 
   std::pmr::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
 
   /// Orders the rows (reverse Cuthill-McKee, 1969). Returns the cost of factorising them, in multiplications.
   double order(const BodyMotion<Real>* motion);
-  /// Factorises for the present masses and Jacobians.
-  void factorise(const BodyMotion<Real>* motion);
-  /// Solves for the missing impulses. Returns false, having changed nothing but `active`, if a few tries
-  /// found no set of pressing rows, or if the rows contradict each other. `push_speed`, m/s: depenetration
-  /// speed of the rows.
-  bool find(BodyMotion<Real>* motion, double push_speed);
+  /// Computes J M^-1 J^T for the present masses and Jacobians, and forgets all factorisations.
+  void assemble(const BodyMotion<Real>* motion);
+  /// Solves for the missing impulses of the pass with depenetration (`push`) or that without. Returns false,
+  /// having changed nothing but `active`, if a few tries found no set of pressing rows, or if the rows
+  /// contradict each other.
+  bool find(BodyMotion<Real>* motion, bool push);
   /// Returns true if the rows in `find` were infeasible, such as those of a body pushed out of two walls at
   /// once. Its result is then invalid.
   bool contradicted() const { return contradicted_; }
-  /// Returns the result of `find` or `correct` for a row.
-  double found(int row) const { return x_[static_cast<std::size_t>(place_[row])]; }
-  /// Finds impulses that close all gaps by moving bodies instead of changing velocities. Returns false if the
-  /// rows contradict each other.
-  bool correct();
   /// Applies the result of `find`.
   void apply(BodyMotion<Real>* motion);
-  /// Moves and turns bodies by the result of `correct`: one Newton step towards closed gaps.
-  void move(BodyMotion<Real>* motion, Rotation<Real>* rotation) const;
 
  private:
-  bool contradicts(double asked, double push_speed) const;
-  void factorise_again(const BodyMotion<Real>* motion);
+  /// A factorisation of the rows that press in one pass.
+  struct Factors {
+    explicit Factors(std::pmr::memory_resource* room) : matrix(room), active(room) {}
+    EnvelopeMatrix matrix;
+    std::pmr::vector<char> active;  // by row
+    bool made = false;
+  };
+
+  void factorise(Factors& factors, int from);
+  int change_sides(Factors& factors);
+  double solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix);
   double rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const;
-  double answer_of(const BodyMotion<Real>* motion, int place) const;
+  double response_of(int place) const;
   void take_back(BodyMotion<Real>* motion);
   void give_back(BodyMotion<Real>* motion);
   void note_masses(const BodyMotion<Real>* motion);
@@ -81,10 +87,10 @@ class DirectRows {
   BlockOrder order_;
   std::pmr::vector<std::pair<int, int>> ends_;  // body, block
   std::pmr::vector<int> block_first_;
-  std::pmr::vector<double> x_;
-  EnvelopeMatrix matrix_;
-  double apart_ = 1;    // factor on the limits of contradiction: by mass ratio and number of one-sided rows
-  double sharing_ = 0;  // regularisation in this step
+  std::pmr::vector<double> x_, rest_;
+  EnvelopeMatrix all_;  // J M^-1 J^T of all rows
+  Factors push_, relax_;
+  double sharing_ = 0;  // regularisation
   bool contradicted_ = false;
 };
 

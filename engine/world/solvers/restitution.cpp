@@ -1,7 +1,11 @@
 #include "engine/world/solvers/restitution.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "engine/core/union_find.h"
+#include "engine/world/contact_solver/impact_propagation.h"
+#include "engine/world/islands/hinge_trees.h"
 #include "engine/world/state/contacts.h"
 
 namespace plumb {
@@ -36,7 +40,61 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
   c.tangent_mass = inverse > 0 ? 1 / inverse : Real(0);
 }
 
+// Collects the joints, and what they hold together.
+template <class Real>
+void collect_joints(WorldData<Real>& w) {
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  room.group.clear(), room.joints.clear(), room.rows.clear();
+  if (w.joint_set.active_count() <= w.scratch.trees.hinges) return;
+  UnionFind groups(room.group, w.bodies.size());
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
+    if (!joint.active || !(a || b) || in_hinge_tree(w, a ? joint.body_a : joint.body_b)) return;
+    room.joints.push_back({.a = joint.body_a, .b = joint.body_b, .slot = joint.slot});
+    if (a && b) groups.join(joint.body_a, joint.body_b);
+  });
+  for (int body = 0; body < w.bodies.size(); ++body) room.group[body] = groups.find(body);
+}
+
+// Fills in the rows of the joints that impacts reach: those that are rigid, and limits that are reached.
+template <class Real>
+void fill_joint_rows(WorldData<Real>& w) {
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  for (ImpactJoint& joint : room.joints) {
+    joint.first_row = static_cast<int>(room.rows.size());
+    if (!room.reached[room.group[w.is_dynamic(joint.a) ? joint.a : joint.b]]) continue;
+    rows.clear();
+    w.joint_set.solver_rows(joint.slot, w.solver_bodies(), rows);
+    for (const JointSolverRow<Real>& from : rows) {
+      const bool limit = from.role == RowRole::Limit;
+      if (from.role != RowRole::Rigid && !(limit && from.row.residual <= 0)) continue;
+      BoundedRow row;
+      row.linear_a = from.row.linear_a.template as<double>();
+      row.linear_b = from.row.linear_b.template as<double>();
+      row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+      row.upper = std::numeric_limits<double>::infinity();
+      row.lower = limit ? 0 : -row.upper;
+      room.rows.push_back(row);
+    }
+    joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
+  }
+}
+
 }  // namespace
+
+template <class Real>
+void propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
+  const SolverBodies<Real> bodies = w.solver_bodies();
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  collect_joints(w);
+  if (!find_reached_contacts(bodies.motion, w.scratch.bounces, step, room)) return;
+  fill_joint_rows(w);
+  propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, step, room);
+}
+
+template void propagate_impacts(WorldData<float>&, const ContactStep<float>&);
+template void propagate_impacts(WorldData<double>&, const ContactStep<double>&);
 
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w) {

@@ -9,4 +9,8 @@ namespace plumb {
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w);
 
+/// Propagates the impacts of a substep, by contacts and by joints.
+template <class Real>
+void propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step);
+
 }  // namespace plumb

@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "engine/core/room.h"
-#include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
@@ -97,7 +96,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const auto place = [&] {
     strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
     if (!strikes) return;
-    propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, contacts, w.scratch.impacts);
+    propagate_impacts(w, contacts);
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {

@@ -209,16 +209,21 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   const bool asks_a = asked == contact.body_a;
   const int own = asks_a ? contact.shape_a : contact.shape_b,
             other = asks_a ? contact.shape_b : contact.shape_a;
+  // As `stays_beside` of either side, before anything is computed.
+  const bool both_dynamic = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b);
+  const auto may_be_beside = [&](int body) {
+    return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
+  };
   Side<Real> sides[2];
   bool looked = false;
   const auto look_at = [&](int shape) {
-    if (!w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
+    const int body = w.shapes[shape].body;
+    if (!may_be_beside(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
     if (!looked) {
       sides[0] = side_of(w, contact, false, b_in_a, manifold);
       sides[1] = side_of(w, contact, true, b_in_a, manifold);
       looked = true;
     }
-    const int body = w.shapes[shape].body;
     if (body != contact.body_b) ask(w, sides[0], shape);
     if (body != contact.body_a) ask(w, sides[1], shape);
   };

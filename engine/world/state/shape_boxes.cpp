@@ -24,7 +24,9 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
-  return stretched(box, (Real(tuning::kBoxSteps) * dt) * w.motion[body].velocity);
+  const bool alone = w.bodies[body].first_contact == kNone;
+  const Real steps = Real(alone ? tuning::kBoxSteps : tuning::kBoxStepsInCrowd);
+  return stretched(box, (steps * dt) * w.motion[body].velocity);
 }
 
 template <class Real>

@@ -24,13 +24,10 @@ bool flies_freely(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
   if (w.scratch.pressed[body] || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
-  bool held = false;
-  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
-    if (contact.home == ContactHome::Parked) held = true;
-    if (contact.home == ContactHome::Graph)
-      held = held || holds(w, w.graph.at({contact.colour, contact.index}));
+  return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
+    return contact.home == ContactHome::Parked ||
+           (contact.home == ContactHome::Graph && holds(w, w.graph.at({contact.colour, contact.index})));
   });
-  return !held;
 }
 
 // Adds a dynamic body to a list, unless it is in there.

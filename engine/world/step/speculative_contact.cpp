@@ -37,14 +37,12 @@ template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
-  bool pressed = false;
   if (record.constraints == 0) return true;
-  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
-    if (contact.home != ContactHome::Graph) return;
+  return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    pressed = pressed || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    return c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
   });
-  return !pressed;
 }
 
 // Returns the body's motion in the step, relative to `origin`.
@@ -140,10 +138,10 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
-  // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
-  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
+  // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
+  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
   const double time = static_cast<double>(dt);
   const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),
                       way_b = sweep_of(w, b, w.position[a], time);
