@@ -101,7 +101,7 @@ template <class Number, class Real, class Pair, class Contact, class Mask>
   const Number k_p = coupling(0), k_q = c.count == 2 ? coupling(1) : Number(0);
   const Number yields =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
-  // What turns aside, at least the masses along t give way. Two points close together have an inverse that is
+  // Bounds it by what gives way along t without turning. Two points close together have an inverse that is
   // lost to rounding.
   constexpr Real kLeast = Real(1) / 64;
   const Number gives =
