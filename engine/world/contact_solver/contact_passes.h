@@ -89,10 +89,10 @@ template <class Number, class Pair, class Contact>
 /// would have. What is left of it takes long to stop if the load is nearly the most that friction holds: a
 /// block would slide for millimetres. Contacts of which a point does not press are left as they are, since
 /// the tangential mass with both pressing would be too large for them.
-template <class Number, class Pair, class Contact, class Mask>
+template <class Number, class Real, class Pair, class Contact, class Mask>
 [[gnu::always_inline]] inline void begin_friction(Pair& pair, Contact& c, const Mask& fresh,
                                                   const Demand<Number>& at_p, const Demand<Number>& at_q) {
-  using std::min;
+  using std::max, std::min;
   constexpr int kRounds = 2;  // the second one for the bound, which follows from the normals
   const auto coupling = [&](int i) {
     return Number(pair.a.inverse_inertia * (c.arm_a[i] * c.arm_tangent_a) +
@@ -101,7 +101,12 @@ template <class Number, class Pair, class Contact, class Mask>
   const Number k_p = coupling(0), k_q = c.count == 2 ? coupling(1) : Number(0);
   const Number yields =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
-  const Number held_mass = c.tangent_mass / (Number(1) - c.tangent_mass * yields);
+  // Bounds it by what gives way along t without turning. Two points close together have an inverse that is
+  // lost to rounding.
+  constexpr Real kLeast = Real(1) / 64;
+  const Number gives =
+      max(Number(1) - c.tangent_mass * yields, c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass));
+  const Number held_mass = c.tangent_mass / max(gives, Number(kLeast));
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;
   Pair then = pair;
   for (int round = 0; round < kRounds; ++round) {
@@ -142,7 +147,7 @@ template <class Number, class Pair, class Contact, class Real>
   // rest within a few substeps.
   const Number change = c.tangent_impulse - before, some = Real(0.25) * c.friction * normal_sum(c);
   if (const auto fresh = change * change > before * before + some * some; any(fresh)) [[unlikely]]
-    begin_friction(pair, c, fresh, at_p, at_q);
+    begin_friction<Number, Real>(pair, c, fresh, at_p, at_q);
   const Number pressure = normal_sum(c);
   if (rolls(c)) {
     const Number inverse_spin_mass = pair.a.inverse_inertia + pair.b.inverse_inertia;

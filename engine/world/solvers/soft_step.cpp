@@ -105,14 +105,16 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
     repeat ? integrate_and_warm_start(w) : integrate_velocities(w);
-    // The last impulses of joints and contacts cancel only in the solve. Classify impacts before warm
-    // starting, so that these impulses are not mistaken for an approach.
+    // The last impulses cancel only in the solve. Find impacts before warm starting, so that these impulses
+    // are not mistaken for an approach: those of an impact threw heavy bodies up from light ones. Impulses
+    // that are repeated follow a substep without impacts.
+    const bool place_first = !repeat;
     note_free_velocities(w);
-    if (jointed) place();
+    if (place_first) place();
     if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     if (!repeat) passes.warm_start(bodies.motion, contacts);
-    if (!jointed) place();
+    if (!place_first) place();
     let_pass(w.scratch.bounces);
     if (jointed) w.joint_set.solve(bodies, joints);
     solve_direct_islands(w, contacts, true);
