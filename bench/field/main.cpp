@@ -185,6 +185,10 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
+  app.add_option("--threads", plan.settings.threads,
+                 "of engines that share a step among threads (1); --clock cpu adds them up")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N");
   app.add_option("--solver", options.solvers,
                  "solvers to run plumb with, each beside the others; all: every one (its default)")
       ->delimiter(',')

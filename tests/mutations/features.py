@@ -165,6 +165,7 @@ FEATURES = [
             "DrawRole::JointLine);", "", "world/debug_draw"),
 
     # Solvers.
+    feature("Threads", WORLD + "world.cpp", "crew.set_threads(threads); });", "crew.set_threads(1); });", "world/threads"),
     feature("Soft steps", WORLD + "solvers/soft_step.cpp", "passes.relax(bodies.motion, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "solvers/soft_step.cpp",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/core/room.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_pair.h"
@@ -17,6 +18,9 @@
 
 namespace plumb {
 namespace {
+
+// Contacts, and swept bodies, of a block: a thread needs 10 us or more for them.
+constexpr int kContactsOfBlock = 512, kSweptOfBlock = 16;
 
 // Prefetches the contacts of the next 8 swept bodies, one of each at a time, because contact
 // records are scattered in memory.
@@ -362,15 +366,57 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
 // Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
-  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+  const auto is_deep = [&](const ContactConstraint<Real>& c) {
     const Real depth = -std::min(c.now[0], c.now[1]);
-    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
+    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return false;
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool a_yields = w.is_dynamic(c.body_a), b_yields = w.is_dynamic(c.body_b);
     const Real limit =
         (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
-    if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
+    return depth > Real(0.5 * tuning::kCoreDepth) * limit;
+  };
+  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
+  runs.clear();
+  w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
+    const int count = static_cast<int>(colour.size());
+    for (int first = 0; first < count; first += kContactsOfBlock)
+      append(runs, ContactRun<Real>{colour.data() + first, std::min(kContactsOfBlock, count - first), 0});
   });
+  w.scratch.found_deep.begin(static_cast<int>(runs.size()));
+  w.crew.blocks(static_cast<int>(runs.size()), [&](int block) {
+    const ContactRun<Real>& run = runs[block];
+    for (int i = 0; i < run.count; ++i)
+      if (is_deep(run.first[i])) w.scratch.found_deep.add(block, run.first[i].contact);
+  });
+  w.scratch.found_deep.for_each([&](int contact) { append(w.scratch.deep_contacts, contact); });
+}
+
+// Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block searches with
+// the whole budget of iterations. Returns false if together they have taken more.
+template <class Real>
+bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
+  const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
+  std::vector<int>& taken = w.scratch.block_firsts;
+  make_room(taken, blocks);
+  w.scratch.found_toi_events.begin(blocks);
+  w.crew.blocks(blocks, [&](int block) {
+    ImpactSearch own = search;
+    ContactsAhead ahead;
+    for (int i = block * kSweptOfBlock; i < std::min(count, (block + 1) * kSweptOfBlock); ++i) {
+      ahead.advance(w, static_cast<std::size_t>(i));
+      if (!w.is_dynamic(w.scratch.swept_bodies[i].body)) continue;
+      const ToiEvent first = first_toi_event(w, i, 0, own);
+      if (first.fraction < 1) w.scratch.found_toi_events.add(block, first);
+    }
+    taken[block] = search.toi_iteration_budget - own.toi_iteration_budget;
+  });
+  std::int64_t all = 0;
+  for (int block = 0; block < blocks; ++block) all += taken[block];
+  if (all > search.toi_iteration_budget) return false;
+  search.toi_iteration_budget -= static_cast<int>(all);
+  w.scratch.found_toi_events.for_each(
+      [&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
+  return true;
 }
 
 // Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion, and does not hold
@@ -422,18 +468,16 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   if (!all_covered) show_ways(w);
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
   ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
-  ContactsAhead ahead;
-  const std::size_t fast_count = swept_bodies.size();
-  for (std::size_t i = 0; i < fast_count; ++i) {
-    ahead.advance(w, i);
-    const int place = static_cast<int>(i);
-    if (!w.is_dynamic(swept_bodies[i].body)) {
-      meet_pushers(w, place, search);
-      continue;
+  const int fast_count = static_cast<int>(swept_bodies.size());
+  if (!find_first_impacts(w, fast_count, search)) {
+    // Searches that need so much get what the ones before them have left.
+    for (int i = 0; i < fast_count; ++i) {
+      const ToiEvent first = first_toi_event(w, i, 0, search);
+      if (first.fraction < 1) append(w.scratch.toi_events, first);
     }
-    const ToiEvent first = first_toi_event(w, place, 0, search);
-    if (first.fraction < 1) w.scratch.toi_events.push_back(first);
   }
+  for (int i = 0; i < fast_count; ++i)
+    if (!w.is_dynamic(swept_bodies[i].body)) meet_pushers(w, i, search);
   meet_deep_contacts(w, search);
   if (!w.scratch.toi_events.empty()) {
     show_ways(w);

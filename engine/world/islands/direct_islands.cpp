@@ -31,6 +31,9 @@ int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
+// Returns true if an island of so many rows is solved directly.
+constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
+
 // Markers in island_size of an island with joints: solved by iterations; solved as one.
 constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
 
@@ -102,8 +105,10 @@ void find_islands(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
-  if (swept_joints(w) == 0) return;
-  choose_jointed(w);
+  if (swept_joints(w) > 0) choose_jointed(w);
+  w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
+    return is_direct(w.scratch.island_size[body]) || w.scratch.island_size[body] == kJointed;
+  });
 }
 
 template <class Island, class Real>
@@ -155,7 +160,7 @@ void fill_islands(WorldData<Real>& w) {
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
     if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
-    if (rows > 2 && rows <= tuning::kDirectRows)
+    if (is_direct(rows))
       island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
   if (swept_joints(w) == 0) return;
@@ -190,6 +195,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (w.graph.empty() && swept_joints(w) == 0) return;
   if (!w.scratch.islands_known) find_islands(w);
   w.scratch.islands_known = true;
+  if (!w.scratch.islands_chosen) return;
   fill_islands(w);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     DirectIsland<Real>& island = w.scratch.direct[i];
