@@ -12,6 +12,7 @@
 #include "engine/core/block_lists.h"
 #include "engine/core/crew.h"
 #include "engine/core/lazy_array.h"
+#include "engine/core/locked_pool.h"
 #include "engine/core/slot_map.h"
 #include "engine/linear_algebra/bounded_rows.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -294,7 +295,7 @@ struct Scratch {
   std::vector<int> island_joints;
   std::vector<JointSolverRow<Real>> joint_rows;
   /// Memory pool of small islands: islands that grow reuse the memory that others release.
-  std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
+  LockedPool room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
   std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use

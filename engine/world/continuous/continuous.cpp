@@ -445,6 +445,30 @@ void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
   }
 }
 
+// Adds the flights of the fast bodies. Returns true if their fat AABBs contained all of their motions.
+template <class Real>
+bool add_fast_bodies(WorldData<Real>& w, double dt) {
+  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  bool all_covered = true;
+  for (const FastBody& fast : w.scratch.fast_bodies) {
+    if (!w.settings.continuous && !fast.expected) continue;
+    w.scratch.swept_body_places[fast.body] = static_cast<int>(swept_bodies.size());
+    SweptBody flight;
+    flight.body = fast.body, flight.covered = fast.covered, flight.expected = fast.expected;
+    append(swept_bodies, flight);
+    all_covered = all_covered && fast.covered;
+  }
+  w.crew.ranges(static_cast<int>(swept_bodies.size()), kSweptOfBlock, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const SweptBody fast = swept_bodies[i];
+      swept_bodies[i] = flight_of(w, fast.body, dt);
+      set_arm(w, swept_bodies[i]);
+      swept_bodies[i].covered = fast.covered, swept_bodies[i].expected = fast.expected;
+    }
+  });
+  return all_covered;
+}
+
 }  // namespace
 
 template <class Real>
@@ -456,13 +480,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
   swept_bodies.clear(), w.scratch.toi_events.clear();
   w.scratch.swept_body_places.assign(w.bodies.size(), kNone);
-  bool all_covered = true;
-  for (const FastBody& fast : w.scratch.fast_bodies) {
-    if (!w.settings.continuous && !fast.expected) continue;
-    SweptBody& flight = swept_bodies[flight_place(w, fast.body, time)];
-    flight.covered = fast.covered, flight.expected = fast.expected;
-    all_covered = all_covered && fast.covered;
-  }
+  const bool all_covered = add_fast_bodies(w, time);
   for (SweptBody& flight : swept_bodies)
     if (!flight.covered) insert_swept_aabb(w, flight);
   if (!all_covered) show_ways(w);

@@ -185,6 +185,15 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
          row.angular_b * b.turned;
 }
 
+// Calls `act(island)` for the islands of contacts, which have no dynamic body in common: at once.
+template <class Real, class Act>
+void for_each_direct(WorldData<Real>& w, const Act& act) {
+  constexpr int kIslands = 2;
+  w.crew.ranges(w.scratch.direct_count, kIslands, [&](int first, int last) {
+    for (int i = first; i < last; ++i) act(w.scratch.direct[i]);
+  });
+}
+
 }  // namespace
 
 template <class Real>
@@ -197,24 +206,19 @@ void prepare_direct_islands(WorldData<Real>& w) {
   w.scratch.islands_known = true;
   if (!w.scratch.islands_chosen) return;
   fill_islands(w);
-  for (int i = 0; i < w.scratch.direct_count; ++i) {
-    DirectIsland<Real>& island = w.scratch.direct[i];
+  for_each_direct(w, [&](DirectIsland<Real>& island) {
     add_rows(island);
-    if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
-      give_up(w, island);
-      continue;
-    }
+    if (island.system.order(w.motion.data()) > tuning::kDirectCost) return give_up(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.factorise(w.motion.data());
-  }
+  });
   prepare_jointed_islands(w);
 }
 
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
-  for (int i = 0; i < w.scratch.direct_count; ++i) {
-    DirectIsland<Real>& island = w.scratch.direct[i];
-    if (island.system.rows.empty()) continue;  // solved by iterations
+  for_each_direct(w, [&](DirectIsland<Real>& island) {
+    if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;
     double push_speed = 0;
     for (ContactConstraint<Real>* c : island.contacts) {
@@ -233,7 +237,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
     } else if (island.system.contradicted()) {
       give_up(w, island);
     }
-  }
+  });
 }
 
 template <class Real>

@@ -76,6 +76,14 @@ void for_each_edge(Items& items, int first, Visit&& visit) {
   }
 }
 
+/// Returns true if `test(record)` is true of any contact or joint of a body's list.
+template <class Items, class Test>
+bool any_edge(const Items& items, int first, const Test& test) {
+  for (int edge = first; edge != kNone; edge = items[edge / 2].next[edge & 1])
+    if (test(items[edge / 2])) return true;
+  return false;
+}
+
 /// Returns true if `holds` is true of any item between two bodies. Walks both bodies' lists in parallel, and
 /// stops at the end of the shorter one.
 template <class Items, class Test>

@@ -37,14 +37,12 @@ template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
-  bool pressed = false;
   if (record.constraints == 0) return true;
-  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
-    if (contact.home != ContactHome::Graph) return;
+  return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    pressed = pressed || c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    return c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
   });
-  return !pressed;
 }
 
 // Returns the body's motion in the step, relative to `origin`.
