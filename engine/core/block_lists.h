@@ -29,8 +29,8 @@ class BlockLists {
     list.last->items[list.last->count++] = value;
   }
 
-  /// Keeps the values of a block for which `test(value)` is true. Calls `look(value)` some `kAhead` before, to
-  /// prefetch what the test reads.
+  /// Keeps the values of a block for which `test(value)` is true. Calls `look(value)` some `kAhead` before,
+  /// to prefetch what the test reads.
   template <int kAhead, class Look, class Test>
   void keep(int block, const Look& look, const Test& test) {
     List& list = lists_[static_cast<std::size_t>(block)];

@@ -72,8 +72,9 @@ class Crew {
     if (count == 1) return run(0);
     if (!shares()) return in_turn(count, run);
     session([&] {
-      share(count, [](void* r, int block) { (*static_cast<std::remove_reference_t<Run>*>(r))(block); },
-            address(run));
+      share(
+          count, [](void* r, int block) { (*static_cast<std::remove_reference_t<Run>*>(r))(block); },
+          address(run));
     });
   }
 

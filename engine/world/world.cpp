@@ -37,8 +37,7 @@ void set_crew(WorldData<Real>& w, const Set& set) {
   try {
     set(w.crew);
   } catch (const std::system_error& error) {
-    throw Error(Error::Kind::Run, "world", "threads", "",
-                std::string("cannot be started: ") + error.what());
+    throw Error(Error::Kind::Run, "world", "threads", "", std::string("cannot be started: ") + error.what());
   }
 }
 

@@ -277,14 +277,14 @@ struct Scratch {
   std::vector<int> queue;
   std::vector<std::pair<int, int>> found_pairs;
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
-  std::vector<char> meets;  ///< by proxy of the dynamic tree
+  std::vector<char> meets;                         ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
-  BlockLists<std::pair<int, int>> found_presses;  ///< bodies that a contact will press on
+  BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
   std::vector<ContactConstraint<Real>> left_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
-  std::vector<std::uint8_t> contact_changes;  ///< by contact that is updated: near ones, then the graph's
+  std::vector<std::uint8_t> contact_changes;   ///< by contact that is updated: near ones, then the graph's
   std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
   std::vector<int> block_firsts;               ///< by block of a loop: where its results begin
@@ -321,8 +321,8 @@ struct Scratch {
   std::vector<FastBody> fast_bodies;
   std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores
   std::vector<SweptBody> swept_bodies;
-  std::vector<int> stopped;            ///< swept bodies that are being stopped together
-  std::vector<ToiEvent> toi_events;    ///< a heap, earliest on top
+  std::vector<int> stopped;          ///< swept bodies that are being stopped together
+  std::vector<ToiEvent> toi_events;  ///< a heap, earliest on top
   BlockLists<int> found_deep;
   BlockLists<ToiEvent> found_toi_events;
   std::vector<int> swept_body_places;  ///< by body: index of its swept body, during continuous collision
@@ -378,7 +378,7 @@ struct WorldData {
   bool stepping = false;
   bool profiled = false;  ///< stages are timed
   WorldProfile profile{};
-  Crew crew;  ///< the threads that share a step
+  Crew crew;                            ///< the threads that share a step
   mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
   bool abandoned = false;               ///< its owner is gone; the last of these deletes it
   bool reports_hits = false;            ///< a shape has hit events

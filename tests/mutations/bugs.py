@@ -152,7 +152,7 @@ MUTATIONS = [
              "if (!joint.active || !w.is_dynamic(other) || seen[other]) return;", "if (other != body) return;", "world",
              ("world/continuous",)),
     Mutation("world: what moves as told passes over what stands", "engine/world/continuous/continuous.cpp",
-             "meet_pushers(w, place, search);", "", "world", ("world/continuous",)),
+             "meet_pushers(w, i, search);", ";", "world", ("world/continuous",)),
     Mutation("world: who may meet others is passed over where nothing stands", "engine/world/step/pairs.cpp",
              "!grounds && w.scratch.meets[record.proxy] == 0", "!grounds", "world"),
     Mutation("world: what lands wakes nobody", "engine/world/state/contacts.cpp",

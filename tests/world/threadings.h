@@ -25,10 +25,11 @@ class OddTasks {
                   static_cast<OddTasks*>(self)->start(task, data, count);
                   return self;
                 },
-            .finish = [](void* self, void* started) {
-              EXPECT_EQ(started, self);
-              static_cast<OddTasks*>(self)->finish();
-            },
+            .finish =
+                [](void* self, void* started) {
+                  EXPECT_EQ(started, self);
+                  static_cast<OddTasks*>(self)->finish();
+                },
             .user = this};
   }
 

@@ -5,43 +5,31 @@
 
 #include "engine/world/world.h"
 
-// The least job system: a thread for each task. A game hands its tasks to the threads that it has.
-struct Jobs {
-  std::vector<std::thread> running;
+std::vector<std::thread> jobs;  // the least job system: a thread for each task
 
-  plumb::TaskSystem tasks() {
-    return {.start =
-                [](void* user, plumb::TaskSystem::Task task, void* data, int count) -> void* {
-                  Jobs& jobs = *static_cast<Jobs*>(user);
-                  for (int i = 0; i < count; ++i) jobs.running.emplace_back(task, data, i);
-                  return nullptr;
-                },
-            .finish =
-                [](void* user, void*) {
-                  Jobs& jobs = *static_cast<Jobs*>(user);
-                  for (std::thread& job : jobs.running) job.join();
-                  jobs.running.clear();
-                },
-            .user = this};
-  }
-};
+void* start(void*, plumb::TaskSystem::Task task, void* data, int count) {
+  for (int i = 0; i < count; ++i) jobs.emplace_back(task, data, i);
+  return nullptr;  // or what `finish` needs
+}
 
-void fill(plumb::World& world) {
+void finish(void*, void*) {
+  for (std::thread& job : jobs) job.join();
+  jobs.clear();
+}
+
+void play(plumb::World& world) {
   world.create_body({.type = plumb::BodyType::Static, .position = {0, -1}}, {.geometry = plumb::Box{400, 2}});
   for (int i = 0; i < 1000; ++i) {
     world.create_body({.position = {0.7 * (i % 50) + 0.1 * (i / 50), 0.5 + 0.6 * (i / 50)}},
                       {.geometry = plumb::Box{0.5, 0.5}});
   }
+  for (int i = 0; i < 60; ++i) world.step();
 }
 
 int main() {
   plumb::World alone, pooled({.threads = 2}), hosted({.threads = 3});
-  Jobs jobs;  // outlives the steps
-  hosted.set_task_system(jobs.tasks());
-  for (plumb::World* world : {&alone, &pooled, &hosted}) {
-    fill(*world);
-    for (int i = 0; i < 60; ++i) world->step();
-  }
+  hosted.set_task_system({.start = start, .finish = finish});
+  for (plumb::World* world : {&alone, &pooled, &hosted}) play(*world);
   const bool same = pooled.hash() == alone.hash() && hosted.hash() == alone.hash();
   std::printf("%d, %d and %d threads: %s hashes\n", alone.threads(), pooled.threads(), hosted.threads(),
               same ? "equal" : "different");

@@ -63,8 +63,8 @@ class SoftContacts {
     Run place{};  ///< of its first block, and its first contact that is alone
   };
 
-  static constexpr int kKinds = 16;       ///< of contacts that share a block
-  static constexpr int kAlone = kKinds;   ///< stands for those that share none
+  static constexpr int kKinds = 16;      ///< of contacts that share a block
+  static constexpr int kAlone = kKinds;  ///< stands for those that share none
   static constexpr int kSegment = 1024;  ///< contacts; of each kind a last block may be partly filled
 
   /// Returns the kind of a contact.

@@ -414,8 +414,7 @@ bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   for (int block = 0; block < blocks; ++block) all += taken[block];
   if (all > search.toi_iteration_budget) return false;
   search.toi_iteration_budget -= static_cast<int>(all);
-  w.scratch.found_toi_events.for_each(
-      [&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
+  w.scratch.found_toi_events.for_each([&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
   return true;
 }
 

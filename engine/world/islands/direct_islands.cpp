@@ -160,8 +160,7 @@ void fill_islands(WorldData<Real>& w) {
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
     if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
-    if (is_direct(rows))
-      island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
+    if (is_direct(rows)) island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
   if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {

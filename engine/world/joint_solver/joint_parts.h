@@ -40,7 +40,8 @@ struct JointRun {
 /// Hinges are solved four at a time.
 inline constexpr int kHingesOfTask = 128, kJointsOfTask = 16;
 
-/// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared by a crew if they have a colour.
+/// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared by a crew if they have a
+/// colour.
 template <class Visit>
 void share_run(JointRun run, int count, Crew* crew, const Visit& visit) {
   const int grain = run.form == kHinge ? kHingesOfTask : kJointsOfTask;

@@ -73,14 +73,15 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_a
 
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
 /// references. It excludes the pre-solve hook and the user's combine rules, which are code, the profile, the
-/// threads, and scratch data. A new member of WorldData must be named here, and returned unless it is one of those.
+/// threads, and scratch data. A new member of WorldData must be named here, and returned unless it is one of
+/// those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
          shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near, graph, parked,
-         joints, joint_set, sensors, breakable, quarantine, events, pending, stepping, profiled, profile, crew,
-         callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
+         joints, joint_set, sensors, breakable, quarantine, events, pending, stepping, profiled, profile,
+         crew, callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
          restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes,

@@ -29,7 +29,8 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
-/// Stores a fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds the shape to the move buffer.
+/// Stores a fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds the shape to the move
+/// buffer.
 template <class Real, class Tree>
 void store_fat_aabb(WorldData<Real>& w, int shape, const Aabb<Real>& box, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];

@@ -130,7 +130,7 @@ bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
   return contact.pre_solve && w.pre_solve;
 }
 
-// What an update has found of a contact.
+// Flags of what an update has found of a contact.
 enum ContactChange : std::uint8_t {
   kTouchChange = 1,  // it begins or ends to touch
   kLost = 2,         // its fat AABBs have separated
@@ -292,8 +292,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
     }
     const ContactRun<Real>& run = runs[block - near_blocks];
     for (int i = 0; i < run.count; ++i)
-      changes[run.place + i] =
-          static_cast<std::uint8_t>(update_constraint(w, block, run.first[i], dt, h));
+      changes[run.place + i] = static_cast<std::uint8_t>(update_constraint(w, block, run.first[i], dt, h));
   };
   const auto settle = [&](int block) { settle_impulses(w, runs[block], dt); };
   const int run_count = static_cast<int>(runs.size());
