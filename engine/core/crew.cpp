@@ -1,6 +1,7 @@
 #include "engine/core/crew.h"
 
 #include <atomic>
+#include <cfenv>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -12,6 +13,22 @@
 
 namespace plumb {
 namespace {
+
+// While this guard is alive, the thread computes as another one does: rounds, and treats numbers that are
+// nearly 0, in the same way.
+class Computing {
+ public:
+  explicit Computing(const std::fenv_t& as) {
+    std::fegetenv(&own_);
+    std::fesetenv(&as);
+  }
+  ~Computing() { std::fesetenv(&own_); }
+  Computing(const Computing&) = delete;
+  Computing& operator=(const Computing&) = delete;
+
+ private:
+  std::fenv_t own_;
+};
 
 // Looks before a thread that waits for another one's last block gives the processor away: some 10 us, longer
 // than nearly all blocks take.
@@ -53,7 +70,13 @@ struct Crew::Shared {
     }
   }
 
-  // The task that each thread of a session runs.
+  // The task of another thread.
+  void join_as_caller_computes(int own) {
+    const Computing computing(environment);
+    join(own);
+  }
+
+  // What each thread of a session does.
   void join(int own) {
     if (!led.exchange(true, std::memory_order_acq_rel)) {
       leader = own;
@@ -90,6 +113,7 @@ struct Crew::Shared {
   void (*body)(void*) = nullptr;
   void* body_data = nullptr;
   std::exception_ptr body_failure;
+  std::fenv_t environment{};  ///< in which the calling thread computes
   int leader = 0;
   std::atomic<bool> led{false}, closed{false};
   alignas(64) std::atomic<int> loop{0};  ///< changes with each loop, and at the end
@@ -148,9 +172,11 @@ void Crew::open(void (*body)(void*), void* data) {
   Shared& s = *shared_;
   s.body = body, s.body_data = data, s.body_failure = nullptr;
   s.led.store(false, std::memory_order_relaxed), s.closed.store(false, std::memory_order_relaxed);
+  std::fegetenv(&s.environment);
   s.open = true;
   void* const started = s.tasks.start(
-      s.tasks.user, [](void* all, int item) { static_cast<Shared*>(all)->join(item + 1); }, &s, threads_ - 1);
+      s.tasks.user, [](void* all, int item) { static_cast<Shared*>(all)->join_as_caller_computes(item + 1); },
+      &s, threads_ - 1);
   s.join(0);
   s.tasks.finish(s.tasks.user, started);
   s.open = false;
