@@ -149,8 +149,9 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
 }  // namespace
 
 template <class Real>
-int SoftContacts<Real>::kind_of(const ContactConstraint<Real>& c, const BodyMotion<Real>* motion,
-                                const std::vector<char>& apart) {
+[[gnu::always_inline]] inline int SoftContacts<Real>::kind_of(const ContactConstraint<Real>& c,
+                                                              const BodyMotion<Real>* motion,
+                                                              const std::vector<char>& apart) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
   const bool stays_alone = c.hardness == ContactHardness::Rigid || c.restitution > 0 || stopped_rolling ||
                            (!apart.empty() && apart[c.contact]);
@@ -284,8 +285,9 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
 
 template <class Real>
 template <class Pass, int kBytes>
-void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
-                                    const ContactStep<Real>& step) {
+[[gnu::always_inline]] inline void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to,
+                                                                  BodyMotion<Real>* motion,
+                                                                  const ContactStep<Real>& step) {
   Block<kBytes>* const list = blocks.list.data();
   if (from.blocks < to.blocks)
     Loops<Number<kBytes>, Real>::template run<Pass>(motion, list + from.blocks, list + to.blocks, step);
@@ -294,8 +296,9 @@ void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, Bo
 
 template <class Real>
 template <class Pass, int kBytes>
-void SoftContacts<Real>::share_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
-                                      const ContactStep<Real>& step) {
+[[gnu::noinline]] void SoftContacts<Real>::share_colour(Blocks<kBytes>& blocks, Run from, Run to,
+                                                        BodyMotion<Real>* motion,
+                                                        const ContactStep<Real>& step) {
   const int of_blocks = (to.blocks - from.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
             of_alone = (to.alone - from.alone + kAloneOfTask - 1) / kAloneOfTask;
   if (!to.has_colour || of_blocks + of_alone < 2) return run_colour<Pass>(blocks, from, to, motion, step);
@@ -324,14 +327,22 @@ template <class Pass>
     });
     return;
   }
-  Run done;
-  for (const Run& to : runs_) {
-    if (width_ == VectorWidth::Bytes32) {
-      share_colour<Pass>(blocks32_, done, to, motion, step);
-    } else {
-      share_colour<Pass>(blocks16_, done, to, motion, step);
+  const bool shares = crew_->shares();
+  const auto run_all = [&](auto& blocks) __attribute__((always_inline)) {
+    Run done;
+    for (const Run& to : runs_) {
+      if (shares) {
+        share_colour<Pass>(blocks, done, to, motion, step);
+      } else {
+        run_colour<Pass>(blocks, done, to, motion, step);
+      }
+      done = to;
     }
-    done = to;
+  };
+  if (width_ == VectorWidth::Bytes32) {
+    run_all(blocks32_);
+  } else {
+    run_all(blocks16_);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -375,6 +376,12 @@ void find_deep_contacts(WorldData<Real>& w) {
         (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
     return depth > Real(0.5 * tuning::kCoreDepth) * limit;
   };
+  if (!w.crew.shares()) {
+    w.graph.for_each([&](const ContactConstraint<Real>& c) {
+      if (is_deep(c)) w.scratch.deep_contacts.push_back(c.contact);
+    });
+    return;
+  }
   std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
   runs.clear();
   w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
@@ -392,28 +399,27 @@ void find_deep_contacts(WorldData<Real>& w) {
 }
 
 // Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block searches with
-// the whole budget of iterations. Returns false if together they have taken more.
+// the whole budget of iterations. Returns false as soon as together they have taken more.
 template <class Real>
 bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
-  std::vector<int>& taken = w.scratch.block_firsts;
-  make_room(taken, blocks);
+  std::atomic<std::int64_t> taken{0};
   w.scratch.found_toi_events.begin(blocks);
   w.crew.blocks(blocks, [&](int block) {
-    ImpactSearch own = search;
     ContactsAhead ahead;
     for (int i = block * kSweptOfBlock; i < std::min(count, (block + 1) * kSweptOfBlock); ++i) {
       ahead.advance(w, static_cast<std::size_t>(i));
       if (!w.is_dynamic(w.scratch.swept_bodies[i].body)) continue;
+      if (taken.load(std::memory_order_relaxed) > search.toi_iteration_budget) return;
+      ImpactSearch own = search;
       const ToiEvent first = first_toi_event(w, i, 0, own);
       if (first.fraction < 1) w.scratch.found_toi_events.add(block, first);
+      const int iterations = search.toi_iteration_budget - own.toi_iteration_budget;
+      if (iterations > 0) taken.fetch_add(iterations, std::memory_order_relaxed);
     }
-    taken[block] = search.toi_iteration_budget - own.toi_iteration_budget;
   });
-  std::int64_t all = 0;
-  for (int block = 0; block < blocks; ++block) all += taken[block];
-  if (all > search.toi_iteration_budget) return false;
-  search.toi_iteration_budget -= static_cast<int>(all);
+  if (taken.load() > search.toi_iteration_budget) return false;
+  search.toi_iteration_budget -= static_cast<int>(taken.load());
   w.scratch.found_toi_events.for_each([&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
   return true;
 }

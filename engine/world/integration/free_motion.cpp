@@ -128,7 +128,9 @@ template <class Real, class Visit>
 void for_each_kick(WorldData<Real>& w, const Visit& visit) {
   std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   w.crew.ranges(static_cast<int>(kicks.size()), kBodies, [&](int first, int last) {
-    for (int i = first; i < last; ++i) visit(kicks[i]);
+    const Visit own = visit;  // a copy, which no other pointer reaches
+    VelocityIncrement<Real>* const list = kicks.data();
+    for (int i = first; i < last; ++i) own(list[i]);
   });
 }
 
@@ -168,7 +170,8 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
   const PrefetchAwakeBodies<Real> ahead(w);
   const int count = static_cast<int>(w.awake.size());
   // Moves a body that flies, or hands its increment on.
-  const auto prepare = [&](int place, const auto& add) {
+  const auto prepare = [&w, &ahead, h, dt, gain, loaded, articulated, integrator](int place,
+                                                                                  const auto& add) {
     ahead.prefetch_motion(place);
     const int body = w.awake[place];
     const BodyRecord<Real>& record = w.bodies[body];
@@ -209,7 +212,7 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for_each_kick(w, [&](VelocityIncrement<Real>& kick) {
+  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
     if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     apply(kick, motion);
@@ -219,7 +222,7 @@ void integrate_velocities(WorldData<Real>& w) {
 
 template <class Real>
 void integrate_and_warm_start(WorldData<Real>& w) {
-  for_each_kick(w, [&](VelocityIncrement<Real>& kick) {
+  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
     if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     const Vec2<Real> gained = motion.velocity - kick.velocity_before;
@@ -233,7 +236,7 @@ void integrate_and_warm_start(WorldData<Real>& w) {
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
   const Real share = Real(share_before(integrator));
-  for_each_kick(w, [&](const VelocityIncrement<Real>& kick) {
+  for_each_kick(w, [&w, h, share](const VelocityIncrement<Real>& kick) {
     if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;

@@ -69,7 +69,9 @@ template <class Parts, class F>
   parts.with(run.form, [&](auto& lists) {
     auto& list = lists[run.colour];
     share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-      for (int i = first; i < last; ++i) f(list[static_cast<std::size_t>(i)]);
+      F own = f;  // a copy, which no other pointer reaches
+      auto* const end = list.data() + last;
+      for (auto* constraint = list.data() + first; constraint != end; ++constraint) own(*constraint);
     });
   });
 }

@@ -282,6 +282,9 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
   scratch.found_presses.begin(blocks);
   std::uint8_t* const changes = scratch.contact_changes.data();
+  // By run: what has changed of any of its contacts.
+  std::vector<int>& any = scratch.block_firsts;
+  any.assign(runs.size(), 0);
   const auto update = [&](int block) {
     if (block < near_blocks) {
       for (int i = block * kNearOfBlock; i < std::min(near, (block + 1) * kNearOfBlock); ++i) {
@@ -290,11 +293,20 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
       }
       return;
     }
-    const ContactRun<Real>& run = runs[block - near_blocks];
-    for (int i = 0; i < run.count; ++i)
-      changes[run.place + i] = static_cast<std::uint8_t>(update_constraint(w, block, run.first[i], dt, h));
+    const ContactRun<Real> run = runs[block - near_blocks];
+    std::uint8_t* const noted = changes + run.place;
+    int all = 0;
+    for (int i = 0; i < run.count; ++i) {
+      const int change = update_constraint(w, block, run.first[i], dt, h);
+      if (change == 0) continue;
+      noted[i] = static_cast<std::uint8_t>(change);
+      all |= change;
+    }
+    any[block - near_blocks] = all;
   };
-  const auto settle = [&](int block) { settle_impulses(w, runs[block], dt); };
+  const auto settle = [&](int block) {
+    if ((any[block] & kRenewed) != 0) settle_impulses(w, runs[block], dt);
+  };
   const int run_count = static_cast<int>(runs.size());
   const Crew::Alone alone(w.crew, w.has_rules());
   w.crew.session([&] {
@@ -357,7 +369,10 @@ void collect_changes(WorldData<Real>& w) {
   for (std::size_t i = 0; i < w.near.size(); ++i)
     if (changes[i] != 0) append(scratch.lost_contacts, w.near[i]);
   constexpr int kNoted = kTouchChange | kLost | kEnded | kBounces;
-  for (const ContactRun<Real>& run : scratch.contact_runs) {
+  for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
+    const ContactRun<Real>& run = scratch.contact_runs[block];
+    // What was rebuilt may bounce.
+    if ((scratch.block_firsts[block] & (kNoted | kRenewed)) == 0) continue;
     for (int i = 0; i < run.count; ++i) {
       const int change = changes[run.place + i];
       if ((change & kNoted) == 0) continue;
@@ -405,6 +420,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
   scratch.bouncing.clear();
   clear_expected_impacts(w);
+  if (w.near.empty() && w.graph.empty()) return;
   try {
     update_each(w, dt, h);
     ask_hook(w, dt);

@@ -83,6 +83,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
 
 template <class Real>
 void find_pairs(WorldData<Real>& w) {
+  if (w.move_buffer.empty()) return;
   const bool marked = mark_self_overlaps(w);
   const bool grounds = w.static_tree.size() > 0;
   const int blocks = static_cast<int>((w.move_buffer.size() + kMovedOfBlock - 1) / kMovedOfBlock);

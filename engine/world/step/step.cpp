@@ -131,7 +131,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   const Stepping<Real> stepping(w);
   StageClock<Real> clock(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
-  w.crew.set_busy(is_worth_sharing(w));
+  w.crew.set_busy(w.crew.threads() > 1 && is_worth_sharing(w));
   find_pairs(w), clock.end(WorldStage::BroadPhase);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
