@@ -457,12 +457,18 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
   bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
     if (!w.settings.continuous && !fast.expected) continue;
+    all_covered = all_covered && fast.covered;
+    if (!w.crew.shares()) {
+      SweptBody& flight = swept_bodies[flight_place(w, fast.body, dt)];
+      flight.covered = fast.covered, flight.expected = fast.expected;
+      continue;
+    }
     w.scratch.swept_body_places[fast.body] = static_cast<int>(swept_bodies.size());
     SweptBody flight;
     flight.body = fast.body, flight.covered = fast.covered, flight.expected = fast.expected;
     append(swept_bodies, flight);
-    all_covered = all_covered && fast.covered;
   }
+  if (!w.crew.shares()) return all_covered;
   w.crew.ranges(static_cast<int>(swept_bodies.size()), kSweptOfBlock, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       const SweptBody fast = swept_bodies[i];
@@ -492,9 +498,11 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
   ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
   const int fast_count = static_cast<int>(swept_bodies.size());
-  if (!find_first_impacts(w, fast_count, search)) {
-    // Searches that need so much get what the ones before them have left.
+  if (!w.crew.shares() || !find_first_impacts(w, fast_count, search)) {
+    // Each search gets of the budget what the ones before it have left.
+    ContactsAhead ahead;
     for (int i = 0; i < fast_count; ++i) {
+      ahead.advance(w, static_cast<std::size_t>(i));
       const ToiEvent first = first_toi_event(w, i, 0, search);
       if (first.fraction < 1) append(w.scratch.toi_events, first);
     }
