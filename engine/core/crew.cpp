@@ -76,7 +76,7 @@ struct Crew::Shared {
     join(own);
   }
 
-  // What each thread of a session does.
+  // Runs the session on the thread that comes first; others take part in its loops.
   void join(int own) {
     if (!led.exchange(true, std::memory_order_acq_rel)) {
       leader = own;

@@ -371,7 +371,7 @@ void collect_changes(WorldData<Real>& w) {
   constexpr int kNoted = kTouchChange | kLost | kEnded | kBounces;
   for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
     const ContactRun<Real>& run = scratch.contact_runs[block];
-    // What was rebuilt may bounce.
+    // Rebuilt contacts may bounce, too.
     if ((scratch.block_firsts[block] & (kNoted | kRenewed)) == 0) continue;
     for (int i = 0; i < run.count; ++i) {
       const int change = changes[run.place + i];
