@@ -245,6 +245,10 @@ template <class Real>
 void find_contact_runs(WorldData<Real>& w) {
   std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
   runs.clear();
+  // First of all: if memory runs out, nothing is noted of any run.
+  std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
+  make_room(changes, static_cast<int>(w.near.size() + w.graph.size()));
+  std::fill(changes.begin(), changes.end(), std::uint8_t{0});
   int place = static_cast<int>(w.near.size());
   w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
     const int count = static_cast<int>(colour.size());
@@ -254,9 +258,6 @@ void find_contact_runs(WorldData<Real>& w) {
       place += size;
     }
   });
-  std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
-  make_room(changes, place);
-  std::fill(changes.begin(), changes.end(), std::uint8_t{0});
 }
 
 // Gives the contacts of a run that were rebuilt their impulses.
