@@ -19,7 +19,7 @@ std::span<const Engine> engines() {
       {"chipmunk", "7", "install libchipmunk-dev and build again", nullptr},
 #endif
 #ifdef PLUMB_FIELD_PLUMB
-      {"plumb", PLUMB_FIELD_PLUMB, "", create_plumb, plumb_solvers()},
+      {"plumb", PLUMB_FIELD_PLUMB, "", create_plumb, plumb_solvers(), "", true},
 #else
       {"plumb", "", "this checkout has no engine/world/world.h", nullptr},
 #endif
@@ -31,6 +31,13 @@ Engine with_solver(const Engine& engine, const std::string& solver) {
   Engine out = engine;
   out.name += ":" + solver;
   out.solver = solver;
+  return out;
+}
+
+Engine with_threads(const Engine& engine, int threads) {
+  Engine out = engine;
+  if (threads > 1) out.name += ":" + std::to_string(threads);
+  out.threads = threads;
   return out;
 }
 

@@ -17,6 +17,8 @@ struct Engine {
   std::unique_ptr<FieldWorld> (*create)(const WorldSettings&) = nullptr;
   std::vector<std::string> solvers{};  ///< names of its solvers, if there are several
   std::string solver{};                ///< the solver in use; empty: its default
+  bool shares_steps = false;           ///< its worlds may share a step among threads
+  int threads = 1;                     ///< that do
 };
 
 /// Returns all known engines, built in or not, the yardstick first.
@@ -24,5 +26,8 @@ std::span<const Engine> engines();
 
 /// Returns `engine` with one of its solvers, called "engine:solver".
 Engine with_solver(const Engine& engine, const std::string& solver);
+
+/// Returns `engine` with so many threads, called "engine:2" if there are two.
+Engine with_threads(const Engine& engine, int threads);
 
 }  // namespace plumb::field

@@ -17,6 +17,7 @@ struct WorldSettings {
   int velocity_iterations = 8, position_iterations = 3;  ///< of Box2D 2.4
   int iterations = 10;                                   ///< of Chipmunk, and of plumb's iterative solvers
   std::string solver{};                                  ///< of plumb, by its name; empty: its default
+  int threads = 1;                                       ///< of engines that share a step among threads
   bool sleeping = false;
   bool continuous = true;
 };

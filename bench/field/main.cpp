@@ -30,6 +30,7 @@ constexpr const char* kFooter =
     "  plumb_field large_pyramid tumbler --repeat 5\n"
     "  plumb_field joint_grid --engine box2d --engine chipmunk --format csv\n"
     "  plumb_field chain_10 --engine plumb --solver soft_steps,direct,xpbd\n"
+    "  plumb_field tumbler --engine plumb --threads 1,2\n"
     "Times are medians over the repetitions; speed is Box2D's time over the engine's. Depths and joints' "
     "gaps are\n"
     "the worst and the mean of ten looks at the run, heights and speeds those at its end. See "
@@ -47,6 +48,7 @@ struct Stop : std::runtime_error {
 struct Options {
   std::vector<std::string> scenes, engines, solvers;
   std::string format = "table", continuous = "scene", clock = "wall";
+  std::vector<int> threads;
   int steps = 0;
   bool list = false, sleeping = false;
 };
@@ -105,6 +107,19 @@ std::vector<Engine> by_solver(const std::vector<const Engine*>& chosen,
     const bool all = std::ranges::find(names, "all") != names.end();
     for (const std::string& solver : all ? engine->solvers : names)
       out.push_back(with_solver(*engine, solver));
+  }
+  return out;
+}
+
+/// Returns each engine that shares steps once for each number of threads, the others unchanged.
+std::vector<Engine> by_threads(const std::vector<Engine>& chosen, const std::vector<int>& numbers) {
+  std::vector<Engine> out;
+  for (const Engine& engine : chosen) {
+    if (numbers.empty() || !engine.shares_steps) {
+      out.push_back(engine);
+      continue;
+    }
+    for (const int threads : numbers) out.push_back(with_threads(engine, threads));
   }
   return out;
 }
@@ -185,6 +200,11 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
+  app.add_option("--threads", options.threads,
+                 "that share a step of plumb, each number beside the others (1); --clock cpu adds them up")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->type_name("N");
   app.add_option("--solver", options.solvers,
                  "solvers to run plumb with, each beside the others; all: every one (its default)")
       ->delimiter(',')
@@ -218,7 +238,8 @@ int parse_and_run(int argc, char** argv) {
   plan.scenes = select(std::span<const Scene>(scenes()), options.scenes, "scene");
   if (options.scenes.empty())
     std::erase_if(plan.scenes, [](const Scene* scene) { return scene->on_request; });
-  const std::vector<Engine> engines = by_solver(select_engines(options.engines), options.solvers);
+  const std::vector<Engine> engines =
+      by_threads(by_solver(select_engines(options.engines), options.solvers), options.threads);
   for (const Engine& engine : engines) plan.engines.push_back(&engine);
   if (options.steps > 0) plan.steps = options.steps;
   if (options.continuous != "scene") plan.continuous = options.continuous == "on";

@@ -79,6 +79,7 @@ class Run {
   static WorldSettings settings_of(const Scene& scene, const Engine& engine, const Plan& plan) {
     WorldSettings out = plan.settings;
     out.solver = engine.solver;
+    out.threads = engine.threads;
     out.gravity = scene.gravity;
     out.continuous = plan.continuous.value_or(scene.continuous);
     return out;

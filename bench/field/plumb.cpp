@@ -57,7 +57,8 @@ class PlumbWorld final : public FieldWorld {
                 .continuous = settings.continuous,
                 .solver = solver_of(settings.solver).value_or(Solver::SoftSteps),
                 .iterations = settings.iterations,
-                .quarantine = false}) {}
+                .quarantine = false,
+                .threads = settings.threads}) {}
 
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                          const MassProperties& mass) override {
@@ -120,7 +121,7 @@ class PlumbWorld final : public FieldWorld {
             {"iterations", sweeps() ? std::to_string(settings_.iterations) : "none"},
             {"continuous", settings_.continuous ? "on" : "off"},
             {"sleeping", settings_.sleeping ? "on" : "off"},
-            {"threads", "1"},
+            {"threads", std::to_string(settings_.threads)},
             {"friction", "geometric mean"},
             {"restitution", "the larger"},
             {"joints_between_static_bodies", "left out"}};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/crew.h"
 #include "engine/core/text.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
@@ -22,10 +23,10 @@ constexpr double kLeastTolerance = 1e-12;
 /// A world's limit.
 constexpr int kMost = 1000;
 
-void require_at_least_one(int value, const char* field) {
-  if (value >= 1 && value <= kMost) return;
+void require_at_least_one(int value, const char* field, int most = kMost) {
+  if (value >= 1 && value <= most) return;
   throw Error(Error::Kind::Value, "realtime", field, std::to_string(value),
-              "must be a number from 1 to 1000");
+              "must be a number from 1 to " + std::to_string(most));
 }
 
 void require_known(int value, int last, const char* field, const char* driver = "realtime") {
@@ -90,6 +91,7 @@ void validate(const Accuracy& accuracy) {
   require_positive(realtime.dt, "realtime", "dt", " of seconds");
   require_at_least_one(realtime.substeps, "substeps");
   require_at_least_one(realtime.iterations, "iterations");
+  require_at_least_one(realtime.threads, "threads", Crew::kMostThreads);
   require_known(static_cast<int>(realtime.precision), static_cast<int>(Precision::Double), "precision");
   require_known(static_cast<int>(realtime.integrator), static_cast<int>(Integrator::ExplicitEuler),
                 "integrator");

@@ -29,6 +29,7 @@ struct Realtime {
   bool continuous = true;  ///< continuous collision
   bool sleeping = false;   ///< islands at rest fall asleep
   OnViolation on_violation = OnViolation::Ignore;
+  int threads = 1;  ///< that share a step, 1..64: each number gives the same bits
   friend bool operator==(const Realtime&, const Realtime&) = default;
 };
 

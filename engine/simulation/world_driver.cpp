@@ -19,6 +19,7 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
   definition.solver = accuracy.solver;
   definition.integrator = accuracy.integrator;
   definition.iterations = accuracy.iterations;
+  definition.threads = accuracy.threads;
   definition.quarantine = false;  // a run with a body missing is another scene's
   return definition;
 }

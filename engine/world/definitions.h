@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/task_system.h"
 #include "engine/joints/definitions.h"
 #include "engine/scene/scene.h"
 #include "engine/world/integrator.h"
@@ -105,6 +106,10 @@ struct WorldDefinition {
   int iterations = 10;         ///< iterations a substep, 1..1000: SequentialImpulses and Jakobsen
   bool direct_islands = true;  ///< SoftSteps solves small islands directly that iterations would not hold
   bool quarantine = true;      ///< takes non-finite bodies out of the simulation; false: Error ends the step
+  /// Threads that share a step, 1..64: the calling one, and a pool of the world's own or a game's
+  /// (BasicWorld::set_task_system). Each number gives the same bits; snapshots and recordings do not have it.
+  /// Small worlds are stepped by the calling thread alone.
+  int threads = kUsualThreads;
 };
 
 }  // namespace plumb

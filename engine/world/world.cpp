@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "engine/math/trigonometry.h"
@@ -30,12 +31,24 @@ namespace {
   throw Error(Error::Kind::Name, "world", "", "", "was moved to another variable; use that one");
 }
 
+// Changes the threads of a world by `set`.
+template <class Real, class Set>
+void set_crew(WorldData<Real>& w, const Set& set) {
+  try {
+    set(w.crew);
+  } catch (const std::system_error& error) {
+    throw Error(Error::Kind::Run, "world", "threads", "", std::string("cannot be started: ") + error.what());
+  }
+}
+
 }  // namespace
 
 template <class Real>
 BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(std::make_unique<WorldData<Real>>()) {
   validate(definition);
   data_->settings = definition;
+  data_->settings.threads = 1;  // the crew has them
+  set_crew(*data_, [&](Crew& crew) { crew.set_threads(definition.threads); });
 }
 // A world destroyed in one of its callbacks leaves its data to the running call, which deletes them.
 template <class Real>
@@ -157,6 +170,26 @@ void BasicWorld<Real>::set_profiling(bool on) {
 template <class Real>
 const WorldProfile& BasicWorld<Real>::profile() const {
   return data().profile;
+}
+
+template <class Real>
+void BasicWorld<Real>::set_threads(int threads) {
+  unlocked(*this);
+  require_threads(threads);
+  set_crew(*data_, [&](Crew& crew) { crew.set_threads(threads); });
+}
+template <class Real>
+int BasicWorld<Real>::threads() const {
+  return data().crew.threads();
+}
+template <class Real>
+void BasicWorld<Real>::set_task_system(const TaskSystem& tasks) {
+  unlocked(*this);
+  if ((tasks.start == nullptr) != (tasks.finish == nullptr)) {
+    throw Error(Error::Kind::Value, "task system", tasks.start == nullptr ? "start" : "finish", "null",
+                "must be given: both functions, or none for the world's own pool");
+  }
+  set_crew(*data_, [&](Crew& crew) { crew.set_tasks(tasks); });
 }
 
 template <class Real>

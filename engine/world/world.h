@@ -10,6 +10,7 @@
 
 #include "engine/geometry/aabb.h"
 #include "engine/scene/error.h"
+#include "engine/core/task_system.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/handles.h"
@@ -97,6 +98,14 @@ class BasicWorld {
   /// Switches the stages' clocks on or off; on starts from zero. Not part of snapshots.
   void set_profiling(bool on);
   const WorldProfile& profile() const;  ///< all 0 until profiling is switched on
+  /// Sets the number of threads that share a step, see WorldDefinition::threads. Throws Error: Value for a
+  /// number out of range, Run if the system has no more threads; nothing is changed then.
+  void set_threads(int threads);
+  int threads() const;
+  /// Shares steps with a game's own threads in place of a pool's: `threads() - 1` tasks at a time; see
+  /// task_system.h. An empty one stands for the pool again. Throws Error (Value) if one of its functions is
+  /// missing. Not part of snapshots.
+  void set_task_system(const TaskSystem& tasks);
 
   /// Returns the quarantined bodies and their faults, oldest first. They stay at their previous pose, without
   /// contacts and active joints, and queries skip them. They can be changed like any other body.

@@ -9,8 +9,10 @@
 
 #include "engine/collision/broad_phase/dynamic_tree.h"
 #include "engine/collision/broad_phase/pair_set.h"
-#include "engine/core/chunked_buffer.h"
+#include "engine/core/block_lists.h"
+#include "engine/core/crew.h"
 #include "engine/core/lazy_array.h"
+#include "engine/core/locked_pool.h"
 #include "engine/core/slot_map.h"
 #include "engine/linear_algebra/bounded_rows.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -177,6 +179,31 @@ struct ExpectedImpact {
   bool left = false;      ///< left to the solver
 };
 
+/// A shape that has left its fat AABB, and its next one.
+template <class Real>
+struct LeftBox {
+  int shape = 0;
+  Aabb<Real> box{};
+};
+
+/// A contact that has got its first points in this step.
+template <class Real>
+struct BegunContact {
+  ContactConstraint<Real> constraint{};
+  bool bounces = false;   ///< it is one of the `bouncing`
+  bool pressing = false;  ///< its bodies will press in this step
+  bool asked = false;     ///< the user's pre-solve hook decides about it
+  bool waived = false;    ///< it was disabled
+};
+
+/// Contacts of one colour that lie side by side in the graph, updated by one thread.
+template <class Real>
+struct ContactRun {
+  ContactConstraint<Real>* first = nullptr;
+  int count = 0;
+  int place = 0;  ///< of the first, among all contacts that are updated
+};
+
 /// A small island of contacts, solved directly.
 template <class Real>
 struct DirectIsland {
@@ -249,11 +276,18 @@ template <class Real>
 struct Scratch {
   std::vector<int> queue;
   std::vector<std::pair<int, int>> found_pairs;
-  std::vector<char> meets;  ///< by proxy of the dynamic tree
+  BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
+  std::vector<char> meets;                         ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  ChunkedBuffer<ContactConstraint<Real>> begun_contacts;
+  BlockLists<BegunContact<Real>> begun_contacts;
+  BlockLists<ExpectedImpact<Real>> found_impacts;
+  BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
+  std::vector<ContactConstraint<Real>> left_impacts;  ///< of contacts without points, left to the solver
+  std::vector<ContactRun<Real>> contact_runs;
+  std::vector<std::uint8_t> contact_changes;   ///< by contact that is updated: near ones, then the graph's
   std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
+  std::vector<int> block_firsts;               ///< by block of a loop: where its results begin
   std::vector<int> nonfinite_bodies;           ///< bodies with an invalid motion in this step
   std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: index among the links of its island
@@ -261,12 +295,13 @@ struct Scratch {
   std::vector<int> island_joints;
   std::vector<JointSolverRow<Real>> joint_rows;
   /// Memory pool of small islands: islands that grow reuse the memory that others release.
-  std::pmr::unsynchronized_pool_resource room{{.largest_required_pool_block = 1 << 17}};
+  LockedPool room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
   int direct_count = 0;
   std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
   int jointed_count = 0;
-  bool islands_known = false;  ///< `island_of` and `island_size` are up to date
+  bool islands_known = false;   ///< `island_of` and `island_size` are up to date
+  bool islands_chosen = false;  ///< one of them at least is solved directly
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
@@ -280,11 +315,16 @@ struct Scratch {
   std::vector<char> pressed, expecting;  ///< by body: it is in the list; all 0 if the list is empty
   ImpactScratch<Real> impacts{&room};
   std::vector<char> cannot_sleep;
+  BlockLists<LeftBox<Real>> left_boxes;  ///< by block of awake bodies, as are the next two
+  BlockLists<FastBody> found_fast;
+  BlockLists<int> found_nonfinite;
   std::vector<FastBody> fast_bodies;
   std::vector<int> deep_contacts;  ///< contacts with a penetration near the cores
   std::vector<SweptBody> swept_bodies;
-  std::vector<int> stopped;            ///< swept bodies that are being stopped together
-  std::vector<ToiEvent> toi_events;    ///< a heap, earliest on top
+  std::vector<int> stopped;          ///< swept bodies that are being stopped together
+  std::vector<ToiEvent> toi_events;  ///< a heap, earliest on top
+  BlockLists<int> found_deep;
+  BlockLists<ToiEvent> found_toi_events;
   std::vector<int> swept_body_places;  ///< by body: index of its swept body, during continuous collision
   std::vector<ShapeId> visitors;
 };
@@ -338,6 +378,7 @@ struct WorldData {
   bool stepping = false;
   bool profiled = false;  ///< stages are timed
   WorldProfile profile{};
+  Crew crew;                            ///< the threads that share a step
   mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
   bool abandoned = false;               ///< its owner is gone; the last of these deletes it
   bool reports_hits = false;            ///< a shape has hit events
@@ -352,6 +393,8 @@ struct WorldData {
   /// The user's own combine rules, instead of those of the settings.
   CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
 
+  /// Returns true if the user's own code decides about coefficients: only the calling thread may call it.
+  bool has_rules() const { return friction_rule != nullptr || restitution_rule != nullptr; }
   /// Returns the buffer for events that happen now.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }

@@ -60,6 +60,8 @@ void add_world_calls(CallList<Real>& list) {
   list.vector("set_gravity", "gravity", [](T& t, Vec2d v) { t.world.set_gravity(v); });
   list.number("set_iterations", "iterations", {1, 1000},
               [](T& t, double x) { t.world.set_iterations(static_cast<int>(x)); });
+  list.number("set_threads", "threads", {1, 64},
+              [](T& t, double x) { t.world.set_threads(static_cast<int>(x)); });
   list.number("set_solver", "solver", {0, 4},
               [](T& t, double x) { t.world.set_solver(static_cast<Solver>(x)); });
 }

@@ -13,7 +13,7 @@ namespace plumb::bad_input {
 namespace {
 
 bool whole(const std::string& field) {
-  for (const char* name : {"substeps", "iterations", "solver", "type", "falloff", "frames"}) {
+  for (const char* name : {"substeps", "iterations", "threads", "solver", "type", "falloff", "frames"}) {
     if (field == name) return true;
   }
   return false;

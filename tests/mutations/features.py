@@ -140,8 +140,8 @@ FEATURES = [
     feature("Hits", WORLD + "step/narrow_phase.cpp", "-static_cast<double>(c.approach[hardest])",
             "static_cast<double>(c.approach[hardest])", "world/contacts"),
     feature("Pre-solve hook (one-way platforms)", WORLD + "step/narrow_phase.cpp",
-            "return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);",
-            "return contact.pre_solve && w.pre_solve && w.pre_solve(c.contact, c) && false;", "world/contacts"),
+            "begun.waived = !w.pre_solve(begun.constraint.contact, begun.constraint);",
+            "begun.waived = !w.pre_solve(begun.constraint.contact, begun.constraint) && false;", "world/contacts"),
     feature("Sensors", WORLD + "step/sensors.cpp", "may_touch(w.shapes[shape].filter, w.shapes[other].filter) && "
             "overlap(w, shape, other)", "may_touch(w.shapes[shape].filter, w.shapes[other].filter)", "world/contacts"),
     feature("Category, mask, group", "engine/scene/scene.cpp",
@@ -154,7 +154,7 @@ FEATURES = [
     feature("Filters of queries", WORLD + "queries/queries.cpp", "if (w.forms[shape].sensor && !filter.sensors) return false;",
             "", "world/queries", "world/queries_use"),
     feature("Continuous collision", WORLD + "step/step.cpp",
-            "solve_continuous(w, static_cast<Real>(dt)), clock", "clock", "world/resting"),
+            "w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });", "", "world/resting"),
     feature("Islands, sleeping, waking", WORLD + "state/sleeping.cpp",
             "for_each_constraint_edge(w, body, [&](int other) { wake_body(w, other); });", "", "world/resting"),
     feature("Character mover", WORLD + "character/mover.cpp", "if (step_up(speed)) return true;", "", "world/mover"),
@@ -175,6 +175,7 @@ FEATURES = [
             "DrawRole::JointLine);", "", "world/debug_draw"),
 
     # Solvers.
+    feature("Threads", WORLD + "world.cpp", "crew.set_threads(threads); });", "crew.set_threads(1); });", "world/threads"),
     feature("Soft steps", WORLD + "solvers/soft_step.cpp", "passes.relax(bodies.motion, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "solvers/soft_step.cpp",

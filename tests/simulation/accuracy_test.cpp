@@ -29,6 +29,8 @@ TEST(Accuracy, EverySettingHasItsRange) {
     expect_refused(Precise{.tolerance = dt}, "tolerance");
   }
   expect_refused(Realtime{.substeps = 0}, "substeps");
+  expect_refused(Realtime{.threads = 0}, "threads");
+  expect_refused(Realtime{.threads = 10000}, "threads");
   expect_refused(Realtime{.iterations = -1}, "iterations");
   expect_refused(Realtime{.precision = static_cast<Precision>(7)}, "precision");
   expect_refused(Realtime{.integrator = static_cast<Integrator>(3)}, "integrator");

@@ -77,6 +77,14 @@ void expect_refused(Simulation& world, std::span<const std::byte> snapshot) {
   EXPECT_EQ(world.save(), saved);
 }
 
+TEST(Simulation, ASnapshotGoesOnWithAnotherNumberOfThreads) {
+  Simulation one = compile(pile(9, 0)), two = compile(pile(9, 0), Realtime{.threads = 2});
+  one.step(20);
+  two.restore(one.save());
+  one.step(20), two.step(20);
+  EXPECT_EQ(one.hash(), two.hash());
+}
+
 TEST(Simulation, ForeignSnapshotsAreRefused) {
   Simulation world = compile(pile(9, 0));
   world.step(30);

@@ -8,6 +8,7 @@
 
 #include "tests/world/golden.h"
 #include "tests/world/support.h"
+#include "tests/world/threadings.h"
 #include "tests/world/vector_widths.h"
 
 // Impacts of discs: oblique ones, and those that are handed on. Truth is the closed form of two bodies
@@ -237,14 +238,26 @@ TEST(Impacts, AnEvenBreakIsEven) {
   }
 }
 
+void expect_golden_racks(World& world) {
+  std::mt19937 from(4);
+  add_body(world, {0, -3}, {.geometry = Box{6, 0.5}, .density = 5, .material = {0.4, 0.7}});
+  for (int i = 0; i < 4; ++i) build_rack(world, from, 15, 1e-5 * i, {0.3, 0.9});
+  run(world, 300);
+  test::expect_golden("racks_and_a_board", world.hash());
+}
+
 TEST(Impacts, HaveOneHashEverywhere) {
   test::at_each_vector_width([](VectorWidth) {
-    std::mt19937 from(4);
     World world({.gravity = {0, -1}, .sleeping = false});
-    add_body(world, {0, -3}, {.geometry = Box{6, 0.5}, .density = 5, .material = {0.4, 0.7}});
-    for (int i = 0; i < 4; ++i) build_rack(world, from, 15, 1e-5 * i, {0.3, 0.9});
-    run(world, 300);
-    test::expect_golden("racks_and_a_board", world.hash());
+    expect_golden_racks(world);
+  });
+}
+
+TEST(Impacts, HaveOneHashEverywhereForEachNumberOfThreads) {
+  test::at_each_threading<float>([](const auto& set) {
+    World world({.gravity = {0, -1}, .sleeping = false});
+    set(world);
+    expect_golden_racks(world);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "tests/world/allocations.h"
 #include "tests/world/golden.h"
 #include "tests/world/solver_scenes.h"
+#include "tests/world/threadings.h"
 #include "tests/world/vector_widths.h"
 
 // Checks each solver: closed forms of bodies in flight, in collision, on slopes and on stacks, and what the
@@ -306,6 +307,18 @@ TEST(Solvers, EachHasOneHashEverywhere) {
   for (int i = 0; i < 5; ++i) {
     test::at_each_vector_width([&](VectorWidth) {
       World world(with(static_cast<Solver>(i)));
+      add_mixed_scene(world);
+      run(world, 200);
+      test::expect_golden(name_of(static_cast<Solver>(i)), world.hash());
+    });
+  }
+}
+
+TEST(Solvers, EachHasOneHashEverywhereForEachNumberOfThreads) {
+  for (int i = 0; i < 5; ++i) {
+    test::at_each_threading<float>([&](const auto& set) {
+      World world(with(static_cast<Solver>(i)));
+      set(world);
       add_mixed_scene(world);
       run(world, 200);
       test::expect_golden(name_of(static_cast<Solver>(i)), world.hash());

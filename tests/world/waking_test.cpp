@@ -182,6 +182,8 @@ std::vector<Row<Real>> rows_of_world() {
       {"set_quarantine", [](W& w, S&) { w.set_quarantine(false); }},
       {"combine_with", [](W& w, S&) { w.combine_with(nullptr, nullptr); }},
       {"set_profiling", [](W& w, S&) { w.set_profiling(false); }},
+      {"set_threads", [](W& w, S&) { w.set_threads(2); }},
+      {"set_task_system", [](W& w, S&) { w.set_task_system({}); }},
       {"on_pre_solve", [](W& w, S&) { w.on_pre_solve([](const ContactReading&) { return false; }); }},
       {"create_body",
        [=](W& w, S&) {

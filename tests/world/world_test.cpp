@@ -10,6 +10,7 @@
 #include "tests/world/golden.h"
 #include "tests/world/ragdoll.h"
 #include "tests/world/support.h"
+#include "tests/world/threadings.h"
 #include "tests/world/vector_widths.h"
 
 namespace plumb {
@@ -53,6 +54,17 @@ TEST(World, AFallingPileHasOneHashEverywhere) {
     run(world, 1000);
     test::expect_golden("falling_pile", world.hash());
   });
+}
+
+TEST(World, AFallingPileHasOneHashEverywhereForEachNumberOfThreads) {
+  for (const int threads : {2, 3, 8}) {
+    World world(without_sleep());
+    test::share_all(world, threads, LoopOrder::Shuffled);
+    add_pile(world, 60);
+    add_ragdoll(world, {.at = {0, 14}});
+    run(world, 1000);
+    test::expect_golden("falling_pile", world.hash());
+  }
 }
 
 TEST(World, StepsDoNotAllocateOnceWarm) {

@@ -68,6 +68,16 @@ TEST(Program, SolversStandBesideEachOther) {
   EXPECT_THAT(unknown.out, HasSubstr("did you mean 'xpbd'?"));
 }
 
+TEST(Program, RunsPlumbWithNumbersOfThreadsBesideEachOther) {
+  const Ran both =
+      run("pyramid_10 --quick --repeat 1 --engine plumb --threads 1,2 --format json", "2>/dev/null");
+  ASSERT_EQ(both.code, 0);
+  EXPECT_THAT(both.out, HasSubstr("\"engine\": \"plumb:2\""));
+  EXPECT_THAT(both.out, HasSubstr("\"threads\": \"1\""));
+  EXPECT_THAT(both.out, HasSubstr("\"threads\": \"2\""));
+  EXPECT_EQ(run("empty --engine plumb --threads 0").code, 2);
+}
+
 TEST(Program, AnEngineThatIsMissingHasItsOwnCode) {
   for (const Engine& engine : engines()) {
     const Ran ran = run("empty --quick --repeat 1 --engine " + engine.name);

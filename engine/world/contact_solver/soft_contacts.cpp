@@ -25,6 +25,10 @@ constexpr std::size_t least_contacts(VectorWidth width) {
 // Fewest contacts in a block: one alone costs less.
 constexpr int kLeastLanes = 2;
 
+// Blocks, and contacts that are alone, that a thread takes at a time: 1 to 2 us of work, where a thread that
+// joins a loop, or waits for the last one, takes some 0.3 us. Colours of one such task stay with one thread.
+constexpr int kBlocksOfTask = 16, kAloneOfTask = 48;
+
 struct WarmStart {
   static constexpr bool kMoves = false;
   template <class Number, class Pair, class Contact, class Real>
@@ -145,58 +149,134 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
 }  // namespace
 
 template <class Real>
+[[gnu::always_inline]] inline int SoftContacts<Real>::kind_of(const ContactConstraint<Real>& c,
+                                                              const BodyMotion<Real>* motion,
+                                                              const std::vector<char>& apart) {
+  const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
+  const bool stays_alone = c.hardness == ContactHardness::Rigid || c.restitution > 0 || stopped_rolling ||
+                           (!apart.empty() && apart[c.contact]);
+  if (stays_alone) return kAlone;
+  const int kind = (c.count == 2) + 2 * rolls(c);
+  if (c.hardness == ContactHardness::Soft) return kind;
+  return kind + (is_dynamic(motion[c.body_a]) ? 4 : is_dynamic(motion[c.body_b]) ? 8 : 12);
+}
+
+// Calls `add_block(contacts, count)` and `add_alone(contact)`.
+template <class Real>
+template <int kBytes, class AddBlock, class AddAlone>
+[[gnu::always_inline]] inline void SoftContacts<Real>::sort(const Segment& segment,
+                                                            const BodyMotion<Real>* motion,
+                                                            const std::vector<char>& apart,
+                                                            const AddBlock& add_block,
+                                                            const AddAlone& add_alone) {
+  constexpr int kLanes = Block<kBytes>::kLanes;
+  // Contacts of one kind: they may share a block.
+  ContactConstraint<Real>* waiting[kKinds][kLanes];
+  int counts[kKinds] = {};
+  for (int i = 0; i < segment.count; ++i) {
+    ContactConstraint<Real>& c = segment.first[i];
+    const int kind = segment.has_colour ? kind_of(c, motion, apart) : kAlone;
+    if (kind == kAlone) {
+      add_alone(&c);
+      continue;
+    }
+    waiting[kind][counts[kind]++] = &c;
+    if (counts[kind] == kLanes) add_block(waiting[kind], kLanes), counts[kind] = 0;
+  }
+  for (int kind = 0; kind < kKinds; ++kind) {
+    if (counts[kind] >= kLeastLanes) {
+      add_block(waiting[kind], counts[kind]);
+    } else {
+      for (int i = 0; i < counts[kind]; ++i) add_alone(waiting[kind][i]);
+    }
+  }
+}
+
+template <class Real>
 template <int kBytes>
 bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
                                 const std::vector<char>& apart) {
   using Constraint = ContactConstraint<Real>;
-  constexpr int kLanes = Block<kBytes>::kLanes, kKinds = 16;
+  constexpr int kLanes = Block<kBytes>::kLanes;
   blocks.count = 0, alone_.clear(), runs_.clear();
   runs_.reserve(ContactGraph<Real>::kColours + 1);
   ensure_room(alone_, graph_->size());
-  // Contacts of one kind: they may share a block.
-  Constraint* waiting[kKinds][kLanes];
-  int counts[kKinds] = {};
-  const auto flush = [&](int kind) {
-    if (blocks.count == static_cast<int>(blocks.list.size())) {
-      ensure_room(blocks.list, blocks.list.size() + 1);
-      blocks.list.emplace_back();
-    }
-    Block<kBytes>& block = blocks.list[blocks.count++];
-    for (int i = 0; i < kLanes; ++i) block.contact[i] = waiting[kind][std::min(i, counts[kind] - 1)];
+  const auto fill = [&](Block<kBytes>& block, Constraint* const* contacts, int count) {
+    for (int i = 0; i < kLanes; ++i) block.contact[i] = contacts[std::min(i, count - 1)];
     Loops<Number<kBytes>, Real>::gather(block, motion);
-    counts[kind] = 0;
   };
-  const auto stays_alone = [&](const Constraint& c) {
-    const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-    return c.hardness == ContactHardness::Rigid || c.restitution > 0 || stopped_rolling ||
-           (!apart.empty() && apart[c.contact]);
-  };
-  graph_->for_each_colour([&](std::vector<Constraint>& colour, bool has_colour) {
-    for (Constraint& c : colour) {
-      if (!has_colour || stays_alone(c)) {
-        alone_.push_back(&c);
-        continue;
-      }
-      int kind = (c.count == 2) + 2 * rolls(c);
-      if (c.hardness != ContactHardness::Soft)
-        kind += is_dynamic(motion[c.body_a]) ? 4 : is_dynamic(motion[c.body_b]) ? 8 : 12;
-      waiting[kind][counts[kind]++] = &c;
-      if (counts[kind] == kLanes) flush(kind);
-    }
-    for (int kind = 0; kind < kKinds; ++kind) {
-      if (counts[kind] >= kLeastLanes) flush(kind);
-      for (int i = 0; i < counts[kind]; ++i) alone_.push_back(waiting[kind][i]);
-      counts[kind] = 0;
-    }
-    runs_.push_back({blocks.count, static_cast<int>(alone_.size())});
-  });
+  if (crew_->shares()) {
+    gather_shared(blocks, motion, apart, fill);
+  } else {
+    graph_->for_each_colour([&](std::vector<Constraint>& colour, bool has_colour) {
+      const Segment whole{colour.data(), static_cast<int>(colour.size()), has_colour};
+      sort<kBytes>(
+          whole, motion, apart,
+          [&](Constraint* const* contacts, int count) {
+            if (blocks.count == static_cast<int>(blocks.list.size())) {
+              ensure_room(blocks.list, blocks.list.size() + 1);
+              blocks.list.emplace_back();
+            }
+            fill(blocks.list[blocks.count++], contacts, count);
+          },
+          [&](Constraint* c) { alone_.push_back(c); });
+      runs_.push_back({blocks.count, static_cast<int>(alone_.size()), has_colour});
+    });
+  }
   return blocks.count > 0;
+}
+
+// Counts what the segments of all colours come to, and then fills all at their places.
+template <class Real>
+template <int kBytes, class Fill>
+void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
+                                       const std::vector<char>& apart, const Fill& fill) {
+  using Constraint = ContactConstraint<Real>;
+  segments_.clear();
+  graph_->for_each_colour([&](std::vector<Constraint>& colour, bool has_colour) {
+    const int count = static_cast<int>(colour.size());
+    // Contacts without a colour are solved in order, so they are not sorted.
+    for (int first = 0; first < count; first += kSegment)
+      append(segments_, Segment{colour.data() + first, std::min(kSegment, count - first), has_colour,
+                                first + kSegment >= count});
+  });
+  const int count = static_cast<int>(segments_.size());
+  crew_->blocks(count, [&](int i) {
+    Segment& segment = segments_[i];
+    int of_kind[kKinds + 1] = {};
+    for (int k = 0; k < segment.count; ++k)
+      ++of_kind[segment.has_colour ? kind_of(segment.first[k], motion, apart) : kAlone];
+    segment.place = {0, of_kind[kAlone]};
+    for (int kind = 0; kind < kKinds; ++kind) {
+      const int rest = of_kind[kind] % Block<kBytes>::kLanes, full = of_kind[kind] / Block<kBytes>::kLanes;
+      segment.place.blocks += full + (rest >= kLeastLanes ? 1 : 0);
+      segment.place.alone += rest >= kLeastLanes ? 0 : rest;
+    }
+  });
+  Run next;
+  for (Segment& segment : segments_) {
+    const Run size = segment.place;
+    segment.place = next;
+    next.blocks += size.blocks, next.alone += size.alone;
+    if (segment.ends_colour) runs_.push_back({next.blocks, next.alone, segment.has_colour});
+  }
+  blocks.count = next.blocks;
+  ensure_room(blocks.list, static_cast<std::size_t>(next.blocks));
+  if (static_cast<int>(blocks.list.size()) < next.blocks) blocks.list.resize(next.blocks);
+  alone_.resize(next.alone);
+  crew_->blocks(count, [&](int i) {
+    Run at = segments_[i].place;
+    sort<kBytes>(
+        segments_[i], motion, apart,
+        [&](Constraint* const* contacts, int lanes) { fill(blocks.list[at.blocks++], contacts, lanes); },
+        [&](Constraint* c) { alone_[at.alone++] = c; });
+  });
 }
 
 template <class Real>
 void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion,
-                               const std::vector<char>& apart) {
-  graph_ = &graph;
+                               const std::vector<char>& apart, Crew& crew) {
+  graph_ = &graph, crew_ = &crew;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
   if (width_ != VectorWidth::None && graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
   if (width_ == VectorWidth::Bytes16 && !gather(blocks16_, motion, apart)) width_ = VectorWidth::None;
@@ -205,8 +285,9 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
 
 template <class Real>
 template <class Pass, int kBytes>
-void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
-                                    const ContactStep<Real>& step) {
+[[gnu::always_inline]] inline void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to,
+                                                                  BodyMotion<Real>* motion,
+                                                                  const ContactStep<Real>& step) {
   Block<kBytes>* const list = blocks.list.data();
   if (from.blocks < to.blocks)
     Loops<Number<kBytes>, Real>::template run<Pass>(motion, list + from.blocks, list + to.blocks, step);
@@ -214,20 +295,54 @@ void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to, Bo
 }
 
 template <class Real>
+template <class Pass, int kBytes>
+[[gnu::noinline]] void SoftContacts<Real>::share_colour(Blocks<kBytes>& blocks, Run from, Run to,
+                                                        BodyMotion<Real>* motion,
+                                                        const ContactStep<Real>& step) {
+  const int of_blocks = (to.blocks - from.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
+            of_alone = (to.alone - from.alone + kAloneOfTask - 1) / kAloneOfTask;
+  if (!to.has_colour || of_blocks + of_alone < 2) return run_colour<Pass>(blocks, from, to, motion, step);
+  crew_->blocks(of_blocks + of_alone, [&](int task) {
+    Run first = from, last = from;
+    if (task < of_blocks) {
+      first.blocks += task * kBlocksOfTask;
+      last.blocks = std::min(first.blocks + kBlocksOfTask, to.blocks);
+    } else {
+      first.alone += (task - of_blocks) * kAloneOfTask;
+      last.alone = std::min(first.alone + kAloneOfTask, to.alone);
+    }
+    run_colour<Pass>(blocks, first, last, motion, step);
+  });
+}
+
+template <class Real>
 template <class Pass>
 [[gnu::noinline]] void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
   if (width_ == VectorWidth::None) {
-    graph_->for_each([&](ContactConstraint<Real>& c) { run_alone<Pass>(motion, c, step); });
+    graph_->for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool has_colour) {
+      const int count = static_cast<int>(colour.size());
+      crew_->ranges(count, has_colour ? kAloneOfTask : count, [&](int first, int last) {
+        for (int i = first; i < last; ++i) run_alone<Pass>(motion, colour[i], step);
+      });
+    });
     return;
   }
-  Run done;
-  for (const Run& to : runs_) {
-    if (width_ == VectorWidth::Bytes32) {
-      run_colour<Pass>(blocks32_, done, to, motion, step);
-    } else {
-      run_colour<Pass>(blocks16_, done, to, motion, step);
+  const bool shares = crew_->shares();
+  const auto run_all = [&](auto& blocks) __attribute__((always_inline)) {
+    Run done;
+    for (const Run& to : runs_) {
+      if (shares) {
+        share_colour<Pass>(blocks, done, to, motion, step);
+      } else {
+        run_colour<Pass>(blocks, done, to, motion, step);
+      }
+      done = to;
     }
-    done = to;
+  };
+  if (width_ == VectorWidth::Bytes32) {
+    run_all(blocks32_);
+  } else {
+    run_all(blocks16_);
   }
 }
 
@@ -248,8 +363,10 @@ void SoftContacts<Real>::relax(BodyMotion<Real>* motion, const ContactStep<Real>
 
 template <class Real>
 void SoftContacts<Real>::finish() {
-  const auto scatter = [](auto& blocks, auto loops) {
-    loops.scatter(blocks.list.data(), blocks.list.data() + blocks.count);
+  const auto scatter = [this](auto& blocks, auto loops) {
+    crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+      loops.scatter(blocks.list.data() + first, blocks.list.data() + last);
+    });
   };
   if (width_ == VectorWidth::Bytes16) scatter(blocks16_, Loops<Number<16>, Real>());
   if (width_ == VectorWidth::Bytes32) scatter(blocks32_, Loops<Number<32>, Real>());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/core/crew.h"
 #include "engine/math/vector_width.h"
 #include "engine/world/contact_solver/contact_block.h"
 #include "engine/world/contact_solver/contact_graph.h"
@@ -16,8 +17,10 @@ template <class Real>
 class SoftContacts {
  public:
   /// Prepares the passes of a step: gathers contacts into blocks. Those that something else reads or changes
-  /// until `finish` stay alone: with restitution, rigid, or marked in `apart` (by record).
-  void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  /// until `finish` stay alone: with restitution, rigid, or marked in `apart` (by record). `crew` shares the
+  /// passes, colour by colour.
+  void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+             Crew& crew);
 
   /// Warm starts: applies the impulses of the last substep, which are nearly those needed now.
   void warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step);
@@ -49,20 +52,49 @@ class SoftContacts {
   /// end.
   struct Run {
     int blocks = 0, alone = 0;
+    bool has_colour = true;  ///< else they share bodies, and are solved in order
   };
 
+  /// Contacts of a colour that one thread sorts into blocks.
+  struct Segment {
+    ContactConstraint<Real>* first = nullptr;
+    int count = 0;
+    bool has_colour = true, ends_colour = true;
+    Run place{};  ///< of its first block, and its first contact that is alone
+  };
+
+  static constexpr int kKinds = 16;      ///< of contacts that share a block
+  static constexpr int kAlone = kKinds;  ///< stands for those that share none
+  static constexpr int kSegment = 1024;  ///< contacts; of each kind a last block may be partly filled
+
+  /// Returns the kind of a contact.
+  static int kind_of(const ContactConstraint<Real>& c, const BodyMotion<Real>* motion,
+                     const std::vector<char>& apart);
+  /// Sorts the contacts of a segment into blocks of one kind each, and those that stay alone.
+  template <int kBytes, class AddBlock, class AddAlone>
+  static void sort(const Segment& segment, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+                   const AddBlock& add_block, const AddAlone& add_alone);
   /// Fills the blocks. Returns false if all contacts are alone.
   template <int kBytes>
   bool gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  template <int kBytes, class Fill>
+  void gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+                     const Fill& fill);
   template <class Pass, int kBytes>
   void run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
                   const ContactStep<Real>& step);
+  /// Does the same, on all threads if it pays.
+  template <class Pass, int kBytes>
+  void share_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
+                    const ContactStep<Real>& step);
   template <class Pass>
   void sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
   ContactGraph<Real>* graph_ = nullptr;
+  Crew* crew_ = nullptr;
   VectorWidth width_ = VectorWidth::None;  ///< None: no blocks, all contacts are alone
   std::vector<Run> runs_;
+  std::vector<Segment> segments_;
   std::vector<ContactConstraint<Real>*> alone_;
   Blocks<16> blocks16_;
   Blocks<32> blocks32_;

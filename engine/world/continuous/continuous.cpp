@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
 
+#include "engine/core/room.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_pair.h"
@@ -17,6 +19,9 @@
 
 namespace plumb {
 namespace {
+
+// Contacts, and swept bodies, of a block: a thread needs 10 us or more for them.
+constexpr int kContactsOfBlock = 512, kSweptOfBlock = 16;
 
 // Prefetches the contacts of the next 8 swept bodies, one of each at a time, because contact
 // records are scattered in memory.
@@ -362,15 +367,61 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
 // Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
-  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+  const auto is_deep = [&](const ContactConstraint<Real>& c) {
     const Real depth = -std::min(c.now[0], c.now[1]);
-    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return;
+    if (!(depth > Real(tuning::kDeepFrom / tuning::kPushSpeed) * c.push_speed)) return false;
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool a_yields = w.is_dynamic(c.body_a), b_yields = w.is_dynamic(c.body_b);
     const Real limit =
         (a_yields ? half_width(c.body_a) : Real(0)) + (b_yields ? half_width(c.body_b) : Real(0));
-    if (depth > Real(0.5 * tuning::kCoreDepth) * limit) w.scratch.deep_contacts.push_back(c.contact);
+    return depth > Real(0.5 * tuning::kCoreDepth) * limit;
+  };
+  if (!w.crew.shares()) {
+    w.graph.for_each([&](const ContactConstraint<Real>& c) {
+      if (is_deep(c)) w.scratch.deep_contacts.push_back(c.contact);
+    });
+    return;
+  }
+  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
+  runs.clear();
+  w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
+    const int count = static_cast<int>(colour.size());
+    for (int first = 0; first < count; first += kContactsOfBlock)
+      append(runs, ContactRun<Real>{colour.data() + first, std::min(kContactsOfBlock, count - first), 0});
   });
+  w.scratch.found_deep.begin(static_cast<int>(runs.size()));
+  w.crew.blocks(static_cast<int>(runs.size()), [&](int block) {
+    const ContactRun<Real>& run = runs[block];
+    for (int i = 0; i < run.count; ++i)
+      if (is_deep(run.first[i])) w.scratch.found_deep.add(block, run.first[i].contact);
+  });
+  w.scratch.found_deep.for_each([&](int contact) { append(w.scratch.deep_contacts, contact); });
+}
+
+// Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block searches with
+// the whole budget of iterations. Returns false as soon as together they have taken more.
+template <class Real>
+bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
+  const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
+  std::atomic<std::int64_t> taken{0};
+  w.scratch.found_toi_events.begin(blocks);
+  w.crew.blocks(blocks, [&](int block) {
+    ContactsAhead ahead;
+    for (int i = block * kSweptOfBlock; i < std::min(count, (block + 1) * kSweptOfBlock); ++i) {
+      ahead.advance(w, static_cast<std::size_t>(i));
+      if (!w.is_dynamic(w.scratch.swept_bodies[i].body)) continue;
+      if (taken.load(std::memory_order_relaxed) > search.toi_iteration_budget) return;
+      ImpactSearch own = search;
+      const ToiEvent first = first_toi_event(w, i, 0, own);
+      if (first.fraction < 1) w.scratch.found_toi_events.add(block, first);
+      const int iterations = search.toi_iteration_budget - own.toi_iteration_budget;
+      if (iterations > 0) taken.fetch_add(iterations, std::memory_order_relaxed);
+    }
+  });
+  if (taken.load() > search.toi_iteration_budget) return false;
+  search.toi_iteration_budget -= static_cast<int>(taken.load());
+  w.scratch.found_toi_events.for_each([&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
+  return true;
 }
 
 // Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion, and does not hold
@@ -399,6 +450,36 @@ void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
   }
 }
 
+// Adds the flights of the fast bodies. Returns true if their fat AABBs contained all of their motions.
+template <class Real>
+bool add_fast_bodies(WorldData<Real>& w, double dt) {
+  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  bool all_covered = true;
+  for (const FastBody& fast : w.scratch.fast_bodies) {
+    if (!w.settings.continuous && !fast.expected) continue;
+    all_covered = all_covered && fast.covered;
+    if (!w.crew.shares()) {
+      SweptBody& flight = swept_bodies[flight_place(w, fast.body, dt)];
+      flight.covered = fast.covered, flight.expected = fast.expected;
+      continue;
+    }
+    w.scratch.swept_body_places[fast.body] = static_cast<int>(swept_bodies.size());
+    SweptBody flight;
+    flight.body = fast.body, flight.covered = fast.covered, flight.expected = fast.expected;
+    append(swept_bodies, flight);
+  }
+  if (!w.crew.shares()) return all_covered;
+  w.crew.ranges(static_cast<int>(swept_bodies.size()), kSweptOfBlock, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const SweptBody fast = swept_bodies[i];
+      swept_bodies[i] = flight_of(w, fast.body, dt);
+      set_arm(w, swept_bodies[i]);
+      swept_bodies[i].covered = fast.covered, swept_bodies[i].expected = fast.expected;
+    }
+  });
+  return all_covered;
+}
+
 }  // namespace
 
 template <class Real>
@@ -410,30 +491,24 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
   swept_bodies.clear(), w.scratch.toi_events.clear();
   w.scratch.swept_body_places.assign(w.bodies.size(), kNone);
-  bool all_covered = true;
-  for (const FastBody& fast : w.scratch.fast_bodies) {
-    if (!w.settings.continuous && !fast.expected) continue;
-    SweptBody& flight = swept_bodies[flight_place(w, fast.body, time)];
-    flight.covered = fast.covered, flight.expected = fast.expected;
-    all_covered = all_covered && fast.covered;
-  }
+  const bool all_covered = add_fast_bodies(w, time);
   for (SweptBody& flight : swept_bodies)
     if (!flight.covered) insert_swept_aabb(w, flight);
   if (!all_covered) show_ways(w);
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
   ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
-  ContactsAhead ahead;
-  const std::size_t fast_count = swept_bodies.size();
-  for (std::size_t i = 0; i < fast_count; ++i) {
-    ahead.advance(w, i);
-    const int place = static_cast<int>(i);
-    if (!w.is_dynamic(swept_bodies[i].body)) {
-      meet_pushers(w, place, search);
-      continue;
+  const int fast_count = static_cast<int>(swept_bodies.size());
+  if (!w.crew.shares() || !find_first_impacts(w, fast_count, search)) {
+    // Each search gets of the budget what the ones before it have left.
+    ContactsAhead ahead;
+    for (int i = 0; i < fast_count; ++i) {
+      ahead.advance(w, static_cast<std::size_t>(i));
+      const ToiEvent first = first_toi_event(w, i, 0, search);
+      if (first.fraction < 1) append(w.scratch.toi_events, first);
     }
-    const ToiEvent first = first_toi_event(w, place, 0, search);
-    if (first.fraction < 1) w.scratch.toi_events.push_back(first);
   }
+  for (int i = 0; i < fast_count; ++i)
+    if (!w.is_dynamic(swept_bodies[i].body)) meet_pushers(w, i, search);
   meet_deep_contacts(w, search);
   if (!w.scratch.toi_events.empty()) {
     show_ways(w);

@@ -22,13 +22,11 @@ bool is_free(const WorldData<Real>& w, int body) {
   if (record.type != BodyType::Dynamic) return true;
   if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
   if (record.constraints == 0) return true;
-  bool presses = false;
-  for_each_edge(w.contacts, record.first_contact, [&](int, const ContactRecord& contact) {
-    if (contact.home != ContactHome::Graph) return;
+  return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
+    if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    presses = presses || holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
+    return holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
   });
-  return !presses;
 }
 
 // For constant acceleration the displacement is (v0 + v1) dt / 2. An acceleration below rounding error counts

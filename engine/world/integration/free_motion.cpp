@@ -1,7 +1,9 @@
 #include "engine/world/integration/free_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/core/room.h"
 #include "engine/math/small_turn.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/prefetch_awake_bodies.h"
@@ -119,64 +121,123 @@ void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
+// Bodies of a block: some 5 us of work.
+constexpr int kBodies = 256;
+
+template <class Real, class Visit>
+void for_each_kick(WorldData<Real>& w, const Visit& visit) {
+  std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
+  w.crew.ranges(static_cast<int>(kicks.size()), kBodies, [&](int first, int last) {
+    const Visit own = visit;  // a copy, which no other pointer reaches
+    VelocityIncrement<Real>* const list = kicks.data();
+    for (int i = first; i < last; ++i) own(list[i]);
+  });
+}
+
+// Returns true if the body at a place of the awake ones moves by substeps.
+template <class Real>
+bool moves_by_substeps(const BodyRecord<Real>& record, Integrator integrator) {
+  return integrator != Integrator::VelocityVerlet || record.constraints != 0;
+}
+
+// Counts those of each block, and makes room for their increments. Returns where those of each block begin.
+template <class Real>
+const int* place_kicks(WorldData<Real>& w, int blocks, Integrator integrator) {
+  std::vector<int>& firsts = w.scratch.block_firsts;
+  make_room(firsts, blocks + 1);
+  firsts[0] = 0;
+  const int count = static_cast<int>(w.awake.size());
+  w.crew.blocks(blocks, [&](int block) {
+    int found = 0;
+    for (int i = block * kBodies; i < std::min(count, (block + 1) * kBodies); ++i)
+      found += static_cast<int>(moves_by_substeps(w.bodies[w.awake[i]], integrator));
+    firsts[block + 1] = found;
+  });
+  for (int block = 0; block < blocks; ++block) firsts[block + 1] += firsts[block];
+  make_room(w.scratch.kicks, firsts[blocks]), make_room(w.scratch.starts, firsts[blocks]);
+  return firsts.data();
+}
+
 }  // namespace
 
 template <class Real>
 void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
-  w.scratch.kicks.clear(), w.scratch.starts.clear();
+  std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
+  kicks.clear(), w.scratch.starts.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
   const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
   const PrefetchAwakeBodies<Real> ahead(w);
-  const std::size_t count = w.awake.size();
-  for (std::size_t place = 0; place < count; ++place) {
+  const int count = static_cast<int>(w.awake.size());
+  // Moves a body that flies, or hands its increment on.
+  const auto prepare = [&w, &ahead, h, dt, gain, loaded, articulated, integrator](int place,
+                                                                                  const auto& add) {
     ahead.prefetch_motion(place);
     const int body = w.awake[place];
     const BodyRecord<Real>& record = w.bodies[body];
-    if (integrator == Integrator::VelocityVerlet && record.constraints == 0) {
+    if (!moves_by_substeps(record, integrator)) {
       if (!loaded && falls_only(record)) {
         fall(w, body, gain, static_cast<Real>(dt));
       } else {
         fly(w, body, dt);
       }
-      continue;
+      return;
     }
     BodyMotion<Real>& motion = w.motion[body];
     motion.moved = {}, motion.turned = 0;
-    w.scratch.starts.push_back({motion.velocity, motion.angular_velocity});
-    w.scratch.kicks.push_back(velocity_increment_of(w, body, h));
-    w.scratch.kicks.back().in_tree = articulated && w.scratch.trees.holds[body];
+    VelocityIncrement<Real> kick = velocity_increment_of(w, body, h);
+    kick.in_tree = articulated && w.scratch.trees.holds[body];
+    add(kick, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
+  };
+  if (!w.crew.shares()) {
+    for (int place = 0; place < count; ++place) {
+      prepare(place, [&](const VelocityIncrement<Real>& kick, const BodyVelocity<Real>& start) {
+        kicks.push_back(kick), w.scratch.starts.push_back(start);
+      });
+    }
+    return;
   }
+  const int blocks = (count + kBodies - 1) / kBodies;
+  const int* const firsts = place_kicks(w, blocks, integrator);
+  w.crew.blocks(blocks, [&](int block) {
+    int next = firsts[block];
+    for (int place = block * kBodies; place < std::min(count, (block + 1) * kBodies); ++place) {
+      prepare(place, [&](const VelocityIncrement<Real>& kick, const BodyVelocity<Real>& start) {
+        kicks[next] = kick, w.scratch.starts[next] = start;
+        ++next;
+      });
+    }
+  });
 }
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for (VelocityIncrement<Real>& kick : w.scratch.kicks) {
-    if (kick.in_tree) continue;
+  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
+    if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     apply(kick, motion);
     kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
-  }
+  });
 }
 
 template <class Real>
 void integrate_and_warm_start(WorldData<Real>& w) {
-  for (VelocityIncrement<Real>& kick : w.scratch.kicks) {
-    if (kick.in_tree) continue;
+  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
+    if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     const Vec2<Real> gained = motion.velocity - kick.velocity_before;
     const Real spin_gained = motion.angular_velocity - kick.spin_before;
     apply(kick, motion);
     kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
     motion.velocity += gained, motion.angular_velocity += spin_gained;
-  }
+  });
 }
 
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
   const Real share = Real(share_before(integrator));
-  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
-    if (kick.in_tree) continue;
+  for_each_kick(w, [&w, h, share](const VelocityIncrement<Real>& kick) {
+    if (kick.in_tree) return;
     BodyMotion<Real>& motion = w.motion[kick.body];
     if (kick.locked_x) motion.velocity.x = 0;
     if (kick.locked_y) motion.velocity.y = 0;
@@ -190,10 +251,10 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
       if (kick.locked_x) motion.moved.x = 0;
       if (kick.locked_y) motion.moved.y = 0;
     }
-    if (turn == 0) continue;
+    if (turn == 0) return;
     motion.turned += turn;
     w.rotation[kick.body] = turned_by(w.rotation[kick.body], turn);
-  }
+  });
 }
 
 template <class Real>

@@ -31,6 +31,9 @@ int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
+// Returns true if an island of so many rows is solved directly.
+constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
+
 // Markers in island_size of an island with joints: solved by iterations; solved as one.
 constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
 
@@ -102,8 +105,10 @@ void find_islands(WorldData<Real>& w) {
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
-  if (swept_joints(w) == 0) return;
-  choose_jointed(w);
+  if (swept_joints(w) > 0) choose_jointed(w);
+  w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
+    return is_direct(w.scratch.island_size[body]) || w.scratch.island_size[body] == kJointed;
+  });
 }
 
 template <class Island, class Real>
@@ -155,8 +160,7 @@ void fill_islands(WorldData<Real>& w) {
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
     if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
-    if (rows > 2 && rows <= tuning::kDirectRows)
-      island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
+    if (is_direct(rows)) island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
   if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -180,6 +184,15 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
          row.angular_b * b.turned;
 }
 
+// Calls `act(island)` for the islands of contacts, which have no dynamic body in common: at once.
+template <class Real, class Act>
+void for_each_direct(WorldData<Real>& w, const Act& act) {
+  constexpr int kIslands = 2;
+  w.crew.ranges(w.scratch.direct_count, kIslands, [&](int first, int last) {
+    for (int i = first; i < last; ++i) act(w.scratch.direct[i]);
+  });
+}
+
 }  // namespace
 
 template <class Real>
@@ -190,25 +203,21 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (w.graph.empty() && swept_joints(w) == 0) return;
   if (!w.scratch.islands_known) find_islands(w);
   w.scratch.islands_known = true;
+  if (!w.scratch.islands_chosen) return;
   fill_islands(w);
-  for (int i = 0; i < w.scratch.direct_count; ++i) {
-    DirectIsland<Real>& island = w.scratch.direct[i];
+  for_each_direct(w, [&](DirectIsland<Real>& island) {
     add_rows(island);
-    if (island.system.order(w.motion.data()) > tuning::kDirectCost) {
-      give_up(w, island);
-      continue;
-    }
+    if (island.system.order(w.motion.data()) > tuning::kDirectCost) return give_up(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.assemble(w.motion.data());
-  }
+  });
   prepare_jointed_islands(w);
 }
 
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
-  for (int i = 0; i < w.scratch.direct_count; ++i) {
-    DirectIsland<Real>& island = w.scratch.direct[i];
-    if (island.system.rows.empty()) continue;  // solved by iterations
+  for_each_direct(w, [&](DirectIsland<Real>& island) {
+    if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;
     for (ContactConstraint<Real>* c : island.contacts) {
       for (int k = 0; k < c->count; ++k) {
@@ -225,7 +234,7 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
     } else if (island.system.contradicted()) {
       give_up(w, island);
     }
-  }
+  });
 }
 
 template <class Real>

@@ -49,6 +49,12 @@ double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const 
   return sum;
 }
 
+// Bodies that do not give way are only read: several islands may stand on one.
+template <class Real>
+void push(BodyMotion<Real>& motion, Vec2<Real> impulse, Real angular_impulse) {
+  if (is_dynamic(motion)) motion.apply(impulse, angular_impulse);
+}
+
 }  // namespace
 
 template <class Real>
@@ -245,8 +251,8 @@ void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
     DirectRow<Real>& row = rows[sequence_[i]];
     if (row.active || *row.impulse == 0) continue;
     row.taken = *row.impulse;
-    motion[row.a].apply(-row.taken * row.linear_a, -row.taken * row.angular_a);
-    motion[row.b].apply(-row.taken * row.linear_b, -row.taken * row.angular_b);
+    push(motion[row.a], -row.taken * row.linear_a, -row.taken * row.angular_a);
+    push(motion[row.b], -row.taken * row.linear_b, -row.taken * row.angular_b);
     *row.impulse = 0;
   }
 }
@@ -256,8 +262,8 @@ template <class Real>
 void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
   for (DirectRow<Real>& row : rows) {
     if (row.taken == 0) continue;
-    motion[row.a].apply(row.taken * row.linear_a, row.taken * row.angular_a);
-    motion[row.b].apply(row.taken * row.linear_b, row.taken * row.angular_b);
+    push(motion[row.a], row.taken * row.linear_a, row.taken * row.angular_a);
+    push(motion[row.b], row.taken * row.linear_b, row.taken * row.angular_b);
     *row.impulse += row.taken;
     row.taken = 0;
   }
@@ -283,6 +289,7 @@ void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
       }
     }
     BodyMotion<Real>& moving = motion[body];
+    if (!is_dynamic(moving)) continue;  // other islands may stand on it too
     moving.velocity =
         (moving.velocity.template as<double>() + double(moving.inverse_mass) * push).template as<Real>();
     moving.angular_velocity =

@@ -36,6 +36,25 @@ struct JointRun {
   int colour;
 };
 
+/// Joints that a thread takes at a time: some 1 to 2 us of work, where a thread that joins a loop takes 0.3.
+/// Hinges are solved four at a time.
+inline constexpr int kHingesOfTask = 128, kJointsOfTask = 16;
+
+/// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
+/// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.
+void share_joints(Crew& crew, int count, int grain, void (*visit)(void*, int, int), void* data);
+
+/// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared by a crew if they have a
+/// colour.
+template <class Visit>
+void share_run(JointRun run, int count, Crew* crew, Visit visit) {
+  const int grain = run.form == kHinge ? kHingesOfTask : kJointsOfTask;
+  if (crew == nullptr || !crew->shares() || run.colour == kOverflowColour || count <= grain)
+    return visit(0, count);
+  const auto call = [](void* it, int first, int last) { (*static_cast<Visit*>(it))(first, last); };
+  share_joints(*crew, count, grain, call, &visit);
+}
+
 template <class Real>
 struct JointSet<Real>::Parts {
   std::vector<JointSlot> slots;

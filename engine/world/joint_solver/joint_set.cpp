@@ -65,22 +65,29 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
 }
 
 template <class Parts, class F>
-[[gnu::noinline]] void sweep_run(Parts& parts, JointRun run, F f) {
+[[gnu::noinline]] void sweep_run(Parts& parts, JointRun run, Crew* crew, F f) {
   parts.with(run.form, [&](auto& lists) {
-    for (auto& constraint : lists[run.colour]) f(constraint);
+    auto& list = lists[run.colour];
+    share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+      F own = f;  // a copy, which no other pointer reaches
+      auto* const end = list.data() + last;
+      for (auto* constraint = list.data() + first; constraint != end; ++constraint) own(*constraint);
+    });
   });
 }
 
 /// Visits all active joints in the order of solving, plain revolute ones colour by colour. `others` is not
 /// inlined: plain joints would otherwise pay for its stack frame.
 template <class Real, class Parts, class Hinges, class Others>
-[[gnu::always_inline]] inline void sweep(Parts& parts, Hinges&& hinges, Others&& others) {
+[[gnu::always_inline]] inline void sweep(Parts& parts, Crew* crew, Hinges&& hinges, Others&& others) {
   for (const JointRun& run : parts.runs) {
     if (run.form == kHinge) {
       auto& list = std::get<kHinge>(parts.store)[run.colour];
-      hinges(HingeRun<Real>{list.data(), static_cast<int>(list.size()), run.colour != kOverflowColour});
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        hinges(HingeRun<Real>{list.data() + first, last - first, run.colour != kOverflowColour});
+      });
     } else {
-      sweep_run(parts, run, others);
+      sweep_run(parts, run, crew, others);
     }
   }
 }
@@ -329,45 +336,42 @@ void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
 // ---- Steps
 
 template <class Real>
-void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
   Parts& p = *parts_;
-  for (const JointRun& run : p.runs) {
-    p.with(run.form, [&](auto& lists) {
-      for (auto& constraint : lists[run.colour]) {
-        using Definition = typename std::decay_t<decltype(constraint)>::Definition;
-        if (constraint.known_h != step.h)
-          constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
-        const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
-        constraint.share = 1;
-        if constexpr (!kIsHinge<std::decay_t<decltype(constraint)>>)
-          constraint.alone = std::max(count_a, count_b) < 2;
-        constraint.prepare(bodies, step);
-        if (std::max(count_a, count_b) < kManyJoints) continue;
-        constraint.share = joint_share(constraint.load(bodies), count_a, count_b);
-        if (constraint.share < 1) constraint.evaluate(bodies, step);
-      }
-    });
-  }
+  const auto prepare = [&](auto& constraint) {
+    using Definition = typename std::decay_t<decltype(constraint)>::Definition;
+    if (constraint.known_h != step.h)
+      constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
+    const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
+    constraint.share = 1;
+    if constexpr (!kIsHinge<std::decay_t<decltype(constraint)>>)
+      constraint.alone = std::max(count_a, count_b) < 2;
+    constraint.prepare(bodies, step);
+    if (std::max(count_a, count_b) < kManyJoints) return;
+    constraint.share = joint_share(constraint.load(bodies), count_a, count_b);
+    if (constraint.share < 1) constraint.evaluate(bodies, step);
+  };
+  for (const JointRun& run : p.runs) sweep_run(p, run, crew, prepare);
 }
 
 template <class Real>
-void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&) {
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&, Crew* crew) {
   sweep<Real>(
-      *parts_, [&](auto hinges) { warm_start_hinges(hinges, bodies); },
+      *parts_, crew, [&](auto hinges) { warm_start_hinges(hinges, bodies); },
       [bodies](auto& joint) { joint.warm_start(bodies); });
 }
 
 template <class Real>
-void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
   sweep<Real>(
-      *parts_, [&](auto hinges) { solve_hinges(hinges, bodies, step); },
+      *parts_, crew, [&](auto hinges) { solve_hinges(hinges, bodies, step); },
       [bodies, step](auto& joint) { joint.solve(bodies, step); });
 }
 
 template <class Real>
-void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
   sweep<Real>(
-      *parts_, [&](auto hinges) { relax_hinges(hinges, bodies, step); },
+      *parts_, crew, [&](auto hinges) { relax_hinges(hinges, bodies, step); },
       [bodies, step](auto& joint) { joint.relax(bodies, step); });
 }
 

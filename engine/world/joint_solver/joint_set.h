@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/crew.h"
 #include "engine/joints/joint_row.h"
 #include "engine/math/vec2.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -73,7 +74,7 @@ struct HeldHinge {
 /// displacements. `relax` evaluates rows after bodies have moved, and they serve the next substep too.
 /// Impulses therefore act at the bodies' present positions: joints conserve angular momentum to rounding, and
 /// a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`. None of the
-/// four allocates.
+/// four allocates. A crew shares them, colour by colour, with the same bits as one thread.
 template <class Real>
 class JointSet {
  public:
@@ -117,20 +118,20 @@ class JointSet {
   void put_elsewhere(int joint);
 
   /// Evaluates all rows at the start of the step.
-  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
   /// Applies the impulses of the last substep.
-  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
   /// Solves velocities with soft position correction.
-  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
   /// Evaluates all rows at the poses after the motion and solves velocities without bias, which removes the
   /// velocity that the bias added. Springs keep their force.
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
 
   /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `most` about
   /// its common point. Changes poses, not velocities. One iteration; returns true if any joint was turned.
   /// Call between the motion and `relax`. Does not allocate.
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
-                              Real most);
+                              Real most, Crew* crew = nullptr);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 
 #include "engine/math/small_turn.h"
 #include "engine/world/joint_solver/joint_parts.h"
@@ -52,24 +53,27 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
 
 template <class Real>
 bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
-                                            Real slack, Real most) {
-  bool any = false;
+                                            Real slack, Real most, Crew* crew) {
+  std::atomic<bool> any = false;
   auto& lists = std::get<kRevolute>(parts_->store);
   for (const JointRun& run : parts_->runs) {
     if (run.form != kRevolute) continue;
-    for (auto& joint : lists[run.colour]) {
-      const Real turn = plumb::project_angular_limits(joint, bodies.motion, slack);
-      if (turn == 0) continue;
-      turn_joint(joint, bodies, rotation, std::clamp(turn, -most, most));
-      any = true;
-    }
+    auto& list = lists[run.colour];
+    share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+      for (int i = first; i < last; ++i) {
+        const Real turn = plumb::project_angular_limits(list[i], bodies.motion, slack);
+        if (turn == 0) continue;
+        turn_joint(list[i], bodies, rotation, std::clamp(turn, -most, most));
+        any.store(true, std::memory_order_relaxed);
+      }
+    });
   }
-  return any;
+  return any.load(std::memory_order_relaxed);
 }
 
 template bool JointSet<float>::project_angular_limits(const SolverBodies<float>&, Rotation<float>*, float,
-                                                      float);
+                                                      float, Crew*);
 template bool JointSet<double>::project_angular_limits(const SolverBodies<double>&, Rotation<double>*, double,
-                                                       double);
+                                                       double, Crew*);
 
 }  // namespace plumb

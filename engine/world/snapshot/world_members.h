@@ -23,8 +23,21 @@ inline constexpr int kEnumerators<BadField> = 5;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 
-PLUMB_MEMBERS(WorldDefinition, gravity, combine_friction, combine_restitution, sleeping, continuous, solver,
-              integrator, iterations, direct_islands, quarantine)
+/// Without the number of threads: whoever goes on with a world has threads of his own.
+template <>
+struct Members<WorldDefinition> {
+  [[maybe_unused]] static constexpr std::string_view
+      kStruct = "WorldDefinition",
+      kNames =
+          "gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator, "
+          "iterations, direct_islands, quarantine";
+  static constexpr auto of(auto& it) {
+    auto& [gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
+           iterations, direct_islands, quarantine, threads] = it;
+    return std::tie(gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
+                    iterations, direct_islands, quarantine);
+  }
+};
 PLUMB_MEMBERS(Filter, category, mask, group)
 
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
@@ -59,15 +72,16 @@ PLUMB_MEMBERS(QuarantinedBody, body, type, why)
 PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
 
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
-/// references. It excludes the pre-solve hook and the user's combine rules, which are code, the profile, and
-/// scratch data. A new member of WorldData must be named here, and returned unless it is one of those.
+/// references. It excludes the pre-solve hook and the user's combine rules, which are code, the profile, the
+/// threads, and scratch data. A new member of WorldData must be named here, and returned unless it is one of
+/// those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
          shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near, graph, parked,
          joints, joint_set, sensors, breakable, quarantine, events, pending, stepping, profiled, profile,
-         callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
+         crew, callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
          restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes,

@@ -29,7 +29,7 @@ void project_angular_limits(WorldData<Real>& w) {
   bool any = true;
   for (int sweep = 0; any && sweep < tuning::kLimitSweeps; ++sweep) {
     any = w.joint_set.project_angular_limits(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
-                                             Real(tuning::kLimitTurn));
+                                             Real(tuning::kLimitTurn), &w.crew);
     if (any) enforce_motion_locks(w);
   }
 }
@@ -87,11 +87,11 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .stiffest = stiffest_spring<Real>(1),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
-  if (jointed) w.joint_set.prepare(bodies, joints);
+  if (jointed) w.joint_set.prepare(bodies, joints, &w.crew);
   prepare_direct_islands(w);
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
-  passes.begin(w.graph, bodies.motion, contacts_apart(w));
+  passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
   bool strikes = false;
   const auto place = [&] {
     strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
@@ -112,17 +112,17 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     note_free_velocities(w);
     if (place_first) place();
     if (strikes) note_blows(w);
-    if (jointed) w.joint_set.warm_start(bodies, joints);
+    if (jointed) w.joint_set.warm_start(bodies, joints, &w.crew);
     if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (!place_first) place();
     let_pass(w.scratch.bounces);
-    if (jointed) w.joint_set.solve(bodies, joints);
+    if (jointed) w.joint_set.solve(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, true);
     passes.solve(bodies.motion, contacts);
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
-    if (jointed) w.joint_set.relax(bodies, joints);
+    if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);

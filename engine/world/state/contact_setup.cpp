@@ -96,7 +96,7 @@ ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord&
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
-                     ContactConstraint<Real>& c) {
+                     ContactConstraint<Real>& c, Real (&impulse)[2]) {
   const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
   const Real expected[2] = {c.load_estimate[0], c.load_estimate[1]};
   const std::uint16_t features[2] = {c.features[0], c.features[1]};
@@ -106,13 +106,13 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   Vec2<Real> arms_a[2];
   bool kept = false;
   for (int i = 0; i < 2; ++i) {
-    c.normal_impulse[i] = c.load_estimate[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    impulse[i] = c.load_estimate[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
     c.features[i] = 0;
     if (i >= manifold.count) continue;
     const ContactManifoldPoint<Real>& from = manifold.points[i];
     for (int j = 0; j < old_count; ++j) {
       if (features[j] != from.feature) continue;
-      c.normal_impulse[i] = old[j], c.load_estimate[i] = expected[j];
+      impulse[i] = old[j], c.load_estimate[i] = expected[j];
       kept = true;
     }
     arms_a[i] = q * from.point;
@@ -123,6 +123,15 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   c.recycle_budget = contact.pre_solve ? Real(-1) : Real(tuning::kRecycleDistance) * smaller;
+}
+
+template <class Real>
+void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     ContactConstraint<Real>& c) {
+  Real impulse[2];
+  prepare_contact(w, contact, manifold, q, between, c, impulse);
+  c.normal_impulse[0] = impulse[0], c.normal_impulse[1] = impulse[1];
 }
 
 template <class Real>
@@ -150,6 +159,8 @@ bool may_touch_now(const WorldData<Real>& w, int shape_a, int shape_b) {
   template ContactManifold<Real> manifold_of(const WorldData<Real>&, const ContactRecord&, Real);           \
   template void prepare_contact(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, \
                                 Rotation<Real>, Vec2<Real>, ContactConstraint<Real>&);                      \
+  template void prepare_contact(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, \
+                                Rotation<Real>, Vec2<Real>, ContactConstraint<Real>&, Real(&)[2]);          \
   template ContactConstraint<Real> constraint_between(const WorldData<Real>&, const ContactRecord&);        \
   template bool may_touch_now(const WorldData<Real>&, int, int);
 PLUMB_FOR(float)

@@ -57,13 +57,24 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
                      ContactConstraint<Real>& c);
 
-/// Does the same at the bodies' present poses.
+/// Does the same, but leaves the constraint's normal impulses and writes the new ones to `impulse`: others
+/// may read the old ones meanwhile.
+template <class Real>
+void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     ContactConstraint<Real>& c, Real (&impulse)[2]);
+
+/// Returns the vector between the bodies' centres of mass, from a to b, m.
+template <class Real>
+Vec2<Real> between_bodies(const WorldData<Real>& w, const ContactRecord& contact) {
+  return (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+}
+
+/// Prepares a contact at the bodies' present poses.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, ContactConstraint<Real>& c) {
-  const int a = contact.body_a, b = contact.body_b;
-  prepare_contact(w, contact, manifold, w.rotation[a], (w.position[b] - w.position[a]).template as<Real>(),
-                  c);
+  prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c);
 }
 
 /// Returns the constraint of two shapes at their bodies' present poses, without impulses; without points if

@@ -31,7 +31,9 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
 
 template <class Real>
 bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned) {
-  return update_proxy_in(w, shape, dt, turned, w.tree_of(w.bodies[w.shapes[shape].body].type));
+  return update_boxes(w, shape, dt, turned, [&](int left, const Aabb<Real>& box) {
+    store_fat_aabb(w, left, box, w.tree_of(w.bodies[w.shapes[left].body].type));
+  });
 }
 
 #define PLUMB_FOR(Real)                                            \

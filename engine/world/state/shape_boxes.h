@@ -29,13 +29,14 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
-/// Stores the fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds it to the move buffer.
+/// Stores a fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds the shape to the move
+/// buffer.
 template <class Real, class Tree>
-void enlarge_proxy(WorldData<Real>& w, int shape, Real dt, Tree& tree) {
+void store_fat_aabb(WorldData<Real>& w, int shape, const Aabb<Real>& box, Tree& tree) {
   ShapeRecord<Real>& record = w.shapes[shape];
   if (!record.moved) append(w.move_buffer, shape);
   record.moved = true;
-  tree.enlarge(record.proxy, fat_aabb(w, shape, dt));
+  tree.enlarge(record.proxy, box);
   w.enlarged[record.body] = 1;
 }
 
@@ -49,16 +50,17 @@ Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) 
   return merged(box, {box.lower + ahead, box.upper + ahead}).grown(turned);
 }
 
-/// Does the same as `update_proxy` in one of the trees, or its PrefetchedEnlarging.
-template <class Real, class Tree>
-bool update_proxy_in(WorldData<Real>& w, int shape, Real dt, Real turned, Tree& tree) {
+/// Does the same as `update_proxy`, but for the tree: calls `enlarge(shape, fat AABB)` if the shape has left
+/// the stored one.
+template <class Real, class Enlarge>
+bool update_boxes(WorldData<Real>& w, int shape, Real dt, Real turned, const Enlarge& enlarge) {
   if (w.shapes[shape].proxy == kNone) return true;
   const Aabb<Real> before = w.boxes[shape];
   w.boxes[shape] = tight_aabb(w, shape);
   const ShapeRecord<Real>& record = w.shapes[shape];
   const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
   const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(turned));
-  if (!stored.contains(box_ahead(w, shape, dt, turned))) enlarge_proxy(w, shape, dt, tree);
+  if (!stored.contains(box_ahead(w, shape, dt, turned))) enlarge(shape, fat_aabb(w, shape, dt));
   return covered;
 }
 

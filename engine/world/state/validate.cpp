@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/core/crew.h"
 #include "engine/core/text.h"
 #include "engine/geometry/convex_hull.h"
 #include "engine/joints/joint_check.h"
@@ -119,6 +120,13 @@ void validate(const WorldDefinition& definition) {
     throw Error(Error::Kind::Value, "world", "iterations", std::to_string(definition.iterations),
                 "must be a number from 1 to 1000");
   }
+  require_threads(definition.threads);
+}
+
+void require_threads(int threads) {
+  if (threads >= 1 && threads <= Crew::kMostThreads) return;
+  throw Error(Error::Kind::Value, "world", "threads", std::to_string(threads),
+              "must be a number from 1 to " + std::to_string(Crew::kMostThreads));
 }
 
 void validate(const BodyDefinition& definition) {

@@ -11,6 +11,8 @@
 namespace plumb {
 
 void validate(const WorldDefinition& definition);
+/// Throws Error (Value) for a number of threads that a world cannot have.
+void require_threads(int threads);
 void validate(const BodyDefinition& definition);
 void validate(const ShapeDefinition& definition);
 void validate(const ChainDefinition& definition);

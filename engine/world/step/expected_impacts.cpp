@@ -104,9 +104,9 @@ bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const S
 }
 
 template <class Real>
-void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  note(w, w.scratch.pressed_bodies, w.scratch.pressed, c.body_a);
-  note(w, w.scratch.pressed_bodies, w.scratch.pressed, c.body_b);
+void note_pressed(WorldData<Real>& w, int body_a, int body_b) {
+  note(w, w.scratch.pressed_bodies, w.scratch.pressed, body_a);
+  note(w, w.scratch.pressed_bodies, w.scratch.pressed, body_b);
 }
 
 template <class Real>
@@ -123,7 +123,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
       const ContactConstraint<Real>& c = impact.constraint;
       if (impact.left || (flies_freely(w, c.body_a) && flies_freely(w, c.body_b))) continue;
       impact.left = more = true;
-      note_pressed(w, c);
+      note_pressed(w, c.body_a, c.body_b);
     }
   }
   for (const ExpectedImpact<Real>& impact : impacts) {
@@ -138,7 +138,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
   template void clear_expected_impacts(WorldData<Real>&);                                                  \
   template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
                             const ContactConstraint<Real>&, Real);                                         \
-  template void note_pressed(WorldData<Real>&, const ContactConstraint<Real>&);                            \
+  template void note_pressed(WorldData<Real>&, int, int);                                                  \
   template void decide_expected_impacts(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

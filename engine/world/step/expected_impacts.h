@@ -19,9 +19,9 @@ template <class Real>
 bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
                  const ContactConstraint<Real>& c, Real dt);
 
-/// Marks the bodies of a contact that will press in this step: they are not in free flight.
+/// Marks the two bodies of a contact that will press in this step: they are not in free flight.
 template <class Real>
-void note_pressed(WorldData<Real>& w, const ContactConstraint<Real>& c);
+void note_pressed(WorldData<Real>& w, int body_a, int body_b);
 
 /// Decides between continuous collision and the solver for each expected impact. If nothing else holds either
 /// body, the contact has no points in this step. The bodies then rebound at the time of impact

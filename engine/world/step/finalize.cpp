@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "engine/collision/broad_phase/prefetched_enlarging.h"
+#include "engine/core/room.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/constants.h"
@@ -57,64 +59,115 @@ void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const Bod
   }
 }
 
+// Bodies of a block: a thread moves them in some 10 us.
+constexpr int kBodiesOfBlock = 128;
+
+// Takes what follows from the motion of bodies, on one thread.
+template <class Real>
+struct TakenAtOnce {
+  WorldData<Real>& w;
+  PrefetchedEnlarging<Real>& tree;
+  // A shape has left its fat AABB; the next one is `box`.
+  void leave(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
+  void find_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
+  void find_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
+};
+
+// Notes the same in the lists of a block.
+template <class Real>
+struct NotedInBlock {
+  WorldData<Real>& w;
+  int block;
+  void leave(int shape, const Aabb<Real>& box) const {
+    w.scratch.left_boxes.add(block, LeftBox<Real>{shape, box});
+  }
+  void find_fast(const FastBody& fast) const { w.scratch.found_fast.add(block, fast); }
+  void find_nonfinite(int body) const { w.scratch.found_nonfinite.add(block, body); }
+};
+
+// Moves a body, and updates its tight AABBs.
+template <class Real, class Found>
+[[gnu::always_inline]] inline void finalize_body(WorldData<Real>& w, int body, Real dt, bool expects,
+                                                 Load<Real>* loads, Vec2d* position_compensation,
+                                                 const Found& found) {
+  BodyRecord<Real>& record = w.bodies[body];
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real extent = w.extents[body];
+  const Real turned = std::abs(motion.turned) * extent;
+  const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
+  const bool expected = expects && w.scratch.expecting[body];
+  const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
+  if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
+    found.find_nonfinite(body);
+    return;
+  }
+  move_body(w, body, record, motion, position_compensation);
+  if (loads != nullptr) loads[body] = {};
+  if (w.settings.sleeping) {
+    update_sleep_timer(record, motion, extent, dt);
+  } else if (record.sleep_time != 0) {
+    record.sleep_time = 0;
+  }
+  w.enlarged[body] = 0;
+  if (motion.moved == Vec2<Real>{} && motion.turned == 0) return;
+  const auto note = [&](int shape, const Aabb<Real>& box) { found.leave(shape, box); };
+  if (fast) {
+    bool covered = true;
+    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
+      covered = update_boxes(w, shape, dt, turned, note) && covered;
+    // A body that stays within its fat AABBs and has no contact meets nothing.
+    const bool alone = covered && record.first_contact == kNone;
+    if (!alone) found.find_fast({body, covered, expected});
+  } else {
+    const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
+    for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
+      const int proxy = w.shapes[shape].proxy;
+      if (proxy == kNone) continue;
+      const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
+      w.boxes[shape] = box;
+      // One step ahead, so that a pair is known in the step in which it meets.
+      if (!w.dynamic_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
+        note(shape, fat_aabb(w, shape, dt));
+    }
+  }
+}
+
 }  // namespace
 
 template <class Real>
 void finalize_bodies(WorldData<Real>& w, Real dt) {
-  w.scratch.fast_bodies.clear(), w.scratch.nonfinite_bodies.clear();
+  Scratch<Real>& scratch = w.scratch;
+  scratch.fast_bodies.clear(), scratch.nonfinite_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const position_compensation = position_compensation_of(w);
-  const bool sleeping = w.settings.sleeping, expects = !w.scratch.expecting_bodies.empty();
+  const bool expects = !scratch.expecting_bodies.empty();
+  const PrefetchAwakeBodies<Real> ahead(w);
+  const int count = static_cast<int>(w.awake.size());
+  const auto finalize = [&w, &ahead, dt, expects, loads, position_compensation ](
+      int first, int last, const auto& found) __attribute__((always_inline)) {
+    for (int place = first; place < last; ++place) {
+      ahead.prefetch_motion(place), ahead.prefetch_place(place);
+      finalize_body(w, w.awake[place], dt, expects, loads, position_compensation, found);
+    }
+  };
   // Awake bodies are never static, so all their proxies are in the dynamic tree.
   PrefetchedEnlarging<Real> moving(w.dynamic_tree);
-  const PrefetchAwakeBodies<Real> ahead(w);
-  const std::size_t count = w.awake.size();
-  for (std::size_t place = 0; place < count; ++place) {
-    ahead.prefetch_motion(place), ahead.prefetch_place(place);
-    const int body = w.awake[place];
-    BodyRecord<Real>& record = w.bodies[body];
-    const BodyMotion<Real>& motion = w.motion[body];
-    const Real extent = w.extents[body];
-    const Real turned = std::abs(motion.turned) * extent;
-    const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
-    const bool expected = expects && w.scratch.expecting[body];
-    const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
-    if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
-      w.scratch.nonfinite_bodies.push_back(body);
-      continue;
-    }
-    move_body(w, body, record, motion, position_compensation);
-    if (loads != nullptr) loads[body] = {};
-    if (sleeping) {
-      update_sleep_timer(record, motion, extent, dt);
-    } else if (record.sleep_time != 0) {
-      record.sleep_time = 0;
-    }
-    w.enlarged[body] = 0;
-    if (motion.moved == Vec2<Real>{} && motion.turned == 0) continue;
-    if (fast) {
-      bool covered = true;
-      for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-        covered = update_proxy_in(w, shape, dt, turned, moving) && covered;
-      }
-      // A body that stays within its fat AABBs and has no contact meets nothing.
-      const bool alone = covered && record.first_contact == kNone;
-      if (!alone) w.scratch.fast_bodies.push_back({body, covered, expected});
-    } else {
-      const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
-      for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-        const int proxy = w.shapes[shape].proxy;
-        if (proxy == kNone) continue;
-        const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
-        w.boxes[shape] = box;
-        // One step ahead, so that a pair is known in the step in which it meets.
-        if (!w.dynamic_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
-          enlarge_proxy(w, shape, dt, moving);
-      }
-    }
+  const TakenAtOnce<Real> at_once{w, moving};
+  if (!w.crew.shares()) {
+    finalize(0, count, at_once);
+  } else {
+    const int blocks = (count + kBodiesOfBlock - 1) / kBodiesOfBlock;
+    scratch.left_boxes.begin(blocks), scratch.found_fast.begin(blocks), scratch.found_nonfinite.begin(blocks);
+    w.crew.blocks(blocks, [&](int block) {
+      finalize(block * kBodiesOfBlock, std::min(count, (block + 1) * kBodiesOfBlock),
+               NotedInBlock<Real>{w, block});
+    });
+    scratch.left_boxes.for_each([&](const LeftBox<Real>& left) { at_once.leave(left.shape, left.box); });
+    scratch.found_fast.for_each([&](const FastBody& fast) { at_once.find_fast(fast); });
+    scratch.found_nonfinite.for_each([&](int body) { at_once.find_nonfinite(body); });
   }
   moving.finish();
-  if (!w.scratch.nonfinite_bodies.empty()) quarantine_diverged(w, static_cast<double>(dt));
+  if (!scratch.nonfinite_bodies.empty()) quarantine_diverged(w, static_cast<double>(dt));
   w.dynamic_tree.rebuild();
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/collision/manifold/contact_manifold.h"
+#include "engine/core/room.h"
 #include "engine/scene/error.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
@@ -43,8 +44,9 @@ bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
 // Builds a speculative constraint at the predicted impact; separations are the present ones.
 template <class Real>
 void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c) {
-  prepare_contact(w, contact, at.manifold, at.rotation, at.between, c);
+                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                                 Real (&impulse)[2]) {
+  prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, impulse);
   const Real closed = dot(c.normal, at.closed);
   for (int i = 0; i < c.count; ++i)
     c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
@@ -77,11 +79,13 @@ void update_load_estimate(ContactConstraint<Real>& c) {
   }
 }
 
+// Begins a step of a constraint. Returns true if it has restitution, or may be of two discs that approach
+// fast.
 template <class Real>
-void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+bool begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   update_load_estimate(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
-  if (!c.watched) return;
+  if (!c.watched) return false;
   c.peak_impulse[0] = c.peak_impulse[1] = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
@@ -90,8 +94,7 @@ void begin_step(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   }
   // A single point with a fast approach may belong to two discs, whose normal will rotate.
   const Real travel = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
-  if (c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel))
-    append(w.scratch.bouncing, c.contact);
+  return c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel);
 }
 
 // Updates the touching state that events report.
@@ -138,41 +141,49 @@ bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, Rea
   return aabbs_apart(w, contact.shape_a, contact.shape_b, reach);
 }
 
-// Returns true if the user's pre-solve hook disables a contact in this step.
+// Returns true if the user's pre-solve hook is to be asked about a contact.
 template <class Real>
-bool is_waived(WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
-  return contact.pre_solve && w.pre_solve && !w.pre_solve(c.contact, c);
+bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
+  return contact.pre_solve && w.pre_solve;
 }
 
-// Prepares a new constraint, with the points that `build` makes.
+// Flags of what an update has found of a contact.
+enum ContactChange : std::uint8_t {
+  kTouchChange = 1,  // it begins or ends to touch
+  kLost = 2,         // its fat AABBs have separated
+  kEnded = 4,        // it has no points any more
+  kBounces = 8,      // see begin_step
+  kRenewed = 16,     // its points were computed anew: impulses are not settled yet
+  kAsked = 32,       // the user's hook decides about its new points
+};
+
+// Starts a contact without points that has got some, made by `build`.
 template <class Real, class Build>
-void begin_near(WorldData<Real>& w, int id, Real dt, const Build& build) {
+void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, const Build& build) {
   const ContactRecord& contact = w.contacts[id];
-  ContactConstraint<Real> c;
+  BegunContact<Real> begun{.pressing = pressing, .asked = is_asked(w, contact)};
+  ContactConstraint<Real>& c = begun.constraint;
   build(c);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
-  if (is_waived(w, contact, c)) return;
-  begin_step(w, c, dt);
-  w.scratch.begun_contacts.push_back(c);
+  if (!begun.asked) begun.bounces = begin_step(w, c, dt);
+  w.scratch.begun_contacts.add(block, begun);
 }
 
 // Does the same for a predicted impact; bounces in free flight are decided later.
 template <class Real>
-void begin_speculative_contact(WorldData<Real>& w, int id, const SpeculativeContact<Real>& at, Real dt) {
+void begin_speculative_contact(WorldData<Real>& w, int block, int id, const SpeculativeContact<Real>& at,
+                               Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  prepare_speculative_contact(w, contact, at, c);
+  prepare_speculative_contact(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
   if (will_bounce(w, contact, at, c, dt)) {
-    append(w.scratch.expected_impacts, ExpectedImpact<Real>{.constraint = c});
+    w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
-  if (is_waived(w, contact, c)) return;
-  begin_step(w, c, dt);
-  note_pressed(w, c);
-  w.scratch.begun_contacts.push_back(c);
+  begin_near(w, block, id, dt, true, [&](ContactConstraint<Real>& begun) { begun = c; });
 }
 
 // Prefetches contact records kRecords ahead and, once these are loaded, their bodies and shapes kShapes
@@ -190,87 +201,234 @@ template <class Real>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
 }
 
-// Updates contacts without points: starts those that get points, and ends those whose fat AABBs have
-// separated.
+// Updates a contact without points: starts it if it gets points.
 template <class Real>
-void update_nontouching_contacts(WorldData<Real>& w, Real dt, Real h) {
-  for (std::size_t i = 0; i < w.near.size(); ++i) {
-    prefetch_near(w, i);
-    const int id = w.near[i];
-    const ContactRecord& contact = w.contacts[id];
-    if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) {
-      w.scratch.lost_contacts.push_back(id);
-      continue;
-    }
-    if (is_out_of_reach(w, contact, dt)) continue;
-    const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-    const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
-    if (at.outlook == Outlook::Meets) {
-      begin_speculative_contact(w, id, at, dt);
-    } else if (manifold.count > 0 && at.outlook != Outlook::Misses) {
-      begin_near(w, id, dt, [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
-    }
-  }
-}
-
-// Rebuilds a manifold; returns false if there is none.
-template <class Real>
-bool renew(WorldData<Real>& w, const ContactRecord& contact, Real dt, Real h, ContactConstraint<Real>& c) {
+int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
+  const ContactRecord& contact = w.contacts[id];
+  if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) return kLost;
+  if (is_out_of_reach(w, contact, dt)) return 0;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
-    prepare_speculative_contact(w, contact, at, c);
-    if (will_bounce(w, contact, at, c, dt)) {
-      append(w.scratch.expected_impacts, ExpectedImpact<Real>{.constraint = c, .in_graph = true});
+    begin_speculative_contact(w, block, id, at, dt);
+  } else if (manifold.count > 0 && at.outlook != Outlook::Misses) {
+    begin_near(w, block, id, dt, false,
+               [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
+  }
+  return 0;
+}
+
+// Rebuilds a manifold; returns false if there is none. Searches for impacts read the impulses of contacts, so
+// the new ones wait in `c.now` until all contacts were updated.
+template <class Real>
+bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt, Real h,
+           ContactConstraint<Real>& c) {
+  const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
+  if (at.outlook == Outlook::Meets) {
+    prepare_speculative_contact(w, contact, at, c, c.now);
+    ContactConstraint<Real> settled = c;
+    settled.normal_impulse[0] = c.now[0], settled.normal_impulse[1] = c.now[1];
+    if (will_bounce(w, contact, at, settled, dt)) {
+      w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = settled, .in_graph = true});
     } else {
-      note_pressed(w, c);
+      w.scratch.found_presses.add(block, {c.body_a, c.body_b});
     }
   } else {
-    prepare_contact(w, contact, manifold, c);
+    prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c, c.now);
   }
   return c.count > 0 && at.outlook != Outlook::Misses;
 }
 
 // Recycles the manifold of a contact with points, or rebuilds it if its bodies have moved too much.
 template <class Real>
-void update_constraint(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt, Real h) {
+int update_constraint(WorldData<Real>& w, int block, ContactConstraint<Real>& c, Real dt, Real h) {
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
-  if (touches(c) != c.touching) w.scratch.touch_changes.push_back(c.contact);
+  const int touch = touches(c) != c.touching ? kTouchChange : 0;
   if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
-    if (fat_aabbs_apart(w, w.contacts[c.contact])) {
-      w.scratch.lost_contacts.push_back(c.contact);
-      return;
-    }
+    if (fat_aabbs_apart(w, w.contacts[c.contact])) return touch | kLost;
   }
-  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) {
-    const ContactRecord& contact = w.contacts[c.contact];
-    if (!renew(w, contact, dt, h, c) || is_waived(w, contact, c)) {
-      w.scratch.ended_contacts.push_back(c.contact);
-      return;
-    }
-  }
-  begin_step(w, c, dt);
+  if (recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b]))
+    return touch | (begin_step(w, c, dt) ? kBounces : 0);
+  const ContactRecord& contact = w.contacts[c.contact];
+  if (!renew(w, block, contact, dt, h, c)) return touch | kRenewed | kEnded;
+  return touch | kRenewed | (is_asked(w, contact) ? kAsked : 0);
 }
 
-}  // namespace
+// Contacts of a block: a thread updates them in 10 to 100 us.
+constexpr int kNearOfBlock = 128, kContactsOfBlock = 128;
 
-namespace {
+// Cuts the graph's colours into blocks.
+template <class Real>
+void find_contact_runs(WorldData<Real>& w) {
+  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
+  runs.clear();
+  // First of all: if memory runs out, nothing is noted of any run.
+  std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
+  make_room(changes, static_cast<int>(w.near.size() + w.graph.size()));
+  std::fill(changes.begin(), changes.end(), std::uint8_t{0});
+  int place = static_cast<int>(w.near.size());
+  w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
+    const int count = static_cast<int>(colour.size());
+    for (int first = 0; first < count; first += kContactsOfBlock) {
+      const int size = std::min(kContactsOfBlock, count - first);
+      append(runs, ContactRun<Real>{colour.data() + first, size, place});
+      place += size;
+    }
+  });
+}
+
+// Gives the contacts of a run that were rebuilt their impulses.
+template <class Real>
+void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
+  std::uint8_t* const changes = w.scratch.contact_changes.data() + run.place;
+  for (int i = 0; i < run.count; ++i) {
+    if ((changes[i] & kRenewed) == 0) continue;
+    ContactConstraint<Real>& c = run.first[i];
+    c.normal_impulse[0] = c.now[0], c.normal_impulse[1] = c.now[1];
+    if ((changes[i] & (kEnded | kAsked)) == 0 && begin_step(w, c, dt)) changes[i] |= kBounces;
+  }
+}
+
+// Updates all contacts, each by itself: what it changes of others is noted.
+template <class Real>
+void update_each(WorldData<Real>& w, Real dt, Real h) {
+  Scratch<Real>& scratch = w.scratch;
+  find_contact_runs(w);
+  const int near = static_cast<int>(w.near.size()), near_blocks = (near + kNearOfBlock - 1) / kNearOfBlock;
+  const std::vector<ContactRun<Real>>& runs = scratch.contact_runs;
+  const int blocks = near_blocks + static_cast<int>(runs.size());
+  scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
+  scratch.found_presses.begin(blocks);
+  std::uint8_t* const changes = scratch.contact_changes.data();
+  // By run: what has changed of any of its contacts.
+  std::vector<int>& any = scratch.block_firsts;
+  any.assign(runs.size(), 0);
+  const auto update = [&](int block) {
+    if (block < near_blocks) {
+      for (int i = block * kNearOfBlock; i < std::min(near, (block + 1) * kNearOfBlock); ++i) {
+        prefetch_near(w, i);
+        changes[i] = static_cast<std::uint8_t>(update_nontouching(w, block, w.near[i], dt, h));
+      }
+      return;
+    }
+    const ContactRun<Real> run = runs[block - near_blocks];
+    std::uint8_t* const noted = changes + run.place;
+    int all = 0;
+    for (int i = 0; i < run.count; ++i) {
+      const int change = update_constraint(w, block, run.first[i], dt, h);
+      if (change == 0) continue;
+      noted[i] = static_cast<std::uint8_t>(change);
+      all |= change;
+    }
+    any[block - near_blocks] = all;
+  };
+  const auto settle = [&](int block) {
+    if ((any[block] & kRenewed) != 0) settle_impulses(w, runs[block], dt);
+  };
+  const int run_count = static_cast<int>(runs.size());
+  const Crew::Alone alone(w.crew, w.has_rules());
+  w.crew.session([&] {
+    w.crew.blocks(blocks, update);
+    w.crew.blocks(run_count, settle);
+  });
+}
+
+// Leaves the contacts so that the next step computes their points anew, after an exception.
+template <class Real>
+void invalidate_all(WorldData<Real>& w) {
+  for (const ContactRun<Real>& run : w.scratch.contact_runs) {
+    for (int i = 0; i < run.count; ++i) {
+      ContactConstraint<Real>& c = run.first[i];
+      if ((w.scratch.contact_changes[run.place + i] & kRenewed) != 0)
+        c.normal_impulse[0] = c.now[0], c.normal_impulse[1] = c.now[1];
+      c.recycle_budget = -1;
+    }
+  }
+}
+
+// Asks the user's hook about contacts with new points, on the calling thread and in their order.
+template <class Real>
+void ask_hook(WorldData<Real>& w, Real dt) {
+  if (!w.pre_solve) return;
+  w.scratch.begun_contacts.for_each([&](BegunContact<Real>& begun) {
+    if (!begun.asked) return;
+    begun.waived = !w.pre_solve(begun.constraint.contact, begun.constraint);
+    if (!begun.waived) begun.bounces = begin_step(w, begun.constraint, dt);
+  });
+  for (const ContactRun<Real>& run : w.scratch.contact_runs) {
+    for (int i = 0; i < run.count; ++i) {
+      std::uint8_t& change = w.scratch.contact_changes[run.place + i];
+      if ((change & kAsked) == 0) continue;
+      ContactConstraint<Real>& c = run.first[i];
+      if (!w.pre_solve(c.contact, c)) {
+        change |= kEnded;
+      } else if (begin_step(w, c, dt)) {
+        change |= kBounces;
+      }
+    }
+  }
+}
+
+// Collects what the update has found, in the order of the contacts.
+template <class Real>
+void collect_changes(WorldData<Real>& w) {
+  Scratch<Real>& scratch = w.scratch;
+  scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
+    if (begun.waived) return;
+    const ContactConstraint<Real>& c = begun.constraint;
+    if (begun.bounces) append(scratch.bouncing, c.contact);
+    if (begun.pressing) note_pressed(w, c.body_a, c.body_b);
+  });
+  scratch.found_presses.for_each(
+      [&](const std::pair<int, int>& bodies) { note_pressed(w, bodies.first, bodies.second); });
+  scratch.found_impacts.for_each(
+      [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
+  const std::vector<std::uint8_t>& changes = scratch.contact_changes;
+  for (std::size_t i = 0; i < w.near.size(); ++i)
+    if (changes[i] != 0) append(scratch.lost_contacts, w.near[i]);
+  constexpr int kNoted = kTouchChange | kLost | kEnded | kBounces;
+  for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
+    const ContactRun<Real>& run = scratch.contact_runs[block];
+    // Rebuilt contacts may bounce, too.
+    if ((scratch.block_firsts[block] & (kNoted | kRenewed)) == 0) continue;
+    for (int i = 0; i < run.count; ++i) {
+      const int change = changes[run.place + i];
+      if ((change & kNoted) == 0) continue;
+      const int id = run.first[i].contact;
+      if ((change & kTouchChange) != 0) append(scratch.touch_changes, id);
+      if ((change & kLost) != 0) append(scratch.lost_contacts, id);
+      if ((change & kEnded) != 0) append(scratch.ended_contacts, id);
+      if ((change & kBounces) != 0) append(scratch.bouncing, id);
+    }
+  }
+}
 
 // Passes predicted impacts that do not bounce in free flight to the solver.
 template <class Real>
 void settle_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w);
+  w.scratch.left_impacts.clear();
   for (ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
     ContactConstraint<Real>& c = impact.constraint;
     if (impact.in_graph) {
       if (!impact.left) append(w.scratch.ended_contacts, c.contact);
     } else if (impact.left) {
-      begin_step(w, c, dt);
-      w.scratch.begun_contacts.push_back(c);
+      if (begin_step(w, c, dt)) append(w.scratch.bouncing, c.contact);
+      append(w.scratch.left_impacts, c);
     } else {
       wake_body(w, c.body_a), wake_body(w, c.body_b);
     }
   }
+}
+
+// Moves a contact with its first points to the graph.
+template <class Real>
+void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  const int id = c.contact;
+  const bool touching = touches(c);
+  begin_contact(w, id, c);
+  if (touching) update_touching(w, constraint_of(w, w.contacts[id]), true);
 }
 
 }  // namespace
@@ -279,10 +437,17 @@ template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.begun_contacts.clear(), scratch.bouncing.clear();
+  scratch.bouncing.clear();
   clear_expected_impacts(w);
-  update_nontouching_contacts(w, dt, h);
-  w.graph.for_each([&](ContactConstraint<Real>& c) { update_constraint(w, c, dt, h); });
+  if (w.near.empty() && w.graph.empty()) return;
+  try {
+    update_each(w, dt, h);
+    ask_hook(w, dt);
+    collect_changes(w);
+  } catch (...) {
+    invalidate_all(w);
+    throw;
+  }
   settle_expected_impacts(w, dt);
   for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
@@ -290,12 +455,10 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   }
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
-  scratch.begun_contacts.use_up([&](const ContactConstraint<Real>& c) {
-    const int id = c.contact;
-    const bool touching = touches(c);
-    begin_contact(w, id, c);
-    if (touching) update_touching(w, constraint_of(w, w.contacts[id]), true);
+  scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
+    if (!begun.waived) enter(w, begun.constraint);
   });
+  for (const ContactConstraint<Real>& c : scratch.left_impacts) enter(w, c);
 }
 
 template <class Real>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/step/step.h"
@@ -32,22 +34,23 @@ bool mark_self_overlaps(WorldData<Real>& w) {
 
 // Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
 // moved shapes exceed the cache.
-constexpr std::size_t kAhead = 8, kShapesAhead = 32;
+constexpr int kAhead = 8;
+constexpr std::size_t kShapesAhead = 32;
 
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_moved(const WorldData<Real>& w, std::size_t i) {
   if (i + kShapesAhead < w.move_buffer.size()) __builtin_prefetch(&w.shapes[w.move_buffer[i + kShapesAhead]]);
 }
 
-}  // namespace
+// Moved shapes of a block: a thread looks up 64 in some 30 us.
+constexpr int kMovedOfBlock = 64;
 
+// Finds the new pairs of a block of moved shapes.
 template <class Real>
-void find_pairs(WorldData<Real>& w) {
-  std::vector<std::pair<int, int>>& found = w.scratch.found_pairs;
-  found.clear();
-  const bool marked = mark_self_overlaps(w);
-  const bool grounds = w.static_tree.size() > 0;
-  for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
+void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
+  BlockLists<std::pair<int, int>>& found = w.scratch.found_pairs_of;
+  const std::size_t first = static_cast<std::size_t>(block) * kMovedOfBlock;
+  for (std::size_t i = first; i < std::min(first + kMovedOfBlock, w.move_buffer.size()); ++i) {
     ask_for_moved(w, i);
     const int shape = w.move_buffer[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
@@ -59,7 +62,7 @@ void find_pairs(WorldData<Real>& w) {
     const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
     const auto visit = [&](int other, int) {
       // Of two moved shapes, only one reports the pair.
-      if (other != shape && !(w.shapes[other].moved && other < shape)) found.emplace_back(shape, other);
+      if (other != shape && !(w.shapes[other].moved && other < shape)) found.add(block, {shape, other});
       return true;
     };
     const std::uint32_t mask = seen_by(record.filter);
@@ -68,11 +71,26 @@ void find_pairs(WorldData<Real>& w) {
       w.dynamic_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
   }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (i + kAhead < found.size()) w.pairs.ask_for(found[i + kAhead].first, found[i + kAhead].second);
-    const auto [a, b] = found[i];
-    if (!w.pairs.contains(a, b) && may_collide(w, a, b)) create_contact(w, a, b);
-  }
+  // Most pairs have their contact already.
+  found.template keep<kAhead>(
+      block, [&](const std::pair<int, int>& pair) { w.pairs.ask_for(pair.first, pair.second); },
+      [&](const std::pair<int, int>& pair) {
+        return !w.pairs.contains(pair.first, pair.second) && may_collide(w, pair.first, pair.second);
+      });
+}
+
+}  // namespace
+
+template <class Real>
+void find_pairs(WorldData<Real>& w) {
+  if (w.move_buffer.empty()) return;
+  const bool marked = mark_self_overlaps(w);
+  const bool grounds = w.static_tree.size() > 0;
+  const int blocks = static_cast<int>((w.move_buffer.size() + kMovedOfBlock - 1) / kMovedOfBlock);
+  w.scratch.found_pairs_of.begin(blocks);
+  w.crew.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, grounds); });
+  w.scratch.found_pairs_of.for_each(
+      [&](const std::pair<int, int>& pair) { create_contact(w, pair.first, pair.second); });
   // Clear the flags last: if memory runs out above, these pairs are searched again.
   for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
     ask_for_moved(w, i);

@@ -88,6 +88,17 @@ int substeps_of(const WorldData<Real>& w, double dt, int asked) {
   return static_cast<int>(std::min(wanted, most));
 }
 
+// Least number of awake bodies, contacts and joints of a step that is shared by threads. Below, what a second
+// thread takes over costs about as much as to tell it (docs/decisions/threads.md).
+constexpr std::size_t kSharedWork = 256;
+
+template <class Real>
+bool is_worth_sharing(const WorldData<Real>& w) {
+  return w.awake.size() + w.near.size() + w.graph.size() +
+             static_cast<std::size_t>(w.joint_set.active_count()) >=
+         kSharedWork;
+}
+
 // Measures the wall time of each stage, if the world is profiled.
 template <class Real>
 class StageClock {
@@ -120,15 +131,22 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   const Stepping<Real> stepping(w);
   StageClock<Real> clock(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
+  w.crew.set_busy(w.crew.threads() > 1 && is_worth_sharing(w));
   find_pairs(w), clock.end(WorldStage::BroadPhase);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
   try {
-    solve_motion(w, h, substeps), clock.end(WorldStage::Solver);
+    w.crew.session([&] { solve_motion(w, h, substeps); });
+    clock.end(WorldStage::Solver);
     report_impacts(w), clock.end(WorldStage::Events);
-    finalize_bodies(w, static_cast<Real>(dt)), clock.end(WorldStage::Finalize);
-    solve_continuous(w, static_cast<Real>(dt)), clock.end(WorldStage::Continuous);
+    w.crew.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
+    clock.end(WorldStage::Finalize);
+    {
+      const Crew::Alone alone(w.crew, w.has_rules());
+      w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
+    }
+    clock.end(WorldStage::Continuous);
   } catch (...) {
     make_good(w);
     throw;

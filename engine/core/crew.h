@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+
+#include "engine/core/task_system.h"
+
+namespace plumb {
+
+/// Order in which a loop's blocks are begun. Loops give the same bits in each: tests set others.
+enum class LoopOrder { Ascending, Descending, Shuffled };
+
+/// The threads that share the loops of a world's step: the calling one, and those of a pool of its own or of
+/// a game's task system. A loop is cut into blocks that do not depend on the number of threads. A block
+/// writes what no other block of the loop reads or writes; what depends on the order is collected block by
+/// block (block_lists.h).
+///
+/// Loops run within sessions. A session's body runs once, on the first thread that comes to it, and the
+/// others take part in its loops: so nothing waits for a thread that does not come, whatever the task system
+/// does. The body must call no code of the user's, which wants the calling thread.
+class Crew {
+ public:
+  static constexpr int kMostThreads = 64;
+
+  Crew();
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  /// Sets the number of threads, 1 to kMostThreads, and starts a pool. Throws std::system_error if there are
+  /// no more threads, and then changes nothing.
+  void set_threads(int threads);
+  int threads() const { return threads_; }
+  /// Runs on a game's threads in place of the pool's; with an empty one on the pool's again, which throws as
+  /// `set_threads` does.
+  void set_tasks(const TaskSystem& tasks);
+  void set_order(LoopOrder order) { order_ = order; }
+  /// Shares all loops, however small: for tests.
+  void set_eager(bool eager) { eager_ = eager; }
+
+  /// Decides for the next sessions whether their work is worth several threads.
+  void set_busy(bool busy) { busy_ = busy; }
+  /// Returns true if loops are shared now.
+  bool shares() const { return (busy_ || eager_) && threads_ > 1 && !alone_; }
+
+  /// While this guard is alive and `wanted`, the calling thread runs all loops by itself.
+  class Alone {
+   public:
+    Alone(Crew& crew, bool wanted) : crew_(crew), before_(crew.alone_) { crew.alone_ = before_ || wanted; }
+    ~Alone() { crew_.alone_ = before_; }
+    Alone(const Alone&) = delete;
+    Alone& operator=(const Alone&) = delete;
+
+   private:
+    Crew& crew_;
+    bool before_;
+  };
+
+  /// Runs `body()` once; loops in it are shared. Rethrows what it throws. A session within one is part of it.
+  template <class Body>
+  void session(Body&& body) {
+    if (!shares() || in_session()) return body();
+    open([](void* b) { (*static_cast<std::remove_reference_t<Body>*>(b))(); }, address(body));
+  }
+
+  /// Calls `run(block)` for each block from 0 to count - 1, and returns after all. If some throw, the others
+  /// run all the same, and what the first of them threw is rethrown. Opens a session if there is none.
+  template <class Run>
+  void blocks(int count, Run&& run) {
+    if (count <= 0) return;
+    if (count == 1) return run(0);
+    if (!shares()) return in_turn(count, run);
+    session([&] {
+      share(
+          count, [](void* r, int block) { (*static_cast<std::remove_reference_t<Run>*>(r))(block); },
+          address(run));
+    });
+  }
+
+  /// Calls `run(first, last)` for ranges of `grain` of `count` items, the last one shorter.
+  template <class Run>
+  void ranges(int count, int grain, Run&& run) {
+    if (count <= grain || (!shares() && order_ == LoopOrder::Ascending)) {
+      if (count > 0) run(0, count);
+      return;
+    }
+    blocks((count + grain - 1) / grain,
+           [&](int block) { run(block * grain, std::min(count, (block + 1) * grain)); });
+  }
+
+ private:
+  struct Shared;
+  template <class T>
+  static void* address(T& it) {
+    return const_cast<void*>(static_cast<const void*>(std::addressof(it)));
+  }
+  template <class Run>
+  void in_turn(int count, Run& run) {
+    for (int i = 0; i < count; ++i) run(order_ == LoopOrder::Ascending ? i : place(i, count));
+  }
+  void renew(int threads, const TaskSystem& tasks);
+  int place(int nth, int count) const;
+  bool in_session() const;
+  void open(void (*body)(void*), void* data);
+  void share(int count, void (*run)(void*, int), void* data);
+
+  int threads_ = 1;
+  bool busy_ = false, eager_ = kUsualThreads > 1, alone_ = false;
+  LoopOrder order_ = LoopOrder::Ascending;
+  TaskSystem tasks_;                ///< a game's
+  std::unique_ptr<Shared> shared_;  ///< null with one thread
+};
+
+}  // namespace plumb

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <memory_resource>
+#include <mutex>
+
+namespace plumb {
+
+/// Memory pool that several threads may use at once. What it has taken from the system it keeps, so that
+/// blocks of a size that was used before cost no allocation, whichever thread asks for them.
+class LockedPool final : public std::pmr::memory_resource {
+ public:
+  explicit LockedPool(const std::pmr::pool_options& options) : pool_(options) {}
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return pool_.allocate(bytes, alignment);
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pool_.deallocate(memory, bytes, alignment);
+  }
+  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  std::mutex mutex_;
+  std::pmr::unsynchronized_pool_resource pool_;
+};
+
+}  // namespace plumb
