@@ -7,7 +7,10 @@ include(CMakePackageConfigHelpers)
 install(CODE "
   set(CHECKOUT \"${PROJECT_SOURCE_DIR}\")
   include(\"${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake\")
-  plumb_write_public_headers(\"\${CHECKOUT}\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")"
+  foreach(kind public former)
+    cmake_language(CALL plumb_write_\${kind}_headers \"\${CHECKOUT}\"
+      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")
+  endforeach()"
   COMPONENT cpp)
 install(TARGETS plumb_engine EXPORT plumbTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT cpp

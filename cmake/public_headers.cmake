@@ -3,6 +3,8 @@
 #
 #   plumb_public_headers(CHECKOUT FILES)      sets FILES to the paths of all of them, from the checkout's root
 #   plumb_write_public_headers(CHECKOUT TO)   writes them to TO/plumb
+#   plumb_write_former_headers(CHECKOUT TO)   writes what programs from before version 0.2 include, "engine/...", to
+#                                             TO/plumb/compat: those that are public forward to the public ones
 #
 # As a script: cmake -DCHECKOUT=... -DTO=... -P public_headers.cmake
 cmake_policy(VERSION 3.25)
@@ -43,6 +45,23 @@ function(plumb_write_public_headers checkout to)
       string(REGEX REPLACE "^engine/" "detail/" name ${path})
     endif()
     file(CONFIGURE OUTPUT ${to}/plumb/${name} CONTENT "${text}" @ONLY)
+  endforeach()
+endfunction()
+
+function(plumb_write_former_headers checkout to)
+  plumb_public_headers(${checkout} needed)
+  file(GLOB_RECURSE all RELATIVE ${checkout} ${checkout}/engine/*.h)
+  foreach(path IN LISTS all)
+    if(path IN_LIST PLUMB_PUBLIC_HEADERS)
+      get_filename_component(name ${path} NAME)
+      set(text "#pragma once\n\n#include <plumb/${name}>\n")
+    elseif(path IN_LIST needed)
+      string(REGEX REPLACE "^engine/" "detail/" name ${path})
+      set(text "#pragma once\n\n#include <plumb/${name}>\n")
+    else()
+      file(READ ${checkout}/${path} text)
+    endif()
+    file(CONFIGURE OUTPUT ${to}/plumb/compat/${path} CONTENT "${text}" @ONLY)
   endforeach()
 endfunction()
 

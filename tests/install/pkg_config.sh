@@ -11,8 +11,12 @@ shift 3
 PKG_CONFIG_PATH=$(find "$prefix" -name pkgconfig -type d)
 export PKG_CONFIG_PATH
 read -ra flags <<<"$(pkg-config --cflags --libs plumb)"
-"$compiler" -std=c++20 "$@" "$here/consumer/fall.cpp" "${flags[@]}" -o "$output"
+"$compiler" -std=c++20 -DFORMER_HEADERS "$@" "$here/consumer/fall.cpp" "${flags[@]}" -o "$output"
 "$output"
+
+# Programs from before 0.2 include "engine/...", internal headers among them, also beside <plumb/...>.
+printf '#include "engine/%s.h"\n' world/world world/snapshot_check scene/error world/checksum |
+  sed '1i #include <plumb/queries.h>' | "$compiler" -std=c++20 -fsyntax-only -x c++ - "${flags[@]/#-l*/}"
 
 # Public headers are few, and each includes what it needs; strictly by the standard, so that other compilers read them.
 headers=("$prefix"/include/plumb/*.h)

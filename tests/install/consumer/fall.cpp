@@ -4,7 +4,7 @@
 
 #include <plumb/simulation.h>
 
-#if __has_include("engine/simulation/simulation.h")
+#if !defined(FORMER_HEADERS) && __has_include("engine/simulation/simulation.h")
 #error "the checkout's own folders are on the path"
 #endif
 
