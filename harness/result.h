@@ -56,8 +56,8 @@ struct Result {
   std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences
   std::string machine{};       ///< kind of machine that the cost was measured on; empty if unknown
   bool cost_left_out = false;  ///< measured on another kind of machine than the scene's other costs
-  bool foreign_cost = false;  ///< the cost is that of another platform, never ranked with native ones
-  std::string excused;        ///< why no miss of this run is a failure; empty: they are
+  bool foreign_cost = false;   ///< the cost is that of another platform, never ranked with native ones
+  std::string excused;         ///< why no miss of this run is a failure; empty: they are
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;

@@ -7,6 +7,7 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/world/snapshot_check.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/quarantine.h"
@@ -90,6 +91,9 @@ void BasicWorld<Real>::step(double dt, int substeps) {
                 "are as many as can be counted; go on in a new world");
   }
   step_world(*data_, dt, substeps);
+#ifdef PLUMB_VALIDATE
+  check_state(*data_);
+#endif
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #include "engine/collision/broad_phase/dynamic_tree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "engine/core/room.h"
@@ -23,6 +24,7 @@ Real distance_squared(const Aabb<Real>& a, const Aabb<Real>& b) {
 
 template <class Real>
 int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int user) {
+  assert(box.lower.x <= box.upper.x && box.lower.y <= box.upper.y);
   make_room(1);
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
@@ -39,6 +41,7 @@ int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int
 
 template <class Real>
 void DynamicTree<Real>::remove(int proxy) {
+  assert(slots_[proxy] != kNone);
   take_leaf(proxy);
   slots_[proxy] = kNone;
   free_proxies_.push_back(proxy);
@@ -46,6 +49,7 @@ void DynamicTree<Real>::remove(int proxy) {
 
 template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
+  assert(slots_[proxy] != kNone && box.lower.x <= box.upper.x && box.lower.y <= box.upper.y);
   const Aabb<Real> wanted = box;  // a copy: `box` may be another leaf's, which moves when this one is removed
   Node leaf = take_leaf(proxy);
   leaf.box = boxes_[proxy] = wanted;
@@ -54,6 +58,7 @@ void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
 
 template <class Real>
 void DynamicTree<Real>::enlarge(int proxy, const Aabb<Real>& box) {
+  assert(slots_[proxy] != kNone);
   Node& leaf = node(slots_[proxy]);
   if (!leaf.box.overlaps(box)) {
     move(proxy, box);

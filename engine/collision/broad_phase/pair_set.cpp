@@ -1,6 +1,7 @@
 #include "engine/collision/broad_phase/pair_set.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "engine/scene/bytes.h"
@@ -8,6 +9,7 @@
 namespace plumb {
 
 bool PairSet::insert(int a, int b) {
+  assert(a != b && a >= 0 && b >= 0);
   if (2 * (static_cast<std::size_t>(size_) + 1) > keys_.size()) resize(std::max(kSmallest, 2 * keys_.size()));
   const Key wanted = key(a, b);
   Key& slot = keys_[find(wanted)];

@@ -1,6 +1,7 @@
 #include "engine/world/contact_solver/contact_graph.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace plumb {
 namespace {
@@ -16,6 +17,7 @@ template <class Real>
 auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b)
     -> Place {
   const int a = constraint.body_a, b = constraint.body_b;
+  assert(a >= 0 && b >= 0 && a != b && (gives_way_a || gives_way_b));
   const bool both = gives_way_a && gives_way_b;
   int chosen = kOverflow;
   // Contacts with static or kinematic bodies try their own colours first and then, from the back, the others.
@@ -39,7 +41,10 @@ auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool giv
 template <class Real>
 int ContactGraph<Real>::remove(Place place, bool gives_way_a, bool gives_way_b) {
   std::vector<ContactConstraint<Real>>& colour = colours_[place.colour];
+  assert(place.index >= 0 && place.index < static_cast<int>(colour.size()));
   const ContactConstraint<Real>& gone = colour[place.index];
+  assert(place.colour == kOverflow || ((!gives_way_a || bodies_[place.colour].test(gone.body_a)) &&
+                                       (!gives_way_b || bodies_[place.colour].test(gone.body_b))));
   if (place.colour != kOverflow) {
     if (gives_way_a) bodies_[place.colour].reset(gone.body_a);
     if (gives_way_b) bodies_[place.colour].reset(gone.body_b);

@@ -1,6 +1,7 @@
 #include "engine/world/contact_solver/restitution_contacts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,7 @@ void swap_masses(RestitutionContact<Real>& bounce) {
 // Disables the contact: without masses it gives no impulses.
 template <class Real>
 void let_through(RestitutionContact<Real>& bounce) {
+  assert(!bounce.passes || bounce.contact != nullptr);
   bounce.passes = true;
   for (Real& mass : bounce.masses) mass = 0;
   swap_masses(bounce);

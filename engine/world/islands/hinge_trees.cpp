@@ -1,6 +1,7 @@
 #include "engine/world/islands/hinge_trees.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <type_traits>
 
@@ -85,6 +86,7 @@ class TreeMaker {
   }
 
   void add_tree(int root, int joint) {
+    assert(place_[root] == kNone || !w_.is_dynamic(root));
     first_ = static_cast<int>(trees_.links.size());
     trees_.firsts.push_back(first_);
     TreeLink link;
@@ -119,6 +121,7 @@ class TreeMaker {
   void add_child(int parent, int joint, int body) {
     const JointRecord& record = w_.joints[joint];
     const HeldHinge<Real> hinge = w_.joint_set.hold(record.slot);
+    assert(record.body_a == body || record.body_b == body);
     const bool at_b = record.body_b == body;
     TreeLink link;
     link.body = body;

@@ -1,5 +1,7 @@
 #include "engine/world/state/contacts.h"
 
+#include <cassert>
+
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/sleeping.h"
 
@@ -23,6 +25,7 @@ void enter_near(WorldData<Real>& w, int contact) {
 // Swap-removes: the last contact in Near takes the freed place.
 template <class Real>
 void leave_place(WorldData<Real>& w, int index) {
+  assert(index >= 0 && index < static_cast<int>(w.near.size()));
   if (index + 1 < static_cast<int>(w.near.size())) {
     w.near[index] = w.near.back();
     w.contacts[w.near[index]].index = index;
@@ -32,6 +35,7 @@ void leave_place(WorldData<Real>& w, int index) {
 
 template <class Real>
 void leave_near(WorldData<Real>& w, int contact) {
+  assert(w.contacts[contact].home == ContactHome::Near);
   leave_place(w, w.contacts[contact].index);
 }
 
@@ -49,6 +53,7 @@ template <class Real>
 void leave_graph(WorldData<Real>& w, int contact) {
   w.topology_changed = true;
   const ContactRecord& record = w.contacts[contact];
+  assert(record.home == ContactHome::Graph);
   const int follower =
       w.graph.remove({record.colour, record.index}, w.is_dynamic(record.body_a), w.is_dynamic(record.body_b));
   if (follower != -1) w.contacts[follower].index = record.index;
@@ -56,6 +61,7 @@ void leave_graph(WorldData<Real>& w, int contact) {
 
 template <class Real>
 void leave_parked(WorldData<Real>& w, int index) {
+  assert(index >= 0 && index < static_cast<int>(w.parked.size()));
   if (index + 1 < static_cast<int>(w.parked.size())) {
     w.parked[index] = w.parked.back();
     w.contacts[w.parked[index].contact].index = index;
@@ -82,6 +88,8 @@ bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b) {
 
 template <class Real>
 ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
+  assert(w.shapes.used(shape_a) && w.shapes.used(shape_b) &&
+         w.shapes[shape_a].body != w.shapes[shape_b].body);
   // A chain's segment must be shape a, as the manifold functions expect.
   if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
@@ -110,6 +118,7 @@ void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
 
 template <class Real>
 void destroy_contact(WorldData<Real>& w, int contact) {
+  assert(w.contacts.used(contact));
   set_touching(w, contact, false);
   const ContactRecord record = w.contacts[contact];
   switch (record.home) {
@@ -134,6 +143,7 @@ void destroy_contact(WorldData<Real>& w, int contact) {
 
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
+  assert(w.contacts[contact].home == ContactHome::Near);
   const int near = w.contacts[contact].index;
   enter_graph(w, contact, constraint);
   leave_place(w, near);
@@ -152,6 +162,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
 
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact) {
+  assert(w.contacts[contact].home == ContactHome::Graph);
   ensure_room(w.near, w.near.size() + 1);
   set_touching(w, contact, false);
   leave_graph(w, contact);
@@ -190,6 +201,7 @@ void unpark_contact(WorldData<Real>& w, int contact) {
 
 template <class Real>
 ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact) {
+  assert(contact.home == ContactHome::Parked || contact.home == ContactHome::Graph);
   return contact.home == ContactHome::Parked ? w.parked[contact.index]
                                              : w.graph.at({contact.colour, contact.index});
 }

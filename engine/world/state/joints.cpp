@@ -4,6 +4,8 @@
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/sleeping.h"
 
+#include <cassert>
+
 namespace plumb {
 namespace {
 
@@ -32,6 +34,7 @@ void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
 
 template <class Real>
 int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
+  assert(w.bodies.used(body_a) && w.bodies.used(body_b) && body_a != body_b);
   // First everything that may refuse the definition or run out of memory.
   const bool breaks = definition.break_force > 0 || definition.break_torque > 0;
   w.joints.make_room(1);
@@ -72,6 +75,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
 
 template <class Real>
 void remove_joint(WorldData<Real>& w, int joint) {
+  assert(w.joints.used(joint));
   const JointRecord record = w.joints[joint];
   wake_body(w, record.body_a), wake_body(w, record.body_b);
   take_out_joint(w, joint);

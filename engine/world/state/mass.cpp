@@ -1,6 +1,7 @@
 #include "engine/world/state/mass.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <type_traits>
 
@@ -66,6 +67,7 @@ template <class Real>
 void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<Real> frame) {
   BodyRecord<Real>& record = w.bodies[body];
   BodyMotion<Real>& motion = w.motion[body];
+  assert(mass.mass > 0 && mass.inertia >= 0);
   recentre(w, body, frame);
   w.topology_changed = true;
   record.mass = held<Real>(mass.mass), record.inertia = held<Real>(mass.inertia);

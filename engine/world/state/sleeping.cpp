@@ -1,6 +1,7 @@
 #include "engine/world/state/sleeping.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "engine/core/room.h"
@@ -106,6 +107,7 @@ void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
 template <class Real>
 void enter_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
+  assert(!record.awake && record.type != BodyType::Static);
   record.awake = true;
   w.topology_changed = true;
   record.sleep_time = 0;
@@ -116,6 +118,7 @@ void enter_awake(WorldData<Real>& w, int body) {
 template <class Real>
 void leave_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
+  assert(record.awake && w.awake[record.awake_index] == body);
   record.awake = false;
   w.topology_changed = true;
   w.awake[record.awake_index] = w.awake.back();
@@ -207,6 +210,7 @@ void sleep_islands(WorldData<Real>& w) {
 
 template <class Real>
 void put_to_sleep(WorldData<Real>& w, int body) {
+  assert(w.bodies.used(body));
   if (!w.bodies[body].awake) return;
   constexpr Real kListed = -1;
   std::vector<int> island;
