@@ -87,9 +87,9 @@ void add_tune(CLI::App& app, Action& chosen) {
       ->type_name("X");
   command->add_option("--cost-us", options->budget, "instead: microseconds that a step of the game may cost")
       ->type_name("US");
-  add_metric(
-      *command, options->metric,
-      "the error that is to be small (default position_error; of a case file expected_miss, which is to be 1 at most)");
+  add_metric(*command, options->metric,
+             "the error that is to be small (default position_error; of a case file expected_miss, which is "
+             "to be 1 at most)");
   command
       ->add_option("--dt", options->step,
                    "step of the game in s (default 1/60); the engines' steps are this or divide it")

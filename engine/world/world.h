@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/task_system.h"
 #include "engine/geometry/aabb.h"
 #include "engine/scene/error.h"
-#include "engine/core/task_system.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/handles.h"

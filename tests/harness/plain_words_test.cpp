@@ -1,4 +1,4 @@
-// What a newcomer reads around the tables of a comparison.
+// Checks the words around the tables of a comparison.
 #include "harness/plain_words.h"
 
 #include <gmock/gmock.h>

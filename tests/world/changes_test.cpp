@@ -1,5 +1,5 @@
-// What is changed after it was made: the same motion as if it had been made so. Readers that fill a span give
-// what those that return a vector give.
+// Changes bodies, shapes and joints after they were made: the same motion as if they had been made so.
+// Readers that fill a span give what those that return a vector give.
 #include <gmock/gmock.h>
 
 #include <map>
