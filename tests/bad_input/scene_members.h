@@ -42,7 +42,7 @@ PLUMB_MEMBERS(ContactRules, friction, restitution, restitution_threshold, simult
               tangential_restitution, friction_after_stop)
 PLUMB_MEMBERS(Scene, name, gravity, contact_rules, bodies, joints, forces)
 PLUMB_MEMBERS(Realtime, dt, substeps, iterations, precision, integrator, solver, continuous, sleeping,
-              on_violation)
+              on_violation, threads)
 PLUMB_MEMBERS(Precise, tolerance, max_dt, method, estimate_error)
 
 }  // namespace plumb

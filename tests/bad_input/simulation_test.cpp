@@ -30,6 +30,7 @@ TEST(SimulationSettings, BadOnesAreRefused) {
                {"Realtime.integrator", {0, 2}},
                {"Realtime.solver", {0, 4}},
                {"Realtime.on_violation", {0, 2}},
+               {"Realtime.threads", {1, 64}},
                {"Precise.tolerance", {1e-12, 1e100}},
                {"Precise.max_dt", {1e-100, 1e100}},
                {"Precise.method", {0, 3}}});
