@@ -238,7 +238,8 @@ TEST_P(EitherWay, TheRagdollTumblesWhenDropped) {
   EXPECT_GT(fastest, 3);
   EXPECT_LT(world().centre(head).y, start - 2);
   EXPECT_LT(figure(*demo_, "kinetic energy"), 5);
-  EXPECT_LT(worst, bound(0.04, 0.1, 1e-4));  // m, where it hits something
+  // Largest gap, m, at a hit. Solved as one system: there, pivoting ends before all rows agree.
+  EXPECT_LT(worst, bound(0.04, 0.1, 2e-3));
 }
 
 // Elbows and knees turn as far as they may, and no farther.

@@ -12,7 +12,7 @@ MUTATIONS = [
     Mutation("thrust does not turn with the body", "engine/forces/point_force.h",
              "? pose.rotation * force : force", "? force : force"),
     Mutation("drag pushes", "engine/forces/linear_drag.h",
-             "{-coefficient * twist.velocity, 0}", "{coefficient * twist.velocity, 0}"),
+             "{-coefficient * twist.velocity,", "{coefficient * twist.velocity,"),
     Mutation("half of the quadratic drag", "engine/forces/quadratic_drag.h",
              "(-coefficient * speed)", "(-coefficient / 2 * speed)"),
     Mutation("a force does not end", "engine/forces/laws.cpp",

@@ -182,12 +182,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 52099832793203201ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 476018767022401964ull},
-      {Precision::Double, Solver::Direct, 0.5, 4999698417108666890ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 7361442408048366727ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 4981349978874090334ull},
-      {Precision::Float, Solver::Direct, 0.5, 10685767992226599875ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 9125801224369429413ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 7066635600139808442ull},
+      {Precision::Double, Solver::Direct, 0.5, 126554743713719447ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 1331255287808531913ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 11862207990801831434ull},
+      {Precision::Float, Solver::Direct, 0.5, 12854100296647048764ull},
   };
   for (const auto& row : table) {
     Simulation world =
