@@ -97,9 +97,9 @@ void BoundedRows::push(const BoundedRow& row, double impulse) {
 void BoundedRows::find_mobility() {
   assert(std::all_of(rows.begin(), rows.end(), [&](const BoundedRow& row) {
     const int count = static_cast<int>(bodies.size());
-    return row.a >= 0 && row.a < count && row.b >= 0 && row.b < count && row.lower <= row.upper &&
-           row.compliance >= 0;
+    return row.a >= 0 && row.a < count && row.b >= 0 && row.b < count;
   }));
+  assert(std::all_of(rows.begin(), rows.end(), [](const BoundedRow& row) { return row.compliance >= 0; }));
   mobility_.resize(rows.size());
   largest_ = 0;
   const int blocks = static_cast<int>(order_.sequence().size());
@@ -261,8 +261,8 @@ double BoundedRows::energy() const {
 void BoundedRows::shrink() {
   const Work w = work();
   if (!(w.own > w.wanted)) return;
-  assert(w.own >= 0);
-  const double share = std::max(w.wanted / w.own, 0.0);
+  // x A x is not negative but for its rounding, and a quotient of two roundings would be any number.
+  const double share = w.own > 0 ? std::max(w.wanted / w.own, 0.0) : 0.0;
   for (BoundedRow& row : rows) row.impulse *= share;
   apply_all();
 }
