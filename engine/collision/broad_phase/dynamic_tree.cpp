@@ -24,7 +24,6 @@ Real distance_squared(const Aabb<Real>& a, const Aabb<Real>& b) {
 
 template <class Real>
 int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int user) {
-  assert(box.lower.x <= box.upper.x && box.lower.y <= box.upper.y);
   make_room(1);
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
@@ -49,7 +48,7 @@ void DynamicTree<Real>::remove(int proxy) {
 
 template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
-  assert(slots_[proxy] != kNone && box.lower.x <= box.upper.x && box.lower.y <= box.upper.y);
+  assert(slots_[proxy] != kNone);
   const Aabb<Real> wanted = box;  // a copy: `box` may be another leaf's, which moves when this one is removed
   Node leaf = take_leaf(proxy);
   leaf.box = boxes_[proxy] = wanted;
