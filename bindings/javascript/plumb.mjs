@@ -17,7 +17,7 @@ const kBodyFields = new Set(["type", "position", "angle", "velocity", "angularVe
   "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "userData", "name",
   "shapes"]);
 
-/// What plumb refuses: `kind`, and the parts of the sentence in `message`.
+/// Reports a refusal by plumb: `kind`, and the parts of the sentence in `message`.
 export class PlumbError extends Error {
   constructor(kind, message, subject = "", field = "", value = "") {
     super(message);

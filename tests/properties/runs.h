@@ -34,8 +34,8 @@ double disturbance(Engine engine);
 
 /// Returns how far runs end from the undisturbed one when every number that moves is disturbed by up to `by`,
 /// and all steps of what rounds in steps by a tenth of it: the bound for what is only rounded otherwise.
-/// Where the motion comes to a fork within that distance it is large, when one of the disturbances, `first`
-/// and the `count` - 1 after it, takes the other way.
+/// It is large if the motion comes to a fork within that distance, and one of the disturbances, `first` and
+/// the `count` - 1 after it, takes the other way.
 double sensitivity(Engine engine, const Scene& scene, const States& end, double by, const Steps& steps = {},
                    unsigned first = 1, unsigned count = 6);
 

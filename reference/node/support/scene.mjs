@@ -1,4 +1,4 @@
-// What adapters ask of a scene (docs/scene.md).
+// Reads what adapters need from a scene (docs/scene.md).
 
 const area = (shape) => shape.type === "circle" ? Math.PI * shape.radius ** 2 : shape.width * shape.height;
 const gyration = (shape) => shape.type === "circle" ? shape.radius ** 2 / 2 : (shape.width ** 2 + shape.height ** 2) / 12;
