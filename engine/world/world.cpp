@@ -28,10 +28,6 @@ namespace {
               never ? "names nothing" : "names something that was destroyed, or is of another world");
 }
 
-[[noreturn]] void report_moved() {
-  throw Error(Error::Kind::Name, "world", "", "", "was moved to another variable; use that one");
-}
-
 // Changes the threads of a world by `set`.
 template <class Real, class Set>
 void set_crew(WorldData<Real>& w, const Set& set) {
@@ -54,7 +50,7 @@ BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(std::mak
 // A world destroyed in one of its callbacks leaves its data to the running call, which deletes them.
 template <class Real>
 BasicWorld<Real>::~BasicWorld() {
-  if (data_ == nullptr || (!data_->stepping && data_->callers == 0)) return;
+  if (data_.moved_away() || (!data_->stepping && data_->callers == 0)) return;
   data_->abandoned = true;
   (void)data_.release();
 }
@@ -62,19 +58,21 @@ template <class Real>
 BasicWorld<Real>::BasicWorld(BasicWorld&&) noexcept = default;
 template <class Real>
 BasicWorld<Real>& BasicWorld<Real>::operator=(BasicWorld&& other) {
-  if (data_ != nullptr) require_unlocked(*data_);
+  if (!data_.moved_away()) require_unlocked(*data_);
   data_ = std::move(other.data_);
   return *this;
 }
 
 template <class Real>
+void BasicWorld<Real>::report_moved() {
+  throw Error(Error::Kind::Name, "world", "", "", "was moved to another variable; use that one");
+}
+template <class Real>
 WorldData<Real>& BasicWorld<Real>::data() {
-  if (data_ == nullptr) report_moved();
   return *data_;
 }
 template <class Real>
 const WorldData<Real>& BasicWorld<Real>::data() const {
-  if (data_ == nullptr) report_moved();
   return *data_;
 }
 
@@ -243,7 +241,7 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
     return;
   }
   // The data outlive the hook, and stay in place when the world is moved.
-  WorldData<Real>* w = data_.get();
+  WorldData<Real>* w = &*data_;
   data_->pre_solve = [w, hook = std::move(hook)](int contact, ContactConstraint<Real>& constraint) {
     return hook(reading_of(*w, w->contacts[contact], constraint));
   };

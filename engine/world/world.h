@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/task_system.h"
@@ -260,7 +261,24 @@ class BasicWorld {
   void wake_all();
   void wake_asked();
 
-  std::unique_ptr<WorldData<Real>> data_;
+  [[noreturn]] static void report_moved();
+
+  /// Owns the data. Every access to data that were moved away throws: no call can forget to ask.
+  class Owned {
+   public:
+    explicit Owned(std::unique_ptr<WorldData<Real>> data) : data_(std::move(data)) {}
+    WorldData<Real>& operator*() const {
+      if (data_ == nullptr) report_moved();
+      return *data_;
+    }
+    WorldData<Real>* operator->() const { return &**this; }
+    bool moved_away() const { return data_ == nullptr; }
+    WorldData<Real>* release() { return data_.release(); }
+
+   private:
+    std::unique_ptr<WorldData<Real>> data_;
+  };
+  Owned data_;
 };
 
 using World = BasicWorld<float>;

@@ -479,6 +479,11 @@ TYPED_TEST(Waking, AWorldThatWasMovedAwaySaysSo) {
   EXPECT_THROW(world.hash(), Error);
   EXPECT_THROW(world.valid(ids.box), Error);
   EXPECT_THROW(save(world), Error);
+  EXPECT_THROW(world.shapes(ids.box), Error);
+  EXPECT_THROW(world.joints(ids.box), Error);
+  EXPECT_THROW(world.contacts(std::span<ContactReading>()), Error);
+  EXPECT_THROW(world.box(ids.box), Error);
+  EXPECT_THROW(world.user_data(ids.box), Error);
   world = std::move(other);
   world.step();
 }
