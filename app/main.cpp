@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
       "  plumb run free_fall/vacuum --engine plumb-precise --rate 10\n  plumb explain "
       "elastic_collision/oblique\n  plumb check -- python3 my_engine.py\n"
       "Each subcommand has its own --help. Exit codes: 0 ok, 1 a check failed, 2 usage or bad input,\n"
-      "3 no measurements for reality, 130 interrupted.");
+      "3 no unit is free (work --next), 4 no measurements (reality), 130 interrupted.");
   Action action;
   add_list(app, action);
   add_new(app, action);

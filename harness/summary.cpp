@@ -38,9 +38,10 @@ double median(std::vector<double> values) {
 
 // Formats a ratio: "12 x", "1.1e3 x".
 std::string times(double ratio) {
-  if (ratio < 1000) return fmt::format("{:.3g} x", ratio);
-  const double power = std::floor(std::log10(ratio));
-  return fmt::format("{:.1f}e{:.0f} x", ratio / std::pow(10, power), power);
+  if (ratio < 999.5) return fmt::format("{:.3g} x", ratio);
+  const std::string rounded = fmt::format("{:.1e}", ratio);  // "1.1e+03"
+  return fmt::format("{}e{} x", rounded.substr(0, rounded.find('e')),
+                     std::stoi(rounded.substr(rounded.find('e') + 1)));
 }
 
 std::string range(const std::vector<double>& values) {

@@ -150,6 +150,19 @@ TEST(Table, FitsAndNamesWhatWasMissed) {
   EXPECT_NE(table(results, {.width = 110, .colour = true}).find('\x1b'), std::string::npos);
 }
 
+TEST(Summary, RoundsRatiosToOneDigitBeforeThePoint) {
+  for (const auto& [ratio, text] : std::vector<std::pair<double, std::string>>{
+           {999, " 999 x"}, {999.7, " 1.0e3 x"}, {99'990'000, " 1.0e8 x"}, {1.14e5, " 1.1e5 x"}}) {
+    Result ours, theirs;
+    ours.engine = "plumb", theirs.engine = "rival";
+    ours.label = theirs.label = "a";
+    ours.dt = theirs.dt = 1.0 / 60;
+    ours.metrics.position_error = 1e-9, theirs.metrics.position_error = 1e-9 * ratio;
+    const Result results[] = {ours, theirs};
+    EXPECT_NE(summary(results, {}).find(text), std::string::npos) << summary(results, {});
+  }
+}
+
 TEST(Summary, SaysWherePlumbIsWorseFirst) {
   const auto result = [](const char* engine, const char* label, double position, double gap) {
     Result r;
