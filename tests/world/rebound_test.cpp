@@ -175,5 +175,23 @@ TEST(Rebound, LeavesItsSpeedToWhatItStops) {
   }
 }
 
+// A ball is hit by the one that touches it, and stopped in the same step by a third that it meets: it keeps
+// what the impact gave it. Heads-on the velocities of equal balls are exchanged, from one to the next.
+TEST(Rebound, KeepsTheEnergyOfWhatIsHitAndStoppedWithinAStep) {
+  World world(weightless());
+  const ShapeDefinition ball{.geometry = Circle{0.5}, .material = kElastic};
+  const BodyId balls[] = {add_body(world, {0, 0}, ball, {30, 0}), add_body(world, {1, 0}, ball),
+                          add_body(world, {2.1, 0}, ball, {-5, 0})};
+  for (int i = 0; i < 8; ++i) {
+    world.step();
+    double energy = 0;  // in m/2: 30^2 + 5^2
+    for (const BodyId each : balls) energy += length_squared(world.velocity(each));
+    EXPECT_NEAR(energy, 925, 1e-3) << i;
+  }
+  EXPECT_NEAR(world.velocity(balls[0]).x, -5, 1e-4);
+  EXPECT_NEAR(world.velocity(balls[1]).x, 0, 1e-4);
+  EXPECT_NEAR(world.velocity(balls[2]).x, 30, 1e-4);
+}
+
 }  // namespace
 }  // namespace plumb

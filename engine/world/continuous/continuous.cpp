@@ -197,10 +197,12 @@ BodyVelocity<Real> velocity_at_start(const WorldData<Real>& w, int body, double 
 
 // Leaves bodies that are stopped together at a fraction of the step that share of the kinetic energy that
 // they gained in it: forces do no more work on what does not move. Otherwise a mechanism that hangs on what
-// stops it would fall faster from step to step without falling.
+// stops it would fall faster from step to step without falling. A body without joints meets what stops it in
+// the next step, as a contact, and keeps what impacts gave it in this one.
 template <class Real>
 void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
   double before = 0, after = 0;
+  if (places.size() == 1 && w.bodies[w.scratch.swept_bodies[places[0]].body].first_joint == kNone) return;
   for (const int place : places) {
     const int body = w.scratch.swept_bodies[place].body;
     if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
