@@ -248,7 +248,7 @@ void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double frac
             other_arm = w.bodies[other.body].centre.template as<double>();
       const bool holds = std::visit(
           [&](const auto& kind) {
-            if constexpr (requires { kind.anchor_a, kind.anchor_b; }) {
+            if constexpr (requires { kind.anchor_a; }) {
               arm = (is_a ? kind.anchor_a : kind.anchor_b) - arm;
               other_arm = (is_a ? kind.anchor_b : kind.anchor_a) - other_arm;
               return true;
