@@ -126,11 +126,8 @@ class Impact {
 template <class Real>
 ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
                           const ContactConstraint<Real>& c, const bool (&strikes)[2],
-                          const double (&wanted)[2], const ContactImpulses& given) {
-  ImpactRows rows = rows_of(a, b, c);
-  const ContactImpulses back{{-given.normal[0], -given.normal[1]}, -given.friction};
-  const double before[3] = {rows.after(0, back), rows.after(1, back), rows.after(2, back)};
-  std::copy_n(before, 3, rows.rate);
+                          const double (&wanted)[2]) {
+  const ImpactRows rows = rows_of(a, b, c);
   ContactImpulses found = Impact(rows, strikes, wanted, c.tangent_mass > 0 ? double(c.friction) : 0).solve();
   for (double& normal : found.normal) normal = std::max(normal, 0.0);
   const double impulses[3] = {found.normal[0], found.normal[1], found.friction};
@@ -145,10 +142,9 @@ ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
   return {{scale * found.normal[0], scale * found.normal[1]}, scale * found.friction};
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template ContactImpulses impact_of(const BodyMotion<Real>&, const BodyMotion<Real>&,                     \
-                                     const ContactConstraint<Real>&, const bool(&)[2], const double(&)[2], \
-                                     const ContactImpulses&);
+#define PLUMB_FOR(Real)                                                                \
+  template ContactImpulses impact_of(const BodyMotion<Real>&, const BodyMotion<Real>&, \
+                                     const ContactConstraint<Real>&, const bool(&)[2], const double(&)[2]);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

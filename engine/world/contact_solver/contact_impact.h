@@ -19,11 +19,10 @@ struct ContactImpulses {
 /// round, within the impact. Newton's law with friction may gain energy (Kane and Levinson 1985): then all
 /// impulses are scaled back until none is gained.
 ///
-/// `given`: impulses of this impact that the bodies' velocities contain; the result includes them. Points
-/// that do not strike have none. `wanted`: m/s.
+/// Points that do not strike have none. `wanted`: m/s.
 template <class Real>
 ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
                           const ContactConstraint<Real>& c, const bool (&strikes)[2],
-                          const double (&wanted)[2], const ContactImpulses& given = {});
+                          const double (&wanted)[2]);
 
 }  // namespace plumb
