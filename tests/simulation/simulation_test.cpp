@@ -182,12 +182,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 9125801224369429413ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 7066635600139808442ull},
-      {Precision::Double, Solver::Direct, 0.5, 126554743713719447ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 1331255287808531913ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 11862207990801831434ull},
-      {Precision::Float, Solver::Direct, 0.5, 12854100296647048764ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 17726436302137944664ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 18307777763735601212ull},
+      {Precision::Double, Solver::Direct, 0.5, 4191128955718228249ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 9180292248954128510ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 13182307734043741046ull},
+      {Precision::Float, Solver::Direct, 0.5, 13087285022831783480ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -110,7 +110,7 @@ void TouchFinder::measure(std::span<const BodyState> states, ContactCandidate& t
   const double around = length(twist_a.velocity) + length(twist_b.velocity) +
                         std::abs(twist_a.angular_velocity) * (a.reach + a.radius) +
                         std::abs(twist_b.angular_velocity) * (b.reach + b.radius);
-  touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
+  touch.quiet = std::max(1e-12 * speed_ + 256 * kEpsilon * around, touch.graze);
 }
 
 /// Measures a limit: its row stays the same while bodies do not move.

@@ -23,7 +23,8 @@ struct ContactCandidate {
   ContactRows rows[2] = {};
   double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
   double slip = 0;         ///< m/s, of b against a along the tangent
-  double quiet = 0;        ///< m/s, noise floor of these by rounding
+  double quiet = 0;        ///< m/s, noise floor of these by rounding, or `graze`
+  double graze = 0;        ///< m/s, approach that the motion itself ends within the rounding of a gap
 };
 
 /// The outlines of a scene that may touch; finds those that touch at an instant.

@@ -24,6 +24,11 @@ constexpr double kClatter = 1e-7;
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 
+bool closes(const ContactCandidate& touch) {
+  return std::any_of(touch.closing, touch.closing + touch.count,
+                     [&](double rate) { return rate < -touch.quiet; });
+}
+
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
@@ -157,14 +162,30 @@ std::vector<std::array<double, 2>> Contacts::pulls(std::span<const ContactCandid
   return result;
 }
 
-void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
-  const bool closes = std::any_of(touches.begin(), touches.end(), [](const ContactCandidate& touch) {
+/// Finds the approaches that are none: a gap that opens with the acceleration a and closes at v narrows by
+/// v^2 / (2 a). Within the rounding of a gap that is no impact: a corner level with the face on which a disc
+/// rolls is met so.
+void Contacts::find_grazes(std::vector<ContactCandidate>& touches) {
+  const std::vector<Twist<double>> now = accelerations();
+  for (ContactCandidate& touch : touches) {
+    if (touch.stop) continue;
+    double graze = std::numeric_limits<double>::infinity();
     for (int i = 0; i < touch.count; ++i) {
-      if (touch.closing[i] < -touch.quiet) return true;
+      if (!(touch.closing[i] < -touch.quiet)) continue;
+      const Row<double>& row = touch.rows[i].normal;
+      const double opening = std::max(rate_along(row, now) + row.bias_acceleration, 0.0);
+      graze = std::min(graze, std::sqrt(2 * opening * near_));
     }
-    return false;
-  });
-  if (!closes) return;
+    for (int i = 0; i < touch.count; ++i)
+      if (touch.closing[i] < -touch.quiet && touch.closing[i] < -graze) graze = 0;
+    if (graze == std::numeric_limits<double>::infinity()) continue;
+    touch.graze = graze, touch.quiet = std::max(touch.quiet, graze);
+  }
+}
+
+void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
+  if (std::any_of(touches.begin(), touches.end(), closes)) find_grazes(touches);
+  if (std::none_of(touches.begin(), touches.end(), closes)) return;
   const double now = smooth_.time();
   const std::vector<std::array<double, 2>> pull = pulls(touches);
   const std::vector<ContactCandidate> before = touches;

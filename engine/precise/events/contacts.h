@@ -74,6 +74,7 @@ class Contacts {
   void count(ContactEvent event, double time, std::int64_t times = 1);
 
   // settle
+  void find_grazes(std::vector<ContactCandidate>& touches);
   void resolve_impacts(std::vector<ContactCandidate>& touches);
   std::vector<std::array<double, 2>> pulls(std::span<const ContactCandidate> touches);
   bool is_held(const ContactCandidate& touch, int point) const;

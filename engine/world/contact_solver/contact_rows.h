@@ -82,8 +82,11 @@ struct ContactPair {
   void rub_and_roll() {
     const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
     rub(std::clamp(holding_impulse(), -c.friction * pressure, c.friction * pressure));
-    if (c.rolling_arm > 0)
-      roll(std::clamp(holding_torque(), -c.rolling_arm * pressure, c.rolling_arm * pressure));
+    resist_rolling();
+  }
+  void resist_rolling() {
+    const Real most = c.rolling_arm * (c.normal_impulse[0] + c.normal_impulse[1]);
+    if (c.rolling_arm > 0) roll(std::clamp(holding_torque(), -most, most));
   }
   void note_peaks() {
     if (!c.watched) return;

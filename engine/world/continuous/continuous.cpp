@@ -179,45 +179,46 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
   queue.clear();
 }
 
-// Returns the velocity that a body had at the start of the step. The solver lists bodies in the order of
-// `awake`; what is not among them flies freely, by the mean of its velocities.
+// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. The
+// solver lists bodies in the order of `awake`; what is not among them flies freely, by the mean of its
+// velocities.
 template <class Real>
-BodyVelocity<Real> velocity_at_start(const WorldData<Real>& w, int body, double dt) {
+double twice_work_on(const WorldData<Real>& w, int body, double dt) {
   const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
+  const BodyMotion<Real>& motion = w.motion[body];
+  const BodyRecord<Real>& record = w.bodies[body];
+  const auto work = [&](Vec2<Real> gain, Real spin_gain) {
+    return 2 * static_cast<double>(record.mass * dot(gain, motion.moved) +
+                                   record.inertia * spin_gain * motion.turned);
+  };
   const auto place_of = [&](int each) { return w.bodies[each].awake_index; };
   const auto found = std::lower_bound(
       kicks.begin(), kicks.end(), place_of(body),
       [&](const VelocityIncrement<Real>& kick, int place) { return place_of(kick.body) < place; });
-  if (found != kicks.end() && found->body == body)
-    return w.scratch.starts[static_cast<std::size_t>(found - kicks.begin())];
-  const BodyMotion<Real>& motion = w.motion[body];
-  const Real twice = static_cast<Real>(2 / dt);
-  return {twice * motion.moved - motion.velocity, twice * motion.turned - motion.angular_velocity};
+  if (found != kicks.end() && found->body == body) return work(found->velocity, found->spin) / w.last_h;
+  const Real inverse = static_cast<Real>(1 / dt);
+  return 2 *
+         work(motion.velocity - inverse * motion.moved, motion.angular_velocity - inverse * motion.turned) /
+         dt;
 }
 
-// Leaves bodies that are stopped together at a fraction of the step that share of the kinetic energy that
-// they gained in it: forces do no more work on what does not move. Otherwise a mechanism that hangs on what
-// stops it would fall faster from step to step without falling. A body without joints meets what stops it in
-// the next step, as a contact, and keeps what impacts gave it in this one.
+// Takes from bodies that are stopped together at a fraction of the step the work of forces in the rest of it:
+// these do none on what does not move. Otherwise a mechanism that hangs on what stops it would fall faster
+// from step to step without falling. What contacts have given them stays, with its momentum.
 template <class Real>
 void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
-  double before = 0, after = 0;
-  if (places.size() == 1 && w.bodies[w.scratch.swept_bodies[places[0]].body].first_joint == kNone) return;
+  double work = 0, after = 0;
   for (const int place : places) {
     const int body = w.scratch.swept_bodies[place].body;
     if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
     const BodyRecord<Real>& record = w.bodies[body];
-    const double mass = static_cast<double>(record.mass), inertia = static_cast<double>(record.inertia);
-    const auto energy = [&](Vec2<Real> velocity, Real spin) {
-      return mass * static_cast<double>(length_squared(velocity)) +
-             inertia * static_cast<double>(spin * spin);
-    };
-    const BodyVelocity<Real> start = velocity_at_start(w, body, dt);
-    before += energy(start.velocity, start.angular_velocity);
-    after += energy(w.motion[body].velocity, w.motion[body].angular_velocity);
+    const BodyMotion<Real>& motion = w.motion[body];
+    work += twice_work_on(w, body, dt);
+    after += static_cast<double>(record.mass * length_squared(motion.velocity) +
+                                 record.inertia * motion.angular_velocity * motion.angular_velocity);
   }
-  const double most = before + fraction * (after - before);
-  if (!(after > before && most >= 0)) return;
+  const double most = after - (1 - fraction) * work;
+  if (!(work > 0 && most >= 0)) return;
   const Real keep = static_cast<Real>(std::sqrt(most / after));
   for (const int place : places) {
     BodyMotion<Real>& motion = w.motion[w.scratch.swept_bodies[place].body];
@@ -225,7 +226,50 @@ void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, doubl
   }
 }
 
-// Stops a body and all bodies connected to it by joints, so that they stay together.
+// Sets how far bodies that are to be stopped together have to move for their joints to be as they are between
+// the step's ends. Each was followed along its own way, turning uniformly, which opens a joint by an arm
+// times the turn squared. The first body stays where it is, and the others follow it from joint to joint.
+template <class Real>
+void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction) {
+  std::vector<SweptBody>& flights = w.scratch.swept_bodies;
+  for (std::size_t next = 0; next < places.size(); ++next) {
+    SweptBody& flight = flights[places[next]];
+    flight.shift = {};
+    if (next == 0 || flight.changed || flight.arm != Vec2d{}) continue;
+    for_each_edge(w.joints, w.bodies[flight.body].first_joint, [&](int edge, const JointRecord& joint) {
+      const bool is_a = (edge & 1) == 0;
+      const int other_place = w.scratch.swept_body_places[is_a ? joint.body_b : joint.body_a];
+      const auto placed = places.begin() + static_cast<std::ptrdiff_t>(next);
+      if (!joint.active || flight.shift != Vec2d{} ||
+          std::find(places.begin(), placed, other_place) == placed)
+        return;
+      const SweptBody& other = flights[other_place];
+      Vec2d arm = w.bodies[flight.body].centre.template as<double>(),
+            other_arm = w.bodies[other.body].centre.template as<double>();
+      const bool holds = std::visit(
+          [&](const auto& kind) {
+            if constexpr (requires { kind.anchor_a; }) {
+              arm = (is_a ? kind.anchor_a : kind.anchor_b) - arm;
+              other_arm = (is_a ? kind.anchor_b : kind.anchor_a) - other_arm;
+              return true;
+            }
+            return false;
+          },
+          w.joint_set.definition(joint.slot));
+      if (!holds) return;
+      // Between the anchors, in the other body's frame.
+      const auto between = [&](double at) {
+        const Vec2d way = flight.start_at(at) + flight.rotation_at(at) * arm - other.start_at(at);
+        return other.rotation_at(at).inverse() * way - other_arm;
+      };
+      const Vec2d wanted = (1 - fraction) * between(0) + fraction * between(1);
+      flight.shift = other.shift + other.rotation_at(fraction) * (wanted - between(fraction));
+    });
+  }
+}
+
+// Stops a body and all bodies connected to it by joints, so that they stay together. Those that have to move
+// for that do so on the rest of their way, on which they may be stopped themselves.
 template <class Real>
 void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
   std::vector<int>& stopped = w.scratch.stopped;
@@ -234,11 +278,18 @@ void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& s
     if (!w.scratch.swept_bodies[tied].stands) append(stopped, tied);
   });
   take_unmoved_work(w, stopped, fraction, search.dt);
+  find_shifts(w, stopped, fraction);
   for_each_tied(w, place, search.dt, [&](int tied) {
     SweptBody& flight = w.scratch.swept_bodies[tied];
     if (flight.stands) return;
     flight.squeezed = flight.carrier != kNone;
+    const Vec2d shift = flight.shift;
     flight.stop(fraction);
+    if (shift != Vec2d{}) {
+      flight.go_on_lifted(fraction, shift);
+      insert_swept_aabb(w, flight);
+      look_ahead(w, tied, fraction, search);
+    }
     look_back(w, tied, fraction, search);
   });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/world/contact_solver/contact_impact.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/state/constants.h"
@@ -76,43 +77,9 @@ void set_velocity(WorldData<Real>& w, const SweptBody& flight, double fraction) 
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-// Solves Newton's and Coulomb's laws together at one point, because the friction of an off-centre impact also
-// changes the normal velocity. Returns false and does nothing if that would gain energy or reverse the
-// sliding.
-template <class Real>
-bool strike_and_rub(ContactPair<Real>& pair, int i, Real wanted) {
-  const ContactConstraint<Real>& c = pair.c;
-  if (!(c.mass[i] > 0) || !(c.tangent_mass > 0)) return false;
-  const Real nn = 1 / c.mass[i], tt = 1 / c.tangent_mass;
-  const Real nt = pair.a.inverse_inertia * c.arm_a[i] * c.arm_tangent_a +
-                  pair.b.inverse_inertia * c.arm_b[i] * c.arm_tangent_b;
-  const Real vn = pair.normal_rate(i), vt = pair.sliding_rate(), gain = wanted - vn;
-  const Real determinant = nn * tt - nt * nt;
-  Real normal = 0, friction = 0;
-  const bool determined = determinant > Real(1e-6) * nn * tt;
-  if (determined) {
-    normal = (tt * gain + nt * vt) / determinant;
-    friction = -(nn * vt + nt * gain) / determinant;
-  }
-  if (!determined || !(std::abs(friction) <= c.friction * normal)) {
-    const Real direction = vt > 0 || (vt == 0 && friction < 0) ? Real(-1) : Real(1);
-    const Real share = direction * c.friction, pressed = nn + share * nt;
-    if (!(pressed > Real(1e-3) * nn)) return false;
-    normal = gain / pressed, friction = share * normal;
-    if (direction * (vt + nt * normal + tt * friction) > 0) return false;
-  }
-  const Real after = vt + nt * normal + tt * friction;
-  if (!(normal > 0) || normal * (vn + wanted) + friction * (vt + after) > 0) return false;
-  i == 0 ? pair.push(normal, 0) : pair.push(0, normal);
-  pair.rub(friction);
-  return true;
-}
-
 enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
 
-// Resolves an impact of two bodies: Newton's law at the touching points, with friction. Normal impulses alone
-// change the energy by the sum of lambda (n.v + (n.v)') / 2 <= 0. Friction that at most stops sliding also
-// removes energy, so none is ever gained.
+// Resolves an impact of two bodies: Newton's law at the touching points, with friction.
 template <class Real>
 Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
   ContactPair<Real> pair(w.motion.data(), c);
@@ -122,7 +89,6 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
       Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
   bool strikes[2] = {}, fast = false;
-  Real wanted[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.normal_impulse[i] = c.peak_impulse[i] = 0;
     c.approach[i] = pair.normal_rate(i);
@@ -131,17 +97,13 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   }
   if (!strikes[0] && !strikes[1]) return Throw::None;
   fast = fast && may_bounce;
-  for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -c.restitution * c.approach[i] : Real(0);
+  double wanted[2] = {};
+  for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -double(c.restitution) * double(c.approach[i]) : 0;
+  const ContactImpulses impulses = impact_of(pair.a, pair.b, c, strikes, wanted);
   c.tangent_impulse = c.rolling_impulse = 0;
-  const bool one = !strikes[0] || !strikes[1];
-  const int point = strikes[0] ? 0 : 1;
-  if (!(c.friction > 0) || !one || !strike_and_rub(pair, point, wanted[point])) {
-    // Solve twice: the second pass removes the rounding residual of the first, which would otherwise
-    // dissipate energy.
-    pair.press(wanted, strikes[0], strikes[1]);
-    pair.press(wanted, strikes[0], strikes[1]);
-  }
-  pair.rub_and_roll();
+  pair.push(static_cast<Real>(impulses.normal[0]), static_cast<Real>(impulses.normal[1]));
+  pair.rub(static_cast<Real>(impulses.friction));
+  pair.resist_rolling();
   c.watched = true;
   pair.note_peaks();
   return fast ? Throw::Bounce : Throw::Slide;

@@ -26,7 +26,9 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
   const bool alone = w.bodies[body].first_contact == kNone;
   const Real steps = Real(alone ? tuning::kBoxSteps : tuning::kBoxStepsInCrowd);
-  return stretched(box, (steps * dt) * w.motion[body].velocity);
+  const BodyMotion<Real>& motion = w.motion[body];
+  return room_ahead(box, (steps * dt) * motion.velocity,
+                    dt * std::abs(motion.angular_velocity) * w.extents[body], w.extents[body]);
 }
 
 template <class Real>

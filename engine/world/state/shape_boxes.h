@@ -29,6 +29,14 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
+/// Returns the AABB of a shape through a step ahead, in which its body moves by `way` and turns such that no
+/// point of it moves by more than `turned`, m. A body that turns by more than a radian is not predicted: its
+/// contacts would be those of the present angle.
+template <class Real>
+Aabb<Real> room_ahead(const Aabb<Real>& box, Vec2<Real> way, Real turned, Real extent) {
+  return stretched(box, way).grown(turned <= extent ? turned : Real(0));
+}
+
 /// Stores a fat AABB of a shape in a tree (or its PrefetchedEnlarging), and adds the shape to the move
 /// buffer.
 template <class Real, class Tree>

@@ -33,6 +33,7 @@ struct SweptBody {
   /// turn about a hinge, or are pushed along by a rotating one, move on an arc about it.
   Vec2d arm{};
 
+  Vec2d shift{};                ///< m, with which the joints are closed where it is stopped
   Vec2d velocity{}, gain{};     ///< m/s, at `from`, and its gain in a whole step
   double angular_velocity = 0;  ///< rad/s
 
@@ -79,6 +80,7 @@ struct SweptBody {
     velocity = velocity_at(fraction);
     begin_anew(fraction);
     way = rest_way + by, curve = rest_curve, turn = rest;
+    stands = false;
     ++lifts;
   }
   /// Stops at a fraction of the step.

@@ -126,7 +126,7 @@ template <class Real, class Found>
       const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
       w.boxes[shape] = box;
       // One step ahead, so that a pair is known in the step in which it meets.
-      if (!w.dynamic_tree.box(proxy).contains(stretched(box, dt * motion.velocity)))
+      if (!w.dynamic_tree.box(proxy).contains(room_ahead(box, dt * motion.velocity, turned, extent)))
         note(shape, fat_aabb(w, shape, dt));
     }
   }

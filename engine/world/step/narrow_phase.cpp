@@ -237,7 +237,9 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
   } else {
     prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c, c.now);
   }
-  return c.count > 0 && at.outlook != Outlook::Misses;
+  // The outlook knows nothing of the load that a contact carries: one that holds a body is kept.
+  const bool holds = c.now[0] > 0 || c.now[1] > 0;
+  return c.count > 0 && (holds || at.outlook != Outlook::Misses);
 }
 
 // Recycles the manifold of a contact with points, or rebuilds it if its bodies have moved too much.

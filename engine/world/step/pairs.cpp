@@ -2,6 +2,7 @@
 
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/shape_boxes.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -79,11 +80,28 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
       });
 }
 
+// Stores fat AABBs with room for this step where they have none: of bodies that were made or moved by calls.
+template <class Real>
+void make_room_ahead(WorldData<Real>& w, Real dt) {
+  for (const int shape : w.move_buffer) {
+    const ShapeRecord<Real>& record = w.shapes[shape];
+    if (!record.moved || record.proxy == kNone || !w.is_dynamic(record.body)) continue;
+    const BodyMotion<Real>& motion = w.motion[record.body];
+    const Real extent = w.extents[record.body], turned = dt * std::abs(motion.angular_velocity) * extent;
+    if (w.dynamic_tree.box(record.proxy)
+            .contains(room_ahead(w.boxes[shape], dt * motion.velocity, turned, extent)))
+      continue;
+    w.dynamic_tree.enlarge(record.proxy, fat_aabb(w, shape, dt));
+    w.enlarged[record.body] = 1;
+  }
+}
+
 }  // namespace
 
 template <class Real>
-void find_pairs(WorldData<Real>& w) {
+void find_pairs(WorldData<Real>& w, Real dt) {
   if (w.move_buffer.empty()) return;
+  make_room_ahead(w, dt);
   const bool marked = mark_self_overlaps(w);
   const bool grounds = w.static_tree.size() > 0;
   const int blocks = static_cast<int>((w.move_buffer.size() + kMovedOfBlock - 1) / kMovedOfBlock);
@@ -99,7 +117,7 @@ void find_pairs(WorldData<Real>& w) {
   w.move_buffer.clear();
 }
 
-template void find_pairs(WorldData<float>&);
-template void find_pairs(WorldData<double>&);
+template void find_pairs(WorldData<float>&, float);
+template void find_pairs(WorldData<double>&, double);
 
 }  // namespace plumb

@@ -132,12 +132,13 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   StageClock<Real> clock(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
   w.crew.set_busy(w.crew.threads() > 1 && is_worth_sharing(w));
-  find_pairs(w), clock.end(WorldStage::BroadPhase);
+  find_pairs(w, static_cast<Real>(dt)), clock.end(WorldStage::BroadPhase);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
   try {
     w.crew.session([&] { solve_motion(w, h, substeps); });
+    w.last_h = h;
     clock.end(WorldStage::Solver);
     report_impacts(w), clock.end(WorldStage::Events);
     w.crew.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
@@ -155,7 +156,6 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   update_sensors(w), clock.end(WorldStage::Events);
   sleep_islands(w), clock.end(WorldStage::Sleep);
   w.time += dt;
-  w.last_h = h;
   ++w.steps, w.profile.steps += w.profiled ? 1 : 0;
 }
 

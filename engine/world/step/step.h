@@ -11,7 +11,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps);
 
 /// Broad phase: creates contacts for shapes whose fat AABBs started to overlap.
 template <class Real>
-void find_pairs(WorldData<Real>& w);
+void find_pairs(WorldData<Real>& w, Real dt);
 
 /// Narrow phase: updates manifolds of shapes that touch, or may touch within `dt`; substeps have length `h`.
 template <class Real>
