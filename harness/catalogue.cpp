@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Returns `text` as it stands in a cell of a table.
+// Escapes `text` for a cell of a table.
 std::string in_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, "\\");

@@ -73,7 +73,7 @@ constexpr KnownLimit kLimits[] = {
      "Sequential impulses stop after a fixed number of iterations. As the step gets shorter, the error of "
      "convergence decreases more slowly than that of the integration.",
      true},
-    // Scenes of the catalogue, by reason, and by which checks miss.
+    // Scenes of the catalogue, ordered by reason and by the missed checks.
     {"box2d",
      "block_on_cart|circle_stack[2]|circle_stack[5]|conveyor|disc_in_groove|friction_rules/"
      "geometric_mean|friction_rules/product|friction_rules/maximum|friction_rules/minimum|friction_rules/"
