@@ -1,6 +1,6 @@
 #include "scenarios/truth/parts.h"
 
-// Bodies that gravity draws by a fraction of its own: a balloon rises, a weightless body goes straight on.
+// Bodies with different fractions of gravity: a balloon rises, a weightless body moves in a straight line.
 // Source: Galileo.
 namespace plumb::scenarios {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A spinning disc lands on rough ground: the impulse of friction ends the slip u, J_t = -m u/3, if mu
-// allows; else it is mu times the normal one, (1 + e) m v. Source: Routh, Dynamics of a System of Rigid
-// Bodies, I, ch. 4; tangential restitution 0.
+// A spinning disc lands on rough ground. The impulse of friction stops the slip u, J_t = -m u/3, if mu
+// permits; otherwise it is mu times the normal impulse, (1 + e) m v. Source: Routh, Dynamics of a System of
+// Rigid Bodies, I, ch. 4; tangential restitution 0.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

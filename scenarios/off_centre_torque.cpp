@@ -1,7 +1,8 @@
 #include "scenarios/truth/pushes.h"
 
-// Forces beside the centre of mass accelerate and turn a body; without torque its spin is constant. In free
-// space without contacts, so only r x F, the inertia, and the angle used within a step matter.
+// Forces off the centre of mass accelerate and rotate a body; without torque its angular velocity is
+// constant. There is no gravity and no contact, so only r x F, the inertia, and the angle used within a step
+// matter.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -2,7 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// A torque for a while, on a disc and on a box: the spin grows at T/I, and stays. Source: Euler.
+// A torque acts for a limited time on a disc and on a box: the angular velocity grows at T/I, and is constant
+// afterwards. Source: Euler.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

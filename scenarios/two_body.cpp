@@ -3,8 +3,8 @@
 #include "scenarios/truth/orbit.h"
 #include "scenarios/truth/parts.h"
 
-// Two bodies that attract each other circle their centre of mass: the way between them is Kepler's ellipse
-// with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
+// Two bodies attract each other and orbit their centre of mass: the vector between them moves on Kepler's
+// ellipse with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
