@@ -34,7 +34,7 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a turning arm", .build = build}};
+const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a rotating arm", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

@@ -24,7 +24,7 @@ Problem build(std::string_view, int) {
 }
 
 const Register r{{.name = "central_spring",
-                  .summary = "a body drawn to a point in proportion to its distance",
+                  .summary = "a body attracted to a point in proportion to its distance",
                   .build = build}};
 
 }  // namespace

@@ -21,7 +21,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "galilean_cannon",
-                  .summary = "balls dropped upon each other: the lightest flies up",
+                  .summary = "balls dropped on top of each other: the lightest flies up",
                   .variants = {"two", "three"},
                   .build = build}};
 

@@ -25,9 +25,8 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{{.name = "gravity_scales",
-                  .summary = "bodies that gravity draws up, not at all, and twice",
-                  .build = build}};
+const Register r{
+    {.name = "gravity_scales", .summary = "bodies with negative, zero and double gravity", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

@@ -26,7 +26,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "landing_spin",
-                  .summary = "a spinning disc lands on ground that grips, or lets it slip",
+                  .summary = "a spinning disc lands with enough friction to grip, or too little",
                   .variants = {"grips", "slips"},
                   .build = build}};
 

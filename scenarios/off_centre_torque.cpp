@@ -31,7 +31,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{"off_centre_torque",
-                  "pushes beside the centre of mass, a thruster, and pure spin",
+                  "off-centre forces, a thruster, and pure spin",
                   {"corner_force", "thruster", "spin_1", "spin_100", "thin_and_square"},
                   {1},
                   false,

@@ -24,7 +24,7 @@ Problem build(std::string_view, int count) {
 }
 
 const Register r{{.name = "overhang",
-                  .summary = "N blocks stacked as far as they hold over the edge of a table",
+                  .summary = "N blocks stacked over the edge of a table with the largest overhang",
                   .sizes = {1, 5},
                   .scales = true,
                   .build = build}};

@@ -32,7 +32,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "pendulum",
-                  .summary = "a bob on a rod, let go at 60 to 170 degrees",
+                  .summary = "a bob on a rod, released at 60 to 170 degrees",
                   .variants = {"60", "90", "120", "170"},
                   .build = build}};
 

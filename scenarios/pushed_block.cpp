@@ -31,7 +31,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "pushed_block",
-                  .summary = "a block pushed along the ground, with less and more than friction holds",
+                  .summary = "a block pushed along the ground with less or more force than friction can hold",
                   .variants = {"holds", "barely_slips", "slips"},
                   .build = build}};
 

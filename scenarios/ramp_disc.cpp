@@ -30,7 +30,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "ramp_disc",
-                  .summary = "a disc on a ramp, with friction on either side of what makes it roll",
+                  .summary = "a disc on a ramp, with friction above and below the value for rolling",
                   .variants = {"rolls", "barely_rolls", "barely_slips", "slips"},
                   .build = build}};
 

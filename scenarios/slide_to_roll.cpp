@@ -29,7 +29,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "slide_to_roll",
-                  .summary = "a sliding or spinning disc on level ground comes to roll",
+                  .summary = "a sliding or spinning disc on level ground until it rolls",
                   .variants = {"slide", "spin", "backspin"},
                   .build = build}};
 

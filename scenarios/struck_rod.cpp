@@ -29,7 +29,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "struck_rod",
-                  .summary = "a disc strikes a free rod beside its centre",
+                  .summary = "a disc strikes a free rod off-centre",
                   .variants = {"elastic", "half_elastic"},
                   .build = build}};
 

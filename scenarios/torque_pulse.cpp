@@ -28,8 +28,9 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{
-    {.name = "torque_pulse", .summary = "a torque turns a disc and a box for a while", .build = build}};
+const Register r{{.name = "torque_pulse",
+                  .summary = "a torque acts on a disc and a box for a limited time",
+                  .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios
