@@ -29,8 +29,8 @@ namespace {
 namespace cluster = harness::cluster;
 namespace fs = std::filesystem;
 
-// Default estimates of durations, s, on one core of 2020: a run of `compare` with its cost and without, a
-// cell of `stress`, a search of `thresholds`, a scene of `hunt` on an engine.
+// Defaults of estimates, s, on one core of 2020: for a run of `compare` with its cost and without, a cell of
+// `stress`, a search of `thresholds`, a scene of `hunt` on an engine.
 constexpr double kRun = 0.3, kRunAlone = 0.1, kCell = 1, kSearch = 20, kScene = 0.2;
 constexpr double kBudget = 540, kMinutes = 10;  // the commands' own defaults
 
@@ -41,7 +41,7 @@ struct Options {
   bool by_engine = false;
 };
 
-/// A command line that is divided into units.
+/// A command line of which units are made.
 struct Given {
   std::string command;
   std::vector<std::string> names;
@@ -63,7 +63,7 @@ struct Piece {
 
 constexpr const char* kCommands = "compare, sweep, stress, thresholds or hunt";
 
-// Parses a command line with the options of the command itself, so that both accept the same.
+// Reads a command line with the command's own options, so that a plan takes what the command takes.
 Given parse(std::vector<std::string> words) {
   CLI::App app("plumb", "plumb");
   Action ignored;
@@ -221,7 +221,7 @@ class Splitter {
     return out;
   }
 
-  // Copies a scene into the folder of work, so that units run the scene as it was when the plan was made.
+  // Copies a scene into the folder of work: units run what was there when the plan was made.
   std::string kept_file(const std::string& path) {
     const std::string text = harness::read_text(path);
     const fs::path files = fs::path(folder_) / "files";
@@ -265,7 +265,7 @@ class Splitter {
     return given_.has("no-cost") ? kRunAlone : kRun;
   }
 
-  // A sweep uses up its time budget: each scene, and with --by-engine each engine, gets a share of it.
+  // A sweep takes the time that it is given: each scene, and with --by-engine each engine, has its share.
   void share_budget(std::vector<Piece>& pieces) const {
     const double budget =
         given_.has("budget") ? parse_positive("--budget", given_.value("budget", "")) : kBudget;
@@ -291,7 +291,7 @@ class Splitter {
       }
     }
     if (!engine.empty()) out.insert(out.end(), {"--engine", engine});
-    // A unit uses one core, unless costs are measured: then it has the machine to itself.
+    // A unit takes a core, unless costs are measured: then it has the machine to itself.
     if (!measures_cost() && given_.command != "compare" && !given_.has("jobs"))
       out.insert(out.end(), {"--jobs", "1"});
     if (given_.command == "compare") out.emplace_back("--no-report");

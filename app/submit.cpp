@@ -52,7 +52,7 @@ pid_t start_worker(const std::vector<std::string>& words) {
   if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    // Discard stdout, because each unit's line would disturb the progress; failures go to stderr.
+    // Each unit's line would come between the progress; failures are on stderr.
     if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0) dup2(nothing, STDOUT_FILENO);
     become(words);
   }
@@ -74,7 +74,7 @@ int run_script(const std::string& script) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kInterrupted;
 }
 
-// Runs the units on this machine, `jobs` at a time, and gathers the results.
+// Does the units on this machine, `jobs` at a time, and gathers them.
 int run_here(const std::string& folder, const cluster::Plan& plan, const Options& options, int jobs) {
   std::vector<pid_t> workers;
   harness::catch_interrupts();
@@ -149,7 +149,7 @@ int start(Options options) {
       options.out.empty() ? folder + "/results" : fs::absolute(options.out).lexically_normal().string();
   const std::vector<int> units = cluster::survey(folder, plan, cluster::WorkOptions{}.expiry).missing();
   if (options.on == "local") {
-    // Costs that are measured in parallel disturb each other.
+    // Costs that are measured side by side disturb each other.
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const int jobs = options.jobs > 0 ? options.jobs : plan.measures_cost ? 1 : cores;
     if (options.dry_run) {
