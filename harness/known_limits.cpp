@@ -47,17 +47,18 @@ constexpr KnownLimit kLimits[] = {
      "of the step with the unlimited angular velocity: at 100 rad/s a body turns by 1.442 rad in 1/60 s "
      "instead of 1.667 rad."},
     {"box2d", "pendulum_chain[20]", "velocity_error",
-     "Box2D's sequential impulses carry a pull from one joint to the next in each of its 8 sweeps a "
-     "step; a chain of 20 needs more of them to feel its own weight."},
+     "Each of Box2D's 8 iterations per step propagates a force by one joint; a chain of 20 needs more of "
+     "them "
+     "to carry its own weight."},
     {"box2d", "pendulum_chain[100]", "velocity_error",
-     "Box2D's sequential impulses carry a pull from one joint to the next in each of its 8 sweeps a "
-     "step; through a chain of 100 it comes steps too late, and the chain stretches."},
+     "Each of Box2D's 8 iterations per step propagates a force by one joint; through a chain of 100 it takes "
+     "several steps, and the chain stretches."},
     {"bullet|bullet-double", "pendulum_chain[20]", "velocity_error",
-     "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
-     "a step; a chain of 20 needs more of them to feel its own weight."},
+     "Each of Bullet's 10 iterations per step propagates a force by one joint; a chain of 20 needs more of "
+     "them to carry its own weight."},
     {"bullet|bullet-double", "pendulum_chain[100]", "position_error|velocity_error",
-     "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
-     "a step; through a chain of 100 it comes steps too late, and the chain stretches."},
+     "Each of Bullet's 10 iterations per step propagates a force by one joint; through a chain of 100 it "
+     "takes several steps, and the chain stretches."},
     {"box2d", "free_fall/*",
      "position_error|velocity_error|discrete_position|discrete_velocity|energy_drift|momentum_drift",
      "Box2D limits a body's displacement to 2 m per step (b2_maxTranslation), which free fall exceeds at "
