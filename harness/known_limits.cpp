@@ -48,8 +48,7 @@ constexpr KnownLimit kLimits[] = {
      "instead of 1.667 rad."},
     {"box2d", "pendulum_chain[20]", "velocity_error",
      "Each of Box2D's 8 iterations per step propagates a force by one joint; a chain of 20 needs more of "
-     "them "
-     "to carry its own weight."},
+     "them to carry its own weight."},
     {"box2d", "pendulum_chain[100]", "velocity_error",
      "Each of Box2D's 8 iterations per step propagates a force by one joint; through a chain of 100 it takes "
      "several steps, and the chain stretches."},
