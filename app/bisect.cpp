@@ -73,7 +73,7 @@ class Runs {
   ProgressLine progress_;
 };
 
-// Returns the missed check by name, or the one that is worst in its bounds; null if nothing is missed.
+// Returns the missed check called `name`, or the worst of the missed ones; null if there is none.
 const Check* missed(const Result& result, const std::string& name) {
   const Check* worst = nullptr;
   for (const Check& check : result.checks) {
@@ -107,7 +107,7 @@ int start(const Options& options) {
     return (!options.from.empty() && reference::older(version, options.from)) ||
            (!options.to.empty() && reference::older(options.to, version));
   });
-  // Versions on which the adapter or the case does not run say nothing.
+  // Versions on which the adapter or the case does not run give no answer.
   while (!versions.empty() && !could_run(runs.of(versions.back()))) {
     notice(fmt::format("{}@{}: {}", options.engine, versions.back(), figures(runs.of(versions.back()), "")));
     versions.pop_back();
@@ -119,8 +119,8 @@ int start(const Options& options) {
                       options.check.empty() ? "" : " in " + options.check));
     return kCheckFailed;
   }
-  // A check that every version misses has no version that brought it: another that the newest misses may have
-  // one.
+  // If every version misses a check, no version introduced it; another missed check of the newest version may
+  // have one.
   std::size_t low = 0, high = versions.size() - 1;
   while (low < high && !could_run(runs.of(versions[low]))) ++low;
   std::string check;

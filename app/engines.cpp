@@ -31,7 +31,7 @@ std::vector<const Backend*> listed() {
   return all;
 }
 
-// Lists the versions of an engine from npm that are there, with what else may be asked for.
+// Lists the installed versions of an engine from npm, and the other names under which it can be requested.
 std::string versions_of(const Backend& backend) {
   for (const reference::NodeEngine& engine : reference::node_engines()) {
     if (engine.name != backend.name()) continue;

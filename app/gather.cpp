@@ -50,7 +50,7 @@ std::string bar(double share, int width) {
          std::string(static_cast<std::size_t>(width - full), '.') + "]";
 }
 
-// Lists what is not done, by kind, and what to do about it.
+// Lists the units that are not done, by kind, with advice.
 std::string missing_text(const std::string& folder, const cluster::Survey& survey,
                          const harness::Style& style) {
   std::string out;

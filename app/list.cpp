@@ -37,7 +37,7 @@ std::string sizes_text(const Scenario& scenario) {
   return joined(sizes);
 }
 
-// Lists scenarios by topic, each with those of its variants and sizes that were found.
+// Lists scenarios by topic, each with its variants and sizes that pass the filter.
 std::string as_text(const CatalogueFilter& filter, const Style& style) {
   std::string out;
   const CatalogueEntry* before = nullptr;
@@ -87,7 +87,7 @@ std::string as_json(const CatalogueFilter& filter) {
   return out.dump(2) + "\n";
 }
 
-// Lists case files with what they expect.
+// Lists case files with their expectations.
 std::string cases_as_text(const std::vector<std::string>& names, const Style& style) {
   std::string out;
   for (const std::string& name : names) {

@@ -21,7 +21,7 @@ std::string problem_with_name(const std::string& name) {
   return letters ? "" : "a scenario's name has lower-case letters, digits and '_', and starts with a letter";
 }
 
-// Writes `folder`/`name`.cpp, which must not be there yet.
+// Writes `folder`/`name`.cpp, which must not exist yet.
 void write_scenario(const std::string& name, const std::string& folder) {
   std::string text = kNewScenario;
   const std::string stand_in = "new_scenario_name";

@@ -24,7 +24,7 @@ extern char** environ;
 namespace plumb::app {
 namespace {
 
-// Runs npm with `arguments`; its stdout is returned, or goes to stderr where `silent` is false.
+// Runs npm with `arguments`; returns its stdout, or sends it to stderr if `silent` is false.
 std::string npm(const std::vector<std::string>& arguments, bool silent) {
   std::vector<std::string> command{"npm"};
   command.insert(command.end(), arguments.begin(), arguments.end());
@@ -95,7 +95,7 @@ void install(const NamedVersion& wanted) {
     throw Error(Error::Kind::Io, "folder " + plumb::quoted(folder), "", "",
                 "cannot be made: " + code.message());
   try {
-    // A package's own scripts are code of strangers that no engine here needs.
+    // Never run a package's install scripts: they are foreign code that no engine here needs.
     npm({"install", "--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--loglevel=error",
          "--prefix", folder, wanted.engine.package + "@" + wanted.version},
         false);

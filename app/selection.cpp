@@ -85,7 +85,7 @@ std::vector<std::string> case_files(const std::string& name) {
 
 namespace {
 
-// Results and reports know a case by its name.
+// Results and reports identify a case by its name.
 void append_case(const std::string& file, std::vector<scenarios::Instance>& out) {
   scenarios::Instance instance = harness::case_file::case_instance(file);
   for (const scenarios::Instance& other : out)

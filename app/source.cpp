@@ -94,8 +94,7 @@ scenarios::Instance file_instance(const std::string& path, const std::string& du
 
 namespace {
 
-/// Reads the scene of a file. Errors in its text are prefixed by the file's name, as there may be several
-/// files.
+/// Reads the scene of a file. Errors are prefixed by the file's name, because there may be several files.
 Scene scene_in(const std::string& path) {
   const std::string text = read_file(path);
   try {

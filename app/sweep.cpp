@@ -32,7 +32,7 @@ struct Options {
   int jobs = 0;
 };
 
-// Throws if two scenes have the same label, because a sweep's folder identifies them by it.
+// Throws if two scenes have the same label, because a sweep's folder identifies scenes by label.
 void require_different(const std::vector<scenarios::Instance>& instances) {
   std::set<std::string> labels;
   for (const scenarios::Instance& instance : instances)

@@ -33,7 +33,7 @@ struct Options {
 int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
-  // A case file has its tolerances with it.
+  // A case file contains its own tolerances.
   const bool is_case = !case_files(options.name).empty();
   const bool own = is_case && options.metric.empty() && options.budget.empty() && options.tolerance.empty();
   const std::string metric = !options.metric.empty() ? options.metric

@@ -48,8 +48,8 @@ Result not_run(const scenarios::Instance& instance, const reference::Backend& en
   return result;
 }
 
-// Asks the engine about a case in this process, where its program is kept: the run's own process inherits the
-// answer and need not start the program once more to ask.
+// Queries the engine about a case in this process, which caches its program's answer: the run's own process
+// inherits it and need not start the program again.
 void ask_about(const scenarios::Instance& instance, const reference::Backend& engine) {
   try {
     const Scene scene = instance.build().scene;
@@ -59,7 +59,8 @@ void ask_about(const scenarios::Instance& instance, const reference::Backend& en
   }
 }
 
-// Runs every case, each in a process of its own that also computes its truth, so that these share the cores.
+// Runs every case in a process of its own that also computes its truth, so that the truths are computed in
+// parallel too.
 std::vector<Result> judge_all(const std::vector<scenarios::Instance>& cases, const reference::Backend& engine,
                               double budget) {
   const auto end =
@@ -120,7 +121,7 @@ int start(const Options& options) {
   const std::vector<scenarios::Instance> cases = chosen_instances(options.names, 0);
   harness::catch_interrupts();
   std::vector<Result> results = judge_all(cases, engine, parse_positive("--budget", options.budget));
-  for (Result& result : results) harness::judge(result, true, {});  // no limit is declared for a stranger
+  for (Result& result : results) harness::judge(result, true, {});  // foreign engines have no declared limits
   print(options.format == "json" ? harness::verdict_json(results)
                                  : harness::verdict_text(results, harness::Style::of_file(STDOUT_FILENO)));
   flush();

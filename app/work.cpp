@@ -27,7 +27,7 @@ struct Options {
   bool next = false, all = false, again = false;
 };
 
-// Says what came of a unit; returns the exit code.
+// Reports the outcome of a unit; returns the exit code.
 int tell(const std::string& folder, int number, cluster::Worked worked) {
   switch (worked) {
     case cluster::Worked::Done:
@@ -64,7 +64,7 @@ int do_all(const std::string& folder, const cluster::Plan& plan, const cluster::
       continue;
     }
     if (!queue.waits()) return kOk;
-    usleep(pause);  // others are at work, and their claims may expire
+    usleep(pause);  // other processes are working, and their claims may expire
     pause = std::min(2 * pause, kLongest);
   }
   return kInterrupted;

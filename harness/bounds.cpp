@@ -35,8 +35,8 @@ Tolerances::Tolerances(const scenarios::Problem& problem, const TruthTable& trut
   }
 }
 
-// Returns the number of substeps up to the sample. An engine that meets a tolerance answers for its steps by
-// that; what is left is the rounding of its result, as of one step.
+// Returns the number of substeps up to the sample; 1 for an engine with a tolerance, which already covers the
+// errors of its steps and leaves only the rounding of one result.
 double Tolerances::steps(int sample) const {
   return method_.order == 0 ? 1 : sample * truth_.dt() / method_.substep;
 }

@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Returns `text` as it stands in a cell of a table.
+// Escapes `text` for a cell of a table.
 std::string in_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, "\\");
@@ -72,10 +72,10 @@ std::string catalogue_page() {
   std::string page = fmt::format(R"(# Scenarios
 
 {} cases in {} files, each with an answer that no engine computed. `plumb compare NAME` runs one on every engine;
-`plumb list --filter TEXT --truth KIND` finds some. The truth is a `closed_form`, equations of motion
-in coordinates of their own that are `integrated` to about 15 digits, or an `equilibrium` by statics.
+`plumb list --filter TEXT --truth KIND` searches them. The truth is a `closed_form`, the equations of motion in
+independent coordinates, `integrated` to about 15 digits, or an `equilibrium` by statics.
 
-This page is written by `plumb list --page`; a test holds it against the scenarios.
+`plumb list --page` generates this page; a test compares it with the scenarios.
 )",
                                  entries.size(), scenarios::all().size());
   const CatalogueEntry* before = nullptr;

@@ -15,7 +15,7 @@ std::string_view name_of(scenarios::TruthKind kind);
 enum class Topic { FreeMotion, Forces, Joints, Impacts, LastingContacts, Equilibrium };
 std::string_view name_of(Topic topic);  ///< for headings: "lasting contacts"
 
-/// One case, with what a catalogue says of it.
+/// One case with its entries in the catalogue.
 struct CatalogueEntry {
   scenarios::Instance instance;
   Topic topic{};

@@ -23,7 +23,7 @@ struct Mechanics {
 /// Sums over the dynamic bodies of `scene`.
 Mechanics mechanics(const Scene& scene, std::span<const BodyState> states);
 
-/// Scales that drifts are relative to. Taken from the truth if there is one, so that a diverging run does not
+/// Scales of the drifts. They are taken from the truth if there is one, so that a diverging run does not
 /// enlarge its own scale.
 struct ConservationScale {
   double energy = 0;    ///< J, largest kinetic + potential energy, the potential from its lowest value

@@ -126,7 +126,7 @@ class Growth {
   }
 
  private:
-  // Joint forces begin at the start: their first value is a change too, from free fall.
+  // Joint forces start from free fall, so their first value counts as a change.
   void start_joints() {
     for (const Joint& joint : problem_.scene.joints) {
       std::visit(
@@ -172,9 +172,9 @@ class Growth {
     return body.mass * lever / inertia_of(body);
   }
 
-  // Adds what the forces of lasting contacts do when they act a substep early or late. Across the motion that
-  // the contacts leave the body they take the error back, so it does not add up (`held_`). Along the motion
-  // it stays, from where the contacts begin.
+  // Adds the error of persistent contact forces that act a substep early or late. Perpendicular to the
+  // permitted motion the contacts correct this error, so it does not accumulate (`held_`). Along the motion
+  // it stays, from the start of the contact on.
   void hold(std::size_t index, Vec2d acceleration, double angular_acceleration, Vec2d velocity, bool begins,
             Parts& growth) {
     const Body& body = problem_.scene.bodies[index];
@@ -334,7 +334,8 @@ class Growth {
     }
   }
 
-  // Returns the acceleration by gravity towards what the body hits: it goes on until the impact is noticed.
+  // Returns the relative acceleration by gravity towards the other body of an impact, which acts until the
+  // engine detects the impact.
   Vec2d relative_gravity(const Jump& jump) const {
     double scale = problem_.scene.bodies[jump.body].gravity_scale;
     if (jump.partner && problem_.scene.bodies[*jump.partner].type == BodyType::Dynamic)
@@ -342,8 +343,8 @@ class Growth {
     return scale * problem_.scene.gravity;
   }
 
-  // Returns angular velocity per unit of jump: the impulse's lever arm is off by the error of the contact
-  // point. A disc's arm lies along the normal for any contact point.
+  // Returns the angular velocity per unit of the velocity jump: the impulse's lever arm is off by the error
+  // of the contact point. The arm of a disc lies along the normal for any contact point.
   double spin_of_arm(const Jump& jump, double delay, Vec2d position) const {
     const Body& body = problem_.scene.bodies[jump.body];
     if (body.fixed_rotation || body.type != BodyType::Dynamic) return 0;
@@ -381,7 +382,7 @@ class Growth {
   std::vector<Parts> now_;
   std::vector<Differences> differences_;
   std::vector<Parts> growth_;
-  // m/s^2, the largest acceleration so far by a body's lasting contacts, and by what is not gravity.
+  // Largest acceleration so far by a body's persistent contacts, and by everything except gravity, m/s^2.
   std::vector<double> held_, pulled_;
   std::vector<double> levers_;  // m, from a body's centre to its farthest joint
   std::vector<std::vector<std::size_t>> groups_;

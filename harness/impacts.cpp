@@ -15,15 +15,15 @@ struct Moment {
 
 bool jumps(const Moment& moment, std::size_t body) {
   const BodyState &a = moment.before[body], &b = moment.after[body];
-  // Changes due to forces within the margin are far below this fraction of the speed.
+  // Within the margin, forces change the velocity by far less than this fraction of the speed.
   const double speed = magnitude(a.velocity) + magnitude(b.velocity) + 1e-3;
   const double spin = std::abs(a.angular_velocity) + std::abs(b.angular_velocity) + 1e-3;
   return magnitude(b.velocity - a.velocity) > 1e-6 * speed ||
          std::abs(b.angular_velocity - a.angular_velocity) > 1e-6 * spin;
 }
 
-// Returns the body with the nearest surface: bodies that jump at the same time need not all meet each other,
-// and the partner may be too heavy for its own jump to show.
+// Returns the body with the nearest surface. Not all bodies that jump at the same time meet each other, and
+// the partner may be too heavy for its own jump to be visible.
 std::optional<std::size_t> partner_of(const Scene& scene, const Moment& moment, std::size_t body) {
   std::optional<std::size_t> best;
   double nearest = std::numeric_limits<double>::infinity();

@@ -8,10 +8,10 @@
 
 namespace plumb::harness {
 
-/// Effect of an impact of the truth on one body, with its geometry.
+/// Effect of an impact in the exact motion on one body, with its geometry.
 struct Jump {
   std::size_t body = 0;
-  std::optional<std::size_t> partner{};  ///< the other body of the impact; none: one that does not move
+  std::optional<std::size_t> partner{};  ///< the other body of the impact; none if it is not dynamic
   Vec2d velocity{};                      ///< m/s, jump of the body's velocity
   double angular_velocity = 0;           ///< rad/s, |jump| of its angular velocity
   Vec2d normal{1, 0};                    ///< unit, along the jump

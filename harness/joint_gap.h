@@ -20,8 +20,8 @@ class JointGaps {
   /// Others have no rigid constraint: 0.
   double gap(std::size_t joint, std::span<const BodyState> states) const;
 
-  /// Returns the change of the gap per radian that body a turns, beside that due to its anchor's motion, m.
-  /// If a has the axis, it is the distance between the anchors; else 0.
+  /// Returns the change of the gap per radian of body a's rotation, without that due to its anchor's motion,
+  /// m. If a has the axis, it is the distance between the anchors; otherwise 0.
   double lever(std::size_t joint, std::span<const BodyState> states) const;
 
   /// A joint's end: a body (none: the fixed frame) and the anchor's distance from its centre of mass, m.

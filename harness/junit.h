@@ -7,9 +7,9 @@
 
 namespace plumb::harness {
 
-/// Returns results as JUnit's XML, which CI systems read: a suite a case, a test an engine. A run that is not
-/// as expected is a failure, with what missed and by how much; a skipped one is skipped; misses that fail
-/// nothing stand in the test's output.
+/// Returns results as JUnit XML, which CI systems read: a suite per case, a test per engine. An unexpected
+/// run is a failure, with its misses; a skipped run is skipped; misses that are not failures are in the
+/// test's output.
 std::string junit(std::span<const Result> results);
 
 }  // namespace plumb::harness

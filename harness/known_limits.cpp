@@ -5,73 +5,75 @@ namespace {
 
 // Reasons that several scenes share.
 constexpr std::string_view kSkin =
-    "Box2D surrounds polygons with a skin of 0.01 m (b2_polygonRadius) of which 0.005 m (b2_linearSlop) stay "
-    "overlapped: boxes come to rest 0.015 m apart, discs 0.005 m off a box or into each other.";
+    "Box2D surrounds polygons with a skin of 0.01 m (b2_polygonRadius) and leaves 0.005 m of overlap "
+    "(b2_linearSlop): boxes come to rest 0.015 m apart, discs 0.005 m above a box or 0.005 m inside each "
+    "other.";
 constexpr std::string_view kHeavy =
-    "The sweeps of a step do not carry a box a thousand times heavier: within a second it sinks by half a "
-    "metre into the light one (Box2D 8 sweeps, Bullet 10).";
+    "The iterations of a step (Box2D 8, Bullet 10) are too few to carry a box a thousand times heavier: "
+    "within a second it sinks half a metre into the light one.";
 constexpr std::string_view kBrink =
-    "A block within a thousandth to a twentieth of what tips it is tipped, or held back, by the first steps: "
-    "it is lifted into the engine's skin (Box2D 0.015 m, Bullet 0.003 m) and its corners are loaded in turn.";
+    "The first steps push the block out of the engine's skin (Box2D 0.015 m, Bullet 0.003 m) and load its "
+    "corners one after the other. A block within 0.1 % to 5 % of its tipping point may then tip when it "
+    "should stand, or stand when it should tip.";
 constexpr std::string_view kGrowth =
-    "The motion multiplies errors: a pendulum near its top, a rod that whips and a disc on a cylinder by e "
-    "in 0.3 s or less, discs off-centre tenfold an impact. The bound is of first order along the truth, "
-    "without such growth.";
+    "The motion amplifies errors: by a factor e in 0.3 s or less for a pendulum near its top, a whipping "
+    "rod and a disc on a cylinder, and tenfold in each off-centre impact of discs. The bound is of first "
+    "order along the truth and does not include such growth.";
 constexpr std::string_view kSweeps =
-    "What the few sweeps of a step leave undone in rows of joints or contacts (Box2D 8 sweeps, Bullet 10) "
-    "moves the bodies until later steps make up for it.";
+    "The iterations of a step (Box2D 8, Bullet 10) are too few for chains of joints or contacts to "
+    "converge. The remaining error moves the bodies until later steps correct it.";
 constexpr std::string_view kOnset =
-    "Friction is limited by the normal impulse that a sweep has found so far: in the first steps, which load "
-    "the contact, a block that friction holds slides by 2 to 20 mm.";
+    "Friction is limited by the normal impulse found so far. In the first steps that impulse is still too "
+    "small, and a block that friction should hold slides by 2 to 20 mm.";
 constexpr std::string_view kSettling =
-    "Contacts of the world are damped springs that take some substeps to carry a weight: until then a block "
-    "within a hundredth of tipping is rocked, and a sliding ladder is up to a sixth beyond its bound.";
+    "Contacts of the world are damped springs, which need some substeps to carry a weight. Until then a "
+    "block within 1 % of its tipping point rocks, and a sliding ladder misses its bound by up to a sixth.";
 constexpr std::string_view kSoft =
-    "Joints of the world are damped springs that the substeps sweep once: under a weight that begins at once "
-    "a chain of 7 to 10 sags by 3 to 9 mm, a spinning weld turns by 0.001 rad, and a limit takes some "
-    "substeps to stop what meets it.";
+    "Joints of the world are damped springs, solved by one iteration per substep. Under a suddenly applied "
+    "weight a chain of 7 to 10 links sags by 3 to 9 mm, a spinning weld turns by 0.001 rad, and a limit "
+    "needs some substeps to stop a body.";
 constexpr std::string_view kCrowded =
-    "The last of 314 impacts come many to a step; an engine that resolves one a step and pair leaves some to "
-    "the next.";
+    "Many of the last of the 314 impacts fall into one step. An engine that resolves one impact per pair "
+    "and step leaves the others to later steps.";
 
 constexpr KnownLimit kLimits[] = {
     {"box2d", "off_centre_torque/spin_100",
      "angle_error|angular_velocity_error|discrete_angle|discrete_angular_velocity|energy_drift|angular_"
      "momentum_drift",
-     "Box2D lets a body turn by at most pi/2 a step (b2_maxRotation), which is 94 rad/s at 1/60 s, "
-     "and slows it down to that."},
+     "Box2D limits a body's rotation to pi/2 per step (b2_maxRotation), which is 94 rad/s at 1/60 s, and "
+     "reduces its angular velocity to that."},
     {"bullet|bullet-double", "off_centre_torque/spin_100", "angle_error|discrete_angle",
-     "Bullet limits the rotation of a step to pi/4 (ANGULAR_MOTION_THRESHOLD), but builds the "
-     "quaternion of the step with the unlimited spin: of the 1.667 rad that 100 rad/s make in 1/60 "
-     "s, 1.442 rad are left."},
+     "Bullet limits the rotation of a step to pi/4 (ANGULAR_MOTION_THRESHOLD), but computes the quaternion "
+     "of the step with the unlimited angular velocity: at 100 rad/s a body turns by 1.442 rad in 1/60 s "
+     "instead of 1.667 rad."},
     {"box2d", "pendulum_chain[20]", "velocity_error",
-     "Box2D's sequential impulses carry a pull from one joint to the next in each of its 8 sweeps a "
-     "step; a chain of 20 needs more of them to feel its own weight."},
+     "Each of Box2D's 8 iterations per step propagates a force by one joint; a chain of 20 needs more of "
+     "them to carry its own weight."},
     {"box2d", "pendulum_chain[100]", "velocity_error",
-     "Box2D's sequential impulses carry a pull from one joint to the next in each of its 8 sweeps a "
-     "step; through a chain of 100 it comes steps too late, and the chain stretches."},
+     "Each of Box2D's 8 iterations per step propagates a force by one joint; through a chain of 100 it takes "
+     "several steps, and the chain stretches."},
     {"bullet|bullet-double", "pendulum_chain[20]", "velocity_error",
-     "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
-     "a step; a chain of 20 needs more of them to feel its own weight."},
+     "Each of Bullet's 10 iterations per step propagates a force by one joint; a chain of 20 needs more of "
+     "them to carry its own weight."},
     {"bullet|bullet-double", "pendulum_chain[100]", "position_error|velocity_error",
-     "Bullet's sequential impulses carry a pull from one joint to the next in each of its 10 sweeps "
-     "a step; through a chain of 100 it comes steps too late, and the chain stretches."},
+     "Each of Bullet's 10 iterations per step propagates a force by one joint; through a chain of 100 it "
+     "takes several steps, and the chain stretches."},
     {"box2d", "free_fall/*",
      "position_error|velocity_error|discrete_position|discrete_velocity|energy_drift|momentum_drift",
-     "Box2D lets a body move by at most 2 m a step (b2_maxTranslation), which is less than free fall "
-     "makes at 1/30 s.",
+     "Box2D limits a body's displacement to 2 m per step (b2_maxTranslation), which free fall exceeds at "
+     "1/30 s.",
      true},
     {"bullet|bullet-double", "off_centre_torque/*",
      "position_error|angle_error|velocity_error|discrete_position|discrete_angle|discrete_velocity",
-     "Bullet limits the rotation of a step to pi/4 (ANGULAR_MOTION_THRESHOLD), which a long step "
-     "reaches at a lower spin.",
+     "Bullet limits the rotation of a step to pi/4 (ANGULAR_MOTION_THRESHOLD), which a longer step reaches "
+     "at a lower angular velocity.",
      true},
     {"box2d|bullet|bullet-double", "pendulum_chain*",
      "position_error|angle_error|velocity_error|angular_velocity_error|energy_drift|joint_gap",
-     "Sequential impulses are stopped after a few sweeps, whatever the step: what they leave undone "
-     "falls more slowly than the error of the step.",
+     "Sequential impulses stop after a fixed number of iterations. As the step gets shorter, the error of "
+     "convergence decreases more slowly than that of the integration.",
      true},
-    // Scenes of the catalogue, by reason, and by which checks miss.
+    // Scenes of the catalogue, ordered by reason and by the missed checks.
     {"box2d",
      "block_on_cart|circle_stack[2]|circle_stack[5]|conveyor|disc_in_groove|friction_rules/"
      "geometric_mean|friction_rules/product|friction_rules/maximum|friction_rules/minimum|friction_rules/"

@@ -25,13 +25,13 @@ std::string code_list(std::string_view pattern) {
 std::string known_limits_page() {
   std::string page = R"(# Known limits
 
-Every engine's run is held against bounds that are derived from its method: its order in the step, its
-precision and the motion itself ([formats](formats.md#checks)). Where an engine is known to miss one at the
-default settings (dt = 1/60 s), the miss is declared in `harness/known_limits.cpp` and listed here. A miss that
-is not declared fails `plumb compare` and the tests, and so does a declared one that has gone. At other steps a
-declared miss may show or not.
+Every run is checked against bounds that follow from the engine's method: its order in the step, its precision
+and the motion itself ([formats](formats.md#checks)). Where an engine is known to miss a bound at the default
+settings (dt = 1/60 s), the miss is declared in `harness/known_limits.cpp` and listed here. `plumb compare` and
+the tests fail if an undeclared miss appears or a declared one disappears. At other steps a declared miss is
+permitted, not required.
 
-This page is written by `plumb list --known-limits`; a test holds it against the declarations.
+`plumb list --known-limits` generates this page; a test compares it with the declarations.
 )";
   if (known_limits().empty()) page += "\nThere are none.\n";
   for (const KnownLimit& limit : known_limits()) {

@@ -18,7 +18,7 @@ struct Metrics {
   std::optional<double> angular_momentum_drift;  ///< relative to the largest sum of the bodies' |L|
   std::optional<double> joint_gap;               ///< m, largest violation of a joint's rigid constraints
   std::optional<double> penetration;             ///< m, deepest penetration of two shapes
-  std::optional<double> expected_miss;  ///< largest miss of what a case file expects, in its tolerances
+  std::optional<double> expected_miss;  ///< largest miss of a case file, in multiples of the tolerance
 };
 
 /// A metric by name, for tables and files.

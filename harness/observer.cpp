@@ -147,9 +147,9 @@ void Observer::expect_at(std::size_t index, double time, std::span<const BodySta
 
 namespace {
 
-// Returns the state between two samples: the cubic that has both positions and velocities, at `part` of the
-// way over `span` seconds. Its error is that of a step of fourth order, below what any engine's steps make;
-// across an impact it is up to the jump times the span.
+// Interpolates between two samples by the cubic through both positions and velocities, at the fraction `part`
+// of `span` seconds. Its error is of fourth order in the step, below the error of any engine's steps; across
+// an impact it is up to the jump times the span.
 double between(double a, double va, double b, double vb, double span, double part, double& rate) {
   const double p = part, q = p * p;
   const double slope = b - a - span * va, bend = span * (va + vb) - 2 * (b - a);
@@ -170,8 +170,8 @@ BodyState between(const BodyState& a, const BodyState& b, double span, double pa
 
 }  // namespace
 
-// Drifts are relative to the largest of the truth; where that is unknown, to the largest of the whole run: a
-// run that makes energy without end comes to 1, above any tolerance that says something.
+// Drifts are relative to the largest value of the truth or, if there is none, of the whole run. A run whose
+// energy grows without bound then has a drift of 1, above any useful tolerance.
 double Observer::measured(scenarios::Expectation::Law law) const {
   using Law = scenarios::Expectation::Law;
   const auto relative = [&](const std::optional<double>& drift, double scale, double largest) {
@@ -227,7 +227,7 @@ void Observer::against_expected(int sample, std::span<const BodyState> states) {
   largest_.sum_of_angular_momenta = std::max(largest_.sum_of_angular_momenta, sums.sum_of_angular_momenta);
 }
 
-// A time that no step of the run reached counts as a miss: nothing was seen of it.
+// If no step of the run reached a time, that counts as a miss.
 void Observer::finish_expected(Result& result) const {
   std::optional<double> ratio;
   for (std::size_t i = 0; i < expected_.size(); ++i) {

@@ -58,7 +58,7 @@ class Observer {
   WorstRatio energy_, momentum_, angular_momentum_, gap_, depth_, finite_;
   std::vector<BodyState> discrete_;
   bool discrete_known_ = true;
-  bool derived_;                         // bounds that follow from the method are held
+  bool derived_;                         // checks the bounds that follow from the method
   std::vector<WorstRatio> expected_;     // by expectation
   std::vector<std::size_t> times_done_;  // by expectation
   Mechanics largest_;                    // of the run so far, if expectations need them

@@ -13,12 +13,12 @@ namespace plumb::harness {
 /// Explains the columns of the tables.
 std::string legend(const Style& style);
 
-/// Returns a line an engine: how many scenes it ran, in how many it was nearest to the truth, how many of its
-/// method's bounds it kept. Then the scenes whose truth is suspect, if any.
+/// Returns a line per engine: the number of scenes that it ran, in how many of them it was nearest to the
+/// truth, and in how many it missed bounds of its method. Then the scenes whose truth is suspect, if any.
 std::string conclusion(std::span<const Result> results, const Style& style);
 
-/// Returns the scenes, by label, in which engines of two makers or more ran, all of them agree with each
-/// other and each misses the exact truth without a declared limit: there the truth itself may be wrong.
+/// Returns the labels of scenes in which the truth itself may be wrong: engines of at least two makers ran,
+/// all agree with each other, and each misses the exact truth without a declared limit.
 std::vector<std::string> suspect_truths(std::span<const Result> results);
 
 }  // namespace plumb::harness

@@ -55,9 +55,9 @@ struct Result {
   std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
   std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences
   std::string machine{};       ///< kind of machine that the cost was measured on; empty if unknown
-  bool cost_left_out = false;  ///< measured on another kind of machine than the scene's other costs
+  bool cost_left_out = false;  ///< removed, because the scene's other costs are of another kind of machine
   bool foreign_cost = false;   ///< the cost is that of another platform, never ranked with native ones
-  std::string excused;         ///< why no miss of this run is a failure; empty: they are
+  std::string excused;         ///< why misses of this run are not failures; empty if they are
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;

@@ -31,7 +31,7 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
 Result run(const Case& scene_case, const reference::Backend& backend, const reference::StepSettings& settings,
            Track* track = nullptr, double* nanoseconds = nullptr);
 
-/// Says why a guest's miss fails nothing; see `reference::Identity::guest`.
+/// Explains why a guest's miss is not a failure; see `reference::Identity::guest`.
 inline constexpr std::string_view kGuest = "measured, not held: this engine declares no limits";
 
 /// Limit of a sample's error or distance, in extents of the scene; beyond it the run counts as diverged.

@@ -44,7 +44,7 @@ std::span<const BodyState> TruthTable::fine(long index) const {
 }
 
 double TruthTable::fine_time(long index) const {
-  // On a step's sample exactly k * dt, as on the engines' clocks.
+  // At a step's sample the time is exactly k * dt, as on the engines' clocks.
   const long whole = index / refinement_, part = index % refinement_;
   return static_cast<double>(whole) * dt_ + dt_ * static_cast<double>(part) / refinement_;
 }
@@ -68,7 +68,7 @@ void TruthTable::measure(const Scene& scene) {
   for (std::size_t i = 0; i < bodies_; ++i) include(i, initial_state(scene.bodies[i]));
   for (std::size_t k = 0; k < states_.size(); ++k) include(k % bodies_, states_[k]);
   if (!known()) {
-    // Without a truth: the length and speed reachable by gravity and the initial speeds.
+    // Without a truth, use the length and speed that gravity and the initial speeds can reach.
     double pulled = 0;
     for (const Body& body : scene.bodies) pulled = std::max(pulled, std::abs(body.gravity_scale));
     scale_.speed += pulled * magnitude(scene.gravity) * scale_.duration;

@@ -28,8 +28,8 @@ struct Scale {
   double duration = 0;   ///< s
 };
 
-/// Exact states of all bodies, evaluated once and shared by every engine's run. They lie on each step's
-/// sample and on a finer grid between, from which the truth's accelerations are computed.
+/// Exact states of all bodies, evaluated once and shared by every engine's run. They are stored for each
+/// step's sample and on a finer grid in between, from which the truth's accelerations are computed.
 class TruthTable {
  public:
   /// Throws `Error` (Run) when interrupted.

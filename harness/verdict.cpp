@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Ink = Style::Ink;
 
-// Returns what a run missed, the worst in its bounds first.
+// Returns the missed checks of a run, worst first.
 std::string misses_of(const Result& result) {
   std::vector<const Check*> missed;
   for (const Check& check : result.checks)

@@ -26,11 +26,11 @@ struct Score {
 };
 Score score_of(std::span<const Result> results);
 
-/// Reason of a run that the time did not reach.
+/// Reason for a run that was not made because the time was up.
 inline constexpr const char* kOutOfTime = "the time was up before";
 
-/// Returns a line a case: what is missed, and by how much, comes first, then what broke, what agrees, and
-/// what was not run.
+/// Returns a line per case: first the misses with their sizes, then what broke, what agrees, and what was not
+/// run.
 std::string verdict_text(std::span<const Result> results, const Style& style);
 
 /// Returns the same as JSON, with each case's checks.

@@ -1,8 +1,8 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/parts.h"
 
-// One ball between four walls, elastic: the first scene that an engine of one's own can run. Source:
-// parabolas, reflected at the walls.
+// An elastic ball between four walls: the first scene for a newly written engine. Source: parabolas,
+// reflected at the walls.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

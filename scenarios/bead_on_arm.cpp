@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A bead that slides on a turning arm: r'' = w^2 r, and w (I + m r^2) stays. Source: Lagrange.
+// A bead slides on a rotating arm: r'' = w^2 r, and w (I + m r^2) is conserved. Source: Lagrange.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -34,7 +34,7 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a turning arm", .build = build}};
+const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a rotating arm", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

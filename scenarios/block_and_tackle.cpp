@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
-// A pulley rope that runs twice to one of its masses: with s the way of the other, (m1 + m2/4) s'' = (m1 -
-// m2/2) g. Source: d'Alembert; virtual work.
+// A pulley rope runs twice to one of its masses: with s the displacement of the other, (m1 + m2/4) s'' = (m1
+// - m2/2) g. Source: d'Alembert; virtual work.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -1,9 +1,9 @@
 #include "scenarios/truth/bounces.h"
 #include "scenarios/truth/parts.h"
 
-// A ball dropped from h that bounces with e: after T = sqrt(2 h/g) (1 + e)/(1 - e) it rests, having bounced
-// infinitely often; with e = 1 it never does. Source: geometric series; e.g. Falcon et al., Eur. Phys. J. B
-// 3 (1998).
+// A ball dropped from h bounces with restitution e. It comes to rest after T = sqrt(2 h/g) (1 + e)/(1 - e)
+// and infinitely many bounces; with e = 1 it never does. Source: geometric series; e.g. Falcon et al., Eur.
+// Phys. J. B 3 (1998).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -1,7 +1,7 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/parts.h"
 
-// Balls that bounce down a smooth slope: the speed along the slope grows as in free fall, the speed across
+// Balls bounce down a smooth slope: the velocity along the slope grows as in free fall, the velocity across
 // it bounces. Source: Galileo; Newton's restitution.
 namespace plumb::scenarios {
 namespace {

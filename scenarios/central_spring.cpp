@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
-// A body that is drawn to the origin in proportion to its distance: an ellipse about the origin, x = a cos w
-// t, y = (v/w) sin w t. Source: Newton, Principia, I, 10.
+// A force towards the origin, proportional to the distance: an ellipse about the origin, x = a cos w t, y =
+// (v/w) sin w t. Source: Newton, Principia, I, 10.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -24,7 +24,7 @@ Problem build(std::string_view, int) {
 }
 
 const Register r{{.name = "central_spring",
-                  .summary = "a body drawn to a point in proportion to its distance",
+                  .summary = "a body attracted to a point in proportion to its distance",
                   .build = build}};
 
 }  // namespace

@@ -18,7 +18,7 @@ Problem build(std::string_view, int count) {
 }
 
 const Register r{{.name = "circle_stack",
-                  .summary = "N discs balanced upon each other",
+                  .summary = "N discs balanced on top of each other",
                   .sizes = {2, 5},
                   .scales = true,
                   .build = build}};

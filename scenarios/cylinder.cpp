@@ -1,8 +1,8 @@
 #include "scenarios/truth/cylinder.h"
 #include "scenarios/truth/parts.h"
 
-// A disc that slides off a fixed cylinder leaves it at cos(a) = (2/3) cos(a0); one that rolls slips first,
-// where m g sin(a)/3 = mu N, and leaves it then. Source: e.g. Kleppner and Kolenkow, 5.6; `cylinder_truth`.
+// A disc that slides off a fixed cylinder leaves it at cos(a) = (2/3) cos(a0). A rolling disc first slips,
+// where m g sin(a)/3 = mu N, and then leaves it. Source: e.g. Kleppner and Kolenkow, 5.6; `cylinder_truth`.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

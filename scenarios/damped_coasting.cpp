@@ -2,8 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// Velocities that decay by a body's damping, v = v0 e^(-c t), with gravity as well: v = g/c + (v0 - g/c)
-// e^(-c t). Source: the linear first-order equation.
+// Velocities decay by a body's damping, v = v0 e^(-c t), and with gravity v = g/c + (v0 - g/c) e^(-c t).
+// Source: the linear first-order equation.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

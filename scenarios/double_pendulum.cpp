@@ -3,8 +3,8 @@
 #include "scenarios/truth/bob_chain.h"
 #include "scenarios/truth/parts.h"
 
-// Point masses on massless rods, one below the other, let go from the horizontal: equal ones, and a tip that
-// is heavier or lighter than the link above it. Source: Lagrange; `BobChain`.
+// Two point masses on massless rods, one below the other, released from the horizontal; the tip is as heavy
+// as the other mass, heavier or lighter. Source: Lagrange; `BobChain`.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -31,7 +31,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "driven_oscillator",
-                  .summary = "a mass on a spring, driven beside its own frequency and at it",
+                  .summary = "a mass on a spring, driven near resonance and at it",
                   .variants = {"beats", "resonance"},
                   .build = build}};
 

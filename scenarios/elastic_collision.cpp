@@ -4,7 +4,7 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/colliding_discs.h"
 
-// Discs that collide in free space. The velocities after an impact depend only on masses, restitution and the
+// Discs collide in free space. The velocities after an impact depend only on masses, restitution and the
 // normal at the moment of contact; head-on v1' = (m1 - m2)/(m1 + m2) v and v2' = 2 m1/(m1 + m2) v.
 namespace plumb::scenarios {
 namespace {
@@ -22,7 +22,7 @@ Problem build(std::string_view variant, int) {
   const double digits = variant.starts_with("head_on") || variant == "cradle" ? 1e-13 : 1e-12;
   problem.precise = {2e-12 * fastest, 1e-12, digits * fastest, 1e-12, digits, digits, 1e-12};
   problem.precise.penetration = 1e-10;
-  // Paths are straight, so a method that places impacts within the substep has no error of the step.
+  // Paths are straight, so a method that places impacts within the substep has no discretisation error.
   problem.second_order = {0, 0, 0, 0, 0, 0, 0};
   return problem;
 }

@@ -1,6 +1,6 @@
 #include "scenarios/truth/flight.h"
 
-// Free fall and throws: in a vacuum every mass falls alike, even if thrown or spinning (Galileo).
+// Free fall and throws: in a vacuum all masses fall alike, thrown or spinning (Galileo).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

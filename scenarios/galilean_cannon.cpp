@@ -1,9 +1,9 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/parts.h"
 
-// A light ball close above a heavier one, dropped together: the heavy one turns round first, and the light
-// one leaves at (3 m1 - m2)/(m1 + m2) times the speed, but for the gap. Three balls do so twice. Source:
-// Harter et al., Am. J. Phys. 39 (1971).
+// A light ball is dropped together with a heavier one close below it. The heavy one bounces first, and the
+// light one leaves at (3 m1 - m2)/(m1 + m2) times the speed, apart from the effect of the gap. With three
+// balls this happens twice. Source: Harter et al., Am. J. Phys. 39 (1971).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -21,7 +21,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "galilean_cannon",
-                  .summary = "balls dropped upon each other: the lightest flies up",
+                  .summary = "balls dropped on top of each other: the lightest flies up",
                   .variants = {"two", "three"},
                   .build = build}};
 

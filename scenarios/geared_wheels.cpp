@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
-// Two wheels in gear, one of them driven: the torque turns (I1 + r^2 I2), r the ratio of their speeds.
-// Source: d'Alembert; virtual work.
+// Two wheels in gear, one of them driven: the torque accelerates the inertia I1 + r^2 I2, r the ratio of
+// their speeds. Source: d'Alembert; virtual work.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -1,6 +1,6 @@
 #include "scenarios/truth/parts.h"
 
-// Bodies that gravity draws by a fraction of its own: a balloon rises, a weightless body goes straight on.
+// Bodies with different fractions of gravity: a balloon rises, a weightless body moves in a straight line.
 // Source: Galileo.
 namespace plumb::scenarios {
 namespace {
@@ -25,9 +25,8 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{{.name = "gravity_scales",
-                  .summary = "bodies that gravity draws up, not at all, and twice",
-                  .build = build}};
+const Register r{
+    {.name = "gravity_scales", .summary = "bodies with negative, zero and double gravity", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

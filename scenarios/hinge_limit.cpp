@@ -3,8 +3,8 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A rod falls from the horizontal about its end until its hinge is at the limit, which stops it dead.
-// Source: the pendulum, q'' = -(3 g/(2 L)) cos q; a limit takes no rebound.
+// A rod falls from the horizontal about its end until it reaches its hinge's limit, which stops it at once.
+// Source: the pendulum, q'' = -(3 g/(2 L)) cos q; a limit has no restitution.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

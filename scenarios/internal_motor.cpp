@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
-// A motor between two free wheels on one axle: they turn against each other, w1 I1 + w2 I2 = 0, at the
-// torque until they have the motor's speed. Source: conservation of angular momentum.
+// A motor between two free wheels on one axle: they turn in opposite directions, w1 I1 + w2 I2 = 0,
+// accelerated by the torque until they reach the motor's speed. Source: conservation of angular momentum.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

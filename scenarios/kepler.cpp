@@ -21,7 +21,8 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{{.name = "kepler", .summary = "a planet on an ellipse, once round", .build = build}};
+const Register r{
+    {.name = "kepler", .summary = "a planet on an elliptic orbit, one revolution", .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

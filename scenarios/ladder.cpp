@@ -1,9 +1,9 @@
 #include "scenarios/truth/ladder.h"
 #include "scenarios/truth/parts.h"
 
-// A ladder slides down a smooth wall on a smooth floor. It leaves the wall where its height is two thirds of
-// that at the start, and keeps its sideways speed from then on. Source: e.g. Irodov, Problems in General
-// Physics, 1.246; the ODEs stand in `ladder_truth`.
+// A ladder slides down a smooth wall on a smooth floor. It leaves the wall at two thirds of its initial
+// height, and keeps its horizontal velocity from then on. Source: e.g. Irodov, Problems in General Physics,
+// 1.246; the ODEs are in `ladder_truth`.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -2,9 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A spinning disc lands on rough ground: the impulse of friction ends the slip u, J_t = -m u/3, if mu
-// allows; else it is mu times the normal one, (1 + e) m v. Source: Routh, Dynamics of a System of Rigid
-// Bodies, I, ch. 4; tangential restitution 0.
+// A spinning disc lands on rough ground. The impulse of friction stops the slip u, J_t = -m u/3, if mu
+// permits; otherwise it is mu times the normal impulse, (1 + e) m v. Source: Routh, Dynamics of a System of
+// Rigid Bodies, I, ch. 4; tangential restitution 0.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -26,7 +26,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "landing_spin",
-                  .summary = "a spinning disc lands on ground that grips, or lets it slip",
+                  .summary = "a spinning disc lands with enough friction to grip, or too little",
                   .variants = {"grips", "slips"},
                   .build = build}};
 

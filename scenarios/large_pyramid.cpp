@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
-// A pyramid of boxes in rows, each box on the edges of two below it, a hundredth of a metre apart: it stays
-// as it is. Source: statics.
+// A pyramid of boxes in rows, each box on the edges of two below it, a hundredth of a metre apart: it does
+// not move. Source: statics.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

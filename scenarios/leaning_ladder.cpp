@@ -3,8 +3,8 @@
 #include "scenarios/truth/ladder.h"
 #include "scenarios/truth/parts.h"
 
-// A ladder, uniform, on a rough floor and a smooth wall, at an angle a from the vertical: it stands iff mu
-// >= tan(a)/2; so do two cards that lean on each other. Else it slips: `Ladder`. Source: statics; Coulomb.
+// A uniform ladder on a rough floor and a smooth wall, at an angle a from the vertical, stands iff mu >=
+// tan(a)/2; so do two cards that lean on each other. Otherwise it slips: `Ladder`. Source: statics; Coulomb.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

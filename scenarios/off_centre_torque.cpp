@@ -1,7 +1,8 @@
 #include "scenarios/truth/pushes.h"
 
-// Forces beside the centre of mass accelerate and turn a body; without torque its spin is constant. In free
-// space without contacts, so only r x F, the inertia, and the angle used within a step matter.
+// Forces off the centre of mass accelerate and rotate a body; without torque its angular velocity is
+// constant. There is no gravity and no contact, so only r x F, the inertia, and the angle used within a step
+// matter.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -30,7 +31,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{"off_centre_torque",
-                  "pushes beside the centre of mass, a thruster, and pure spin",
+                  "off-centre forces, a thruster, and pure spin",
                   {"corner_force", "thruster", "spin_1", "spin_100", "thin_and_square"},
                   {1},
                   false,

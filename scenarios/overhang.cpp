@@ -1,8 +1,8 @@
 #include "scenarios/truth/parts.h"
 
-// N blocks stacked over the edge of a table as far as they hold, but for a thousandth: the k-th from the top
-// reaches L/(2 k) over the next, in all H_N/2 lengths. Source: e.g. Paterson and Zwick, Overhang, Am. Math.
-// Monthly 116 (2009).
+// N blocks stacked over the edge of a table, with the largest overhang less a thousandth: the k-th from the
+// top overhangs the next by L/(2 k), all together by H_N/2 lengths. Source: e.g. Paterson and Zwick,
+// Overhang, Am. Math. Monthly 116 (2009).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -24,7 +24,7 @@ Problem build(std::string_view, int count) {
 }
 
 const Register r{{.name = "overhang",
-                  .summary = "N blocks stacked as far as they hold over the edge of a table",
+                  .summary = "N blocks stacked over the edge of a table with the largest overhang",
                   .sizes = {1, 5},
                   .scales = true,
                   .build = build}};

@@ -4,9 +4,9 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A bob on a massless rod, let go at an angle: phi'' = -(g/L) sin(phi), with periods 1.07318, 1.18034,
-// 1.37288 and 2.43936 times that of a small swing from 60, 90, 120 and 170 degrees. Source: complete
-// elliptic integral; e.g. Landau and Lifshitz, Mechanics, 11.
+// A bob on a massless rod, released at an angle: phi'' = -(g/L) sin(phi), with periods 1.07318, 1.18034,
+// 1.37288 and 2.43936 times that of a small swing from 60, 90, 120 and 170 degrees. Source: complete elliptic
+// integral; e.g. Landau and Lifshitz, Mechanics, 11.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -32,7 +32,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "pendulum",
-                  .summary = "a bob on a rod, let go at 60 to 170 degrees",
+                  .summary = "a bob on a rod, released at 60 to 170 degrees",
                   .variants = {"60", "90", "120", "170"},
                   .build = build}};
 

@@ -2,7 +2,7 @@
 #include "scenarios/truth/rod_chain.h"
 
 // N uniform rods of 1 m and 1 kg, hinged end to end, laid along +x from a fixed pivot and released. Joint
-// forces are large and the motion is soon like a whip, which shows the errors of iterative joint solvers.
+// forces are large and the chain soon whips, which shows the errors of iterative joint solvers.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -1,8 +1,8 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/parts.h"
 
-// Galperin's billiard: a ball at rest beside a wall, and one of 100^n times its mass that comes in; all
-// elastic. They collide 3, 31, 314 times: the first n + 1 digits of pi. Source: Galperin, Playing pool with
+// Galperin's billiard: a ball at rest beside a wall is hit by one of 100^n times its mass; all impacts are
+// elastic. There are 3, 31, 314 impacts: the first n + 1 digits of pi. Source: Galperin, Playing pool with
 // pi, Regul. Chaotic Dyn. 8 (2003).
 namespace plumb::scenarios {
 namespace {

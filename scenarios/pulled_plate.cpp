@@ -3,7 +3,7 @@
 #include "scenarios/truth/parts.h"
 
 // Discs on a plate that is pulled from under them: they roll on it at a third of its acceleration A if mu >=
-// A/(3 g), with A = F/(M + n m/3); else they slip at mu g. Source: Newton and Euler, I = m r^2/2.
+// A/(3 g), with A = F/(M + n m/3); otherwise they slip at mu g. Source: Newton and Euler, I = m r^2/2.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -2,8 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// A block on level ground, pushed for a while: it stays iff F <= mu m g; else it goes at F/m - mu g, and
-// then comes to rest at -mu g. Source: Coulomb.
+// A block on level ground is pushed for a limited time: it stays iff F <= mu m g; otherwise it accelerates at
+// F/m - mu g, and then decelerates at mu g to rest. Source: Coulomb.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -31,7 +31,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "pushed_block",
-                  .summary = "a block pushed along the ground, with less and more than friction holds",
+                  .summary = "a block pushed along the ground with less or more force than friction can hold",
                   .variants = {"holds", "barely_slips", "slips"},
                   .build = build}};
 

@@ -2,8 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// A box on a tilted rail slides at g sin, until a limit stops it, or goes up by a motor, at F/m - g sin until
-// it has the motor's speed. Source: Galileo, Newton.
+// A box on a tilted rail slides down at g sin until a limit stops it, or is driven up by a motor at F/m - g
+// sin until it reaches the motor's speed. Source: Galileo, Newton.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

@@ -28,7 +28,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "ramp_block",
-                  .summary = "a block on a ramp, with friction on either side of what holds it",
+                  .summary = "a block on a ramp, with friction above and below the holding value",
                   .variants = {"holds", "barely_holds", "barely_slips", "slips"},
                   .build = build}};
 

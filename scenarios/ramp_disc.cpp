@@ -18,7 +18,7 @@ Problem build(std::string_view variant, int) {
   const Body disc = piece("disc", {}, solid(Circle{kRadius}, friction), 2);
   problem.scene.bodies = {ramp(kTilt, friction), on_ramp(kTilt, disc, kRadius)};
   const Vec2<Real> down = direction(-kTilt);
-  // The friction over the mass: what rolling takes, or what there is.
+  // Friction force divided by the mass: that needed for rolling, or the largest available.
   const Real rub = Real(kGravity) * std::fmin(-down.y / 3, friction * down.x);
   const Acceleration a{(Real(kGravity) * -down.y - rub) * down, -2 * rub / kRadius};
   problem.truth = follow_in_contact(
@@ -30,7 +30,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "ramp_disc",
-                  .summary = "a disc on a ramp, with friction on either side of what makes it roll",
+                  .summary = "a disc on a ramp, with friction above and below the value for rolling",
                   .variants = {"rolls", "barely_rolls", "barely_slips", "slips"},
                   .build = build}};
 

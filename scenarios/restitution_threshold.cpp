@@ -27,7 +27,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "restitution_threshold",
-                  .summary = "balls slower and faster than what bounces",
+                  .summary = "balls slower and faster than the restitution threshold",
                   .variants = {"slower", "faster"},
                   .build = build}};
 

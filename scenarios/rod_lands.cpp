@@ -2,9 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A rod that falls flat at the angle a lands on one end: with r the way from its centre to that end, J = (1
-// + e) m v/(1 + r_x^2 m/I), which is (1 + e) m v/(1 + 3 cos^2 a) of a thin one. Source: Newton's
-// restitution; e.g. Kleppner and Kolenkow, ch. 6.
+// A rod that falls without rotation, at the angle a, lands on one end. With r the vector from its centre to
+// that end, J = (1 + e) m v/(1 + r_x^2 m/I), which is (1 + e) m v/(1 + 3 cos^2 a) for a thin rod. Source:
+// Newton's restitution; e.g. Kleppner and Kolenkow, ch. 6.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

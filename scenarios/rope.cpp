@@ -3,8 +3,8 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A mass falls freely until its rope is taut: the rope takes away the speed along it and leaves the rest,
-// with which the mass swings on. Source: Galileo; a rope takes no rebound; the pendulum.
+// A mass falls freely until its rope is taut. The rope removes the velocity along it, and the mass swings on
+// with the rest. Source: Galileo; a rope has no restitution; the pendulum.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

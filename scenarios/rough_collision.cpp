@@ -3,9 +3,8 @@
 #include "scenarios/truth/billiard.h"
 #include "scenarios/truth/parts.h"
 
-// A spinning disc of 1 kg hits another beside its centre, both rough: friction ends the slip u by J_t = -m
-// u/6, if mu J_n allows, and turns both. Source: Garwin, Am. J. Phys. 37 (1969), with tangential restitution
-// 0.
+// A spinning disc of 1 kg hits another off-centre, both rough: friction stops the slip u by J_t = -m u/6, if
+// mu J_n permits, and spins both. Source: Garwin, Am. J. Phys. 37 (1969), with tangential restitution 0.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

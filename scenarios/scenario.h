@@ -68,7 +68,7 @@ struct Expectation {
   /// Quantities that every run measures, held from the start to the end.
   enum class Law { None, Energy, Momentum, AngularMomentum, Joints, NoOverlap };
 
-  /// Distance of a state from what is expected, and what that may be; in the unit of the quantity.
+  /// Distance of a state from the expected one, and its limit; in the unit of the quantity.
   struct Miss {
     double value = 0, tolerance = 0;
   };
@@ -97,7 +97,7 @@ struct Problem {
   /// Unstated bounds are derived from the truth's own motion, as for first-order engines.
   Bounds second_order{};
 
-  /// Expectations of a case file. Bounds derived from the method are then not held: these replace them.
+  /// Expectations of a case file. They replace the bounds derived from the method.
   std::vector<Expectation> expected{};
 
   /// Engines whose misses are failures; empty: all.

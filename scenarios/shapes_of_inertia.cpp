@@ -2,8 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A torque on bodies of several shapes: the inertia is m (w^2 + h^2)/12 of a box, m r^2/2 of a disc, m
-// a^2/12 of a triangle of equal sides, and that of two discs by the parallel axes. Source: Huygens; Steiner.
+// A torque on bodies of several shapes: the inertia is m (w^2 + h^2)/12 for a box, m r^2/2 for a disc, m
+// a^2/12 for an equilateral triangle, and for two discs it follows from the parallel axis theorem. Source:
+// Huygens; Steiner.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

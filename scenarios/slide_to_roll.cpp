@@ -2,9 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A disc that slides, spins, or spins backwards on level ground until it rolls: the slip u = v + w r decays
-// at 3 mu g, so that it rolls from |u|/(3 mu g) on. From v0 without spin: t = v0/(3 mu g), v = 2 v0/3.
-// Source: Coulomb; Euler, 1758; Coriolis, Theorie mathematique des effets du jeu de billard, 1835.
+// A disc slides, spins, or spins backwards on level ground until it rolls. The slip u = v + w r decays at 3
+// mu g, so the disc rolls after |u|/(3 mu g). From v0 without spin: t = v0/(3 mu g), v = 2 v0/3. Source:
+// Coulomb; Euler, 1758; Coriolis, Theorie mathematique des effets du jeu de billard, 1835.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -29,7 +29,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "slide_to_roll",
-                  .summary = "a sliding or spinning disc on level ground comes to roll",
+                  .summary = "a sliding or spinning disc on level ground until it rolls",
                   .variants = {"slide", "spin", "backspin"},
                   .build = build}};
 

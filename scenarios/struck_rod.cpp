@@ -2,9 +2,10 @@
 
 #include "scenarios/truth/parts.h"
 
-// A disc strikes a free rod at rest, at the distance d from its centre: the rod turns about the point
-// L^2/(12 d) beyond the centre (the centre of percussion's counterpart; here (L^2 + h^2)/(12 d), of a rod of
-// thickness h). Source: Newton's restitution with J = (1 + e) u/(1/m + 1/M + d^2/I).
+// A disc strikes a free rod at rest, at the distance d from its centre. The rod rotates about the point
+// L^2/(12 d) on the other side of its centre (the counterpart of the centre of percussion; here (L^2 +
+// h^2)/(12 d), for a rod of thickness h). Source: Newton's restitution with J = (1 + e) u/(1/m + 1/M +
+// d^2/I).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -28,7 +29,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "struck_rod",
-                  .summary = "a disc strikes a free rod beside its centre",
+                  .summary = "a disc strikes a free rod off-centre",
                   .variants = {"elastic", "half_elastic"},
                   .build = build}};
 

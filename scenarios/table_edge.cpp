@@ -1,8 +1,8 @@
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
-// A block over the edge of a rough table: it lies iff its centre is over the table; else it tips about the
-// edge, I q'' = -m g x with x the way from the edge to the centre. Source: statics; Euler.
+// A block over the edge of a rough table lies iff its centre is over the table; otherwise it tips about the
+// edge, I q'' = -m g x with x the horizontal distance from the edge to the centre. Source: statics; Euler.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

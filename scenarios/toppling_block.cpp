@@ -30,7 +30,7 @@ Problem build(std::string_view variant, int) {
 }
 
 const Register r{{.name = "toppling_block",
-                  .summary = "a slender block on a slope that is less and more steep than it stands",
+                  .summary = "a slender block on a slope below and above its toppling angle",
                   .variants = {"stands", "topples"},
                   .build = build}};
 

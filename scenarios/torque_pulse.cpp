@@ -2,7 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// A torque for a while, on a disc and on a box: the spin grows at T/I, and stays. Source: Euler.
+// A torque acts for a limited time on a disc and on a box: the angular velocity grows at T/I, and is constant
+// afterwards. Source: Euler.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -27,8 +28,9 @@ Problem build(std::string_view, int) {
   return problem;
 }
 
-const Register r{
-    {.name = "torque_pulse", .summary = "a torque turns a disc and a box for a while", .build = build}};
+const Register r{{.name = "torque_pulse",
+                  .summary = "a torque acts on a disc and a box for a limited time",
+                  .build = build}};
 
 }  // namespace
 }  // namespace plumb::scenarios

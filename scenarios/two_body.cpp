@@ -3,8 +3,8 @@
 #include "scenarios/truth/orbit.h"
 #include "scenarios/truth/parts.h"
 
-// Two bodies that attract each other circle their centre of mass: the way between them is Kepler's ellipse
-// with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
+// Two bodies attract each other and orbit their centre of mass: the vector between them moves on Kepler's
+// ellipse with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;
@@ -25,7 +25,7 @@ Problem build(std::string_view variant, int) {
     moving[0] = {light * now.position, t, light * now.velocity, 1};
     moving[1] = {heavy * now.position, -2 * t, heavy * now.velocity, -2};
   };
-  problem.truth = follow(problem.scene, "Kepler's equation for the way between them", path);
+  problem.truth = follow(problem.scene, "Kepler's equation for the vector between them", path);
   problem.conserved = {.energy = true, .momentum_x = true, .momentum_y = true, .angular_momentum = true};
   problem.precise = within(1e-7);
   return problem;

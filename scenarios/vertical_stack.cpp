@@ -18,7 +18,7 @@ Problem build(std::string_view, int count) {
 }
 
 const Register r{{.name = "vertical_stack",
-                  .summary = "N equal boxes upon each other",
+                  .summary = "N equal boxes on top of each other",
                   .sizes = {1, 3, 10},
                   .scales = true,
                   .build = build}};

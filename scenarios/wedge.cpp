@@ -2,9 +2,9 @@
 
 #include "scenarios/truth/parts.h"
 
-// A block slides down a free wedge, all smooth: the wedge gives way at A = m g sin cos/(M + m sin^2), and
-// the block slides on it at (M + m) g sin/(M + m sin^2). Source: e.g. Landau and Lifshitz; Kleppner and
-// Kolenkow, 2.20.
+// A block slides down a movable wedge, all surfaces smooth: the wedge accelerates at A = m g sin cos/(M + m
+// sin^2), and the block slides on it at (M + m) g sin/(M + m sin^2). Source: e.g. Landau and Lifshitz;
+// Kleppner and Kolenkow, 2.20.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

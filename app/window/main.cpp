@@ -109,7 +109,7 @@ std::vector<Item> demo_items() {
   return items;
 }
 
-// Returns the course's chapter that a demo belongs to; all have the demo's name or begin with it.
+// Returns the course's chapter of a demo: its checks' names are the demo's name or begin with it.
 std::vector<course::Chapter> chapter_of(const std::string& demo) {
   constexpr const char* kDemos[] = {"bouncing_ball", "cannonballs", "pool_break", "spinning_boxes",
                                     "ragdoll"};
@@ -129,7 +129,7 @@ demos::SampledMotion motion_of(const course::Recorded& run) {
   return motion;
 }
 
-// Shows the scenes of the course's checks as an engine of one's own moves them, the right motion as an
+// Shows the scenes of the course's checks as moved by the user's engine, with the correct motion as an
 // outline.
 int run_course(const Given& given) {
   const auto programs = programs_of(given.commands);

@@ -8,15 +8,15 @@
 
 namespace plumb {
 
-/// Lists of what the blocks of a loop (crew.h) found, one each, to be read in the order of the blocks: the
-/// same for every number of threads. Lists consist of chunks from a common store that is kept, so that how
-/// much memory is in use does not depend on the threads either.
+/// Lists of the results of a loop's blocks (crew.h), one list per block, to be read in the order of the
+/// blocks: the same for every number of threads. Lists consist of chunks from a common store that is kept, so
+/// that the amount of memory in use does not depend on the threads either.
 template <class T>
 class BlockLists {
  public:
   /// Empties the lists, for a loop of `blocks` blocks.
   void begin(int blocks) {
-    // Memory of a much larger step, as the first one of a scene, is given back.
+    // Free most of the memory if an earlier step, such as the first one of a scene, was much larger.
     if (chunks_.size() > kKept && chunks_.size() > 4 * used_) chunks_.resize(std::max(kKept, 2 * used_));
     used_ = 0;
     lists_.assign(static_cast<std::size_t>(blocks), {});
@@ -29,8 +29,8 @@ class BlockLists {
     list.last->items[list.last->count++] = value;
   }
 
-  /// Keeps the values of a block for which `test(value)` is true. Calls `look(value)` some `kAhead` before,
-  /// to prefetch what the test reads.
+  /// Keeps the values of a block for which `test(value)` is true. Calls `look(value)` `kAhead` values
+  /// earlier, to prefetch the data that the test reads.
   template <int kAhead, class Look, class Test>
   void keep(int block, const Look& look, const Test& test) {
     List& list = lists_[static_cast<std::size_t>(block)];

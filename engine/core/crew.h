@@ -8,17 +8,16 @@
 
 namespace plumb {
 
-/// Order in which a loop's blocks are begun. Loops give the same bits in each: tests set others.
+/// Order in which a loop's blocks are begun. Every order gives the same bits; tests use the others.
 enum class LoopOrder { Ascending, Descending, Shuffled };
 
 /// The threads that share the loops of a world's step: the calling one, and those of a pool of its own or of
 /// a game's task system. A loop is cut into blocks that do not depend on the number of threads. A block
 /// writes what no other block of the loop reads or writes; what depends on the order is collected block by
 /// block (block_lists.h).
-///
-/// Loops run within sessions. A session's body runs once, on the first thread that comes to it, and the
-/// others take part in its loops: so nothing waits for a thread that does not come, whatever the task system
-/// does. The body must call no code of the user's, which wants the calling thread.
+/// Loops run within sessions. A session's body runs once, on the first thread to arrive, and the others take
+/// part in its loops. Nothing therefore waits for a thread that does not arrive, whatever the task system
+/// does. The body must not call user code, which belongs on the calling thread.
 class Crew {
  public:
   static constexpr int kMostThreads = 64;
@@ -28,11 +27,11 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Sets the number of threads, 1 to kMostThreads, and starts a pool. Throws std::system_error if there are
-  /// no more threads, and then changes nothing.
+  /// Sets the number of threads, 1 to kMostThreads, and starts a pool. Throws std::system_error if the system
+  /// has no more threads, and then changes nothing.
   void set_threads(int threads);
   int threads() const { return threads_; }
-  /// Runs on a game's threads in place of the pool's; with an empty one on the pool's again, which throws as
+  /// Uses a game's threads in place of the pool; an empty task system restores the pool, which throws as
   /// `set_threads` does.
   void set_tasks(const TaskSystem& tasks);
   void set_order(LoopOrder order) { order_ = order; }
@@ -57,15 +56,17 @@ class Crew {
     bool before_;
   };
 
-  /// Runs `body()` once; loops in it are shared. Rethrows what it throws. A session within one is part of it.
+  /// Runs `body()` once; loops in it are shared. Rethrows its exceptions. A nested session is part of the
+  /// outer one.
   template <class Body>
   void session(Body&& body) {
     if (!shares() || in_session()) return body();
     open([](void* b) { (*static_cast<std::remove_reference_t<Body>*>(b))(); }, address(body));
   }
 
-  /// Calls `run(block)` for each block from 0 to count - 1, and returns after all. If some throw, the others
-  /// run all the same, and what the first of them threw is rethrown. Opens a session if there is none.
+  /// Calls `run(block)` for each block from 0 to count - 1, and returns after all have ended. If some throw,
+  /// the others still run, and the exception of the first of them is rethrown. Opens a session if there is
+  /// none.
   template <class Run>
   void blocks(int count, Run&& run) {
     if (count <= 0) return;

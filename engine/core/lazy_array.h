@@ -25,7 +25,7 @@ class LazyArray {
   void ensure(int size, bool going_to_be) {
     if (used() || going_to_be) ensure_room(items_, static_cast<std::size_t>(size));
   }
-  /// Resets value `i` of a new item; there are `size` items now.
+  /// Resets value `i`, that of a newly created item, to T{}; there are `size` items now.
   void renew(int i, int size) {
     if (used()) at(i, size) = T{};
   }

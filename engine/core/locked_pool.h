@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-/// Memory pool that several threads may use at once. What it has taken from the system it keeps, so that
-/// blocks of a size that was used before cost no allocation, whichever thread asks for them.
+/// Memory pool that several threads may use at once. It keeps all memory that it gets from the system, so
+/// blocks of a size that was used before cost no system allocation, whichever thread requests them.
 class LockedPool final : public std::pmr::memory_resource {
  public:
   explicit LockedPool(const std::pmr::pool_options& options) : pool_(options) {}

@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-/// Longer names are not compared: they are never typing errors of each other.
+/// Limit of the length of compared names: longer names are never typing errors of each other.
 constexpr std::size_t kLongest = 200;
 
 /// Maximum number of names to list in a sentence.

@@ -3,9 +3,9 @@
 namespace plumb {
 namespace {
 
-// Looks at a number before a thread gives the processor away, and times it does that before it sleeps. A look
-// with its pause takes 10 to 40 ns: these are some 20 us, and cover what lies between two loops of a stage. A
-// sleeping thread takes 5 to 50 us to come back.
+// Number of polls before a thread yields the processor, and number of yields before it sleeps. A poll with
+// its pause takes 10 to 40 ns, so these take about 20 us, longer than the time between two loops of a stage.
+// A sleeping thread takes 5 to 50 us to wake.
 constexpr int kLooks = 1000, kYields = 20;
 
 }  // namespace

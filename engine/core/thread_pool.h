@@ -9,15 +9,15 @@
 
 namespace plumb {
 
-/// Blocks of a loop, claimed one by one by several threads: the end in the upper half, the next in the lower.
-/// A claim that succeeds belongs to the loop that is published at that moment, so a thread that comes late
-/// needs to know of no other.
+/// Blocks of a loop, claimed one by one by several threads: the end in the upper half, the next block in the
+/// lower. A successful claim belongs to the loop that is published at that moment, so a late thread needs to
+/// know no other loop.
 class Claims {
  public:
   void publish(std::uint32_t first, std::uint32_t end) {
     word_.store(std::uint64_t{end} << 32 | first, std::memory_order_release);
   }
-  /// Returns a block that no one else gets, or -1.
+  /// Returns a block that no other thread gets, or -1.
   int claim() {
     if (!any(word_.load(std::memory_order_acquire))) return -1;
     const std::uint64_t word = word_.fetch_add(1, std::memory_order_acq_rel);
@@ -39,11 +39,11 @@ inline void pause() {
 #endif
 }
 
-/// Waits until `number` is no longer `old`: first busily, because most waits of a step last microseconds,
-/// then asleep, because other programs want the processor too.
+/// Waits until `number` is no longer `old`: first by polling, because most waits of a step last microseconds,
+/// then asleep, because other programs need the processor too.
 void wait_for_change(const std::atomic<int>& number, int old);
 
-/// A few threads that run the tasks of one loop at a time. They sleep when there is none.
+/// A few threads that run the tasks of one loop at a time, and sleep when there is none.
 class ThreadPool {
  public:
   /// Starts the threads. Throws std::system_error if there are no more.

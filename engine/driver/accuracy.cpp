@@ -17,7 +17,8 @@ void require_positive(double value, const char* driver, const char* field, const
               std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
 }
 
-/// Steps err by a thousandth of the tolerance of Precise; below 1e-15 that is rounding.
+/// Smallest tolerance of Precise: the error of a step is a thousandth of it, and below 1e-15 that is
+/// rounding.
 constexpr double kLeastTolerance = 1e-12;
 
 /// A world's limit.

@@ -6,7 +6,7 @@
 #include "engine/world/integrator.h"
 #include "engine/world/solver.h"
 
-/// The two honest ways to step: a fixed step that is cheap, or a tolerance that is met.
+/// The two ways to step: fixed steps at low cost, or a tolerance that is met.
 namespace plumb {
 
 enum class Precision { Float, Double };
@@ -29,15 +29,15 @@ struct Realtime {
   bool continuous = true;  ///< continuous collision
   bool sleeping = false;   ///< islands at rest fall asleep
   OnViolation on_violation = OnViolation::Ignore;
-  int threads = 1;  ///< that share a step, 1..64: each number gives the same bits
+  int threads = 1;  ///< threads that share a step, 1..64: each number gives the same bits
   friend bool operator==(const Realtime&, const Realtime&) = default;
 };
 
-/// How Precise follows the motion between events.
+/// Integration method of Precise between events.
 enum class MotionMethod {
   Automatic,   ///< Explicit, and Implicit for as long as the motion is stiff
   Explicit,    ///< DOP853, order 8
-  Implicit,    ///< Radau IIA, order 9: modes far faster than the motion that is looked at do not limit steps
+  Implicit,    ///< Radau IIA, order 9: modes far faster than the motion of interest do not limit steps
   Symplectic,  ///< RATTLE composed to order 8, at a fixed step: energy does not drift over long runs
 };
 
@@ -45,9 +45,9 @@ enum class MotionMethod {
 struct Precise {
   double tolerance = 1e-9;  ///< local error a step, relative to the scene's own length and speed, > 0
   double max_dt =
-      1.0 / 60;  ///< s, > 0: what `Simulation::step` advances by; steps of the motion may be longer
+      1.0 / 60;  ///< s, > 0: advance of `Simulation::step`; steps of the integration may be longer
   MotionMethod method = MotionMethod::Automatic;
-  bool estimate_error = false;  ///< runs a second motion at a tenth of the tolerance beside, to compare with
+  bool estimate_error = false;  ///< also runs at a tenth of the tolerance, to compare with
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 

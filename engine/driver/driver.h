@@ -16,12 +16,12 @@ namespace plumb {
 /// Events of contacts in Precise.
 enum class ContactEvent {
   Impact,      ///< shapes that met got an impulse
-  Rest,        ///< bouncing that piles up ended; the last time is that of its limit
+  Rest,        ///< a Zeno cascade of bounces ended; the last time is that of its limit
   Hold,        ///< a contact that lasts began
-  Separation,  ///< the force of a lasting contact fell to zero
+  Separation,  ///< the force of a persistent contact fell to zero
   SlipStart,   ///< a sticking or rolling contact began to slip
   SlipEnd,     ///< slip came to an end: it sticks, rolls, or slips back
-  Change,      ///< a contact went over to another corner or edge
+  Change,      ///< a contact moved to another corner or edge
   Paradox,     ///< no force could hold a slipping contact (Painleve): an impulse ended its slip
 };
 inline constexpr std::size_t kContactEvents = 8;
@@ -32,7 +32,7 @@ struct EventCount {
   double last = 0;  ///< s
 };
 
-/// How far a run is from the true motion, by estimate: the largest of all bodies and steps.
+/// Estimated distance of a run from the true motion: the largest over all bodies and steps.
 struct ErrorEstimate {
   bool known = false;   ///< the run estimates its error
   double position = 0;  ///< m
@@ -47,7 +47,7 @@ struct Statistics {
   std::int64_t impacts = 0;      ///< velocity jumps that were resolved
   std::int64_t evaluations = 0;  ///< evaluations of the accelerations
   std::int64_t implicit = 0;     ///< Precise: accepted steps by the implicit method
-  std::int64_t leaps = 0;        ///< Precise: steps carried over a singular place of a mechanism
+  std::int64_t leaps = 0;        ///< Precise: steps across a kinematic singularity
   std::int64_t redundant_joints =
       0;  ///< Precise: joints with rows that follow from others, named in the plan
   std::array<EventCount, kContactEvents> contacts{};  ///< Precise: by `ContactEvent`
@@ -66,7 +66,7 @@ struct JointReaction {
   double torque = 0;  ///< N m, about that anchor
 };
 
-/// Reaction of a lasting contact on body b at one point, and the opposite on body a.
+/// Reaction of a persistent contact on body b at one point, and the opposite on body a.
 struct ContactReaction {
   std::size_t body_a = 0, body_b = 0;  ///< of the scene
   Vec2d position{};                    ///< m
@@ -86,25 +86,27 @@ struct CompileOptions {
   bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
 };
 
-/// A way of moving compiled bodies forward in time. One virtual call a step, none a body.
+/// Advances compiled bodies in time. One virtual call per step, none per body.
 class Driver {
  public:
   virtual ~Driver() = default;
 
-  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step
-  /// when a state is not finite or a work limit is met.
+  /// Advances by dt (Realtime) or max_dt (Precise). Throws `Error` (Run) that names the body and the step if
+  /// a state is not finite or a work limit is reached.
   virtual void step() = 0;
   virtual double time() const = 0;  ///< s
   virtual void read(std::span<BodyState> out) const = 0;
 
-  /// Overwrites the motion of one body; what was cached about its contacts is forgotten.
+  /// Overwrites the motion of one body, and discards cached data about its contacts.
   virtual void write(std::size_t body, const BodyState& state) = 0;
 
-  /// All that the future depends on, warm starting included: restoring and going on gives the same bits.
+  /// Returns everything on which the future depends, warm-starting impulses included: a restored run
+  /// continues with the same bits.
   virtual std::vector<std::byte> save() const = 0;
   virtual void restore(std::span<const std::byte> snapshot) = 0;
 
-  /// Forces at the time of what is read; throws `Error` (Unsupported) where a driver has impulses alone.
+  /// Returns the forces at the time of the state that is read; throws `Error` (Unsupported) for a driver that
+  /// has only impulses.
   virtual Reactions reactions() {
     throw Error(Error::Kind::Unsupported, "realtime", "forces", "",
                 "fixed steps have impulses, not forces; 'plumb-precise' and Precise have forces");
@@ -113,10 +115,10 @@ class Driver {
   virtual const Plan& plan() const = 0;
   virtual void profile(bool on) = 0;  ///< switches the stages' clocks on or off
   virtual Statistics statistics() const = 0;
-  /// A step could not be finished for want of memory: what `read` gives is the state before it, where the
-  /// driver keeps that. It is not asked for another.
+  /// Called if memory ran out during a step: `read` then returns the state before the step, if the driver
+  /// keeps it. No further step is requested.
   virtual void abandon_step() {}
-  /// The first violation of a monitored bound, of a run that goes on all the same; or null.
+  /// Returns the first violation of a monitored bound in a run that continues despite it; or null.
   virtual const Error* violation() const { return nullptr; }
 };
 

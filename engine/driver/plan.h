@@ -18,7 +18,7 @@ struct Plan {
   std::string driver;  ///< "world<double>", "world<float>", "precise"
   std::vector<Stage> stages;
   int substeps = 1;            ///< Realtime: substeps per step
-  std::string substeps_why{};  ///< "as asked for", or the reason for more
+  std::string substeps_why{};  ///< "as asked for", or the reason for a larger number
 };
 
 }  // namespace plumb

@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-/// Values as bytes, one after another, in the machine's own order.
+/// Writes values as bytes, one after another, in the machine's byte order.
 class SnapshotWriter {
  public:
   template <class T>
@@ -27,7 +27,7 @@ class SnapshotWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads them back. Throws `Error` (Value) where the bytes end too soon.
+/// Reads them back. Throws `Error` (Value) if the bytes end too soon.
 class SnapshotReader {
  public:
   explicit SnapshotReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -42,7 +42,7 @@ class SnapshotReader {
     return value;
   }
 
-  /// A number of elements that are to follow, `size` bytes each at least.
+  /// Reads the number of elements that follow, of at least `size` bytes each.
   std::size_t count(std::size_t size) {
     const auto number = get<std::uint64_t>();
     if (number > bytes_.size() / size) throw Error(Error::Kind::Value, "snapshot", "", "", "it is cut short");

@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// Derivatives of the wrench on one body (force x, y and torque) by the motion of a body, often the same: by
-/// position x, y and angle, and by velocity x, y and angular velocity.
+/// Derivatives of the wrench on one body (force x, y and torque) with respect to the motion of a body, often
+/// the same one: position x, y and angle; velocity x, y and angular velocity.
 struct ForceBlock {
   std::size_t on = 0, by = 0;  // bodies
   double position[3][3] = {};

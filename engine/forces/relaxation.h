@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// (1 - exp(-x)) / x for x >= 0, without a library: the mean of a quantity that decays by exp(-x), as a
-/// fraction of its initial value.
+/// Returns (1 - exp(-x)) / x for x >= 0, without a library: the mean of a quantity that decays by exp(-x), as
+/// a fraction of its initial value.
 inline double mean_of_decay(double x) {
   if (x <= 0.25) {
     // 1 - x/2! + x^2/3! - ... + x^12/13!: below rounding for x <= 1/4.
@@ -13,7 +13,7 @@ inline double mean_of_decay(double x) {
     for (int n = 13; n >= 2; --n) sum = 1 - x / n * sum;
     return sum;
   }
-  // exp(-x) is negligible; infinity would be halved for ever.
+  // Here exp(-x) is negligible, and halving an infinite x below would not end.
   if (x > 64) return 1 / x;
   // exp(-x) = exp(-x / 2^k)^(2^k), with a short series for the small argument.
   double small = x;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Integrals over the area: of 1, x and y.
+// Integrals of 1, x and y over the area.
 struct Moments {
   double area = 0, x = 0, y = 0;
 };
@@ -68,7 +68,7 @@ Submerged submerged_part(const Convex<double>& shape) {
     bottom = std::min(bottom, shape.corners[i].point.y);
   }
   if (bottom - shape.radius >= 0) return {};
-  // If all is below, depth would only cost digits: the shape is integrated from its own top.
+  // If the shape is entirely below the surface, integrate from its own top: a large depth would cost digits.
   const double shift = std::min(top + shape.radius, 0.0);
   const Vec2d origin{shape.corners[0].point.x, shift};
   Moments sum;

@@ -55,7 +55,7 @@ TwoDoubles first_octant(double y, double x) {
   const double small = r * series + ((quotient_tail(over, under, r) - r * under_tail / under) + arc.tail);
   const double rest = r + small;
   const double sum = arc.value + rest;
-  // The rounding errors of both sums: they decide the last place once a quarter turn is added.
+  // Add the rounding errors of both sums: they determine the last digit once a quarter turn is added.
   return {sum, ((arc.value - sum) + rest) + ((r - rest) + small)};
 }
 

@@ -7,8 +7,8 @@ namespace plumb {
 
 #ifdef PLUMB_VECTORS
 
-/// Transposes four by four: lane i of out k is lane k of row i. Of eight lanes the first four and the last
-/// four.
+/// Transposes four by four: lane i of out k is lane k of row i. With eight lanes, the first four and the last
+/// four are transposed separately.
 template <class Real, int kCount, int kBytes>
 [[gnu::always_inline]] inline void transpose(const Lanes<Real, kCount, kBytes> (&row)[4],
                                              Lanes<Real, kCount, kBytes> (&out)[4]) {

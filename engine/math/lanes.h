@@ -40,8 +40,8 @@ struct LaneMask {
 };
 
 /// `kCount` numbers processed lane by lane, in registers of `kBytes` bytes: each lane gives the same bits as
-/// scalar code. Everything is inlined, because a function compiled for wider registers passes them in another
-/// way than one that is not.
+/// scalar code. Everything is inlined, because functions compiled for different register widths pass vectors
+/// differently.
 template <class Real, int kCount, int kBytes = 16>
 struct Lanes {
   using Number = Real;
@@ -50,7 +50,7 @@ struct Lanes {
   using Mask = LaneMask<Real, kCount, kBytes>;
   static constexpr int kLanes = kCount;
   static constexpr int kParts = Mask::kParts;
-  /// Aligned by its name: g++ aligns wide vectors to 16 bytes where it compiles without them.
+  /// Needs explicit alignment: without AVX, g++ aligns wide vectors to 16 bytes.
   alignas(Part) alignas(kParts == kCount ? alignof(Part) : kBytes) Part part[kParts];
 
   Lanes() = default;
@@ -115,7 +115,7 @@ struct Lanes {
     for (int k = 0; k < kParts; ++k) out.part[k] = mask.part[k] ? yes.part[k] : no.part[k];
     return out;
   }
-  /// std::min, and likewise std::max: the first of equals, or if one is not a number.
+  /// As std::min and std::max: returns the first of equals, and the first if one is NaN.
   [[gnu::always_inline]] friend Lanes min(const Lanes& a, const Lanes& b) {
     Lanes out;
     for (int k = 0; k < kParts; ++k) out.part[k] = b.part[k] < a.part[k] ? b.part[k] : a.part[k];
@@ -150,7 +150,7 @@ template <class Real, int kCount, int kBytes>
 template <class Real>
 requires std::is_floating_point_v<Real>
 [[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
-/// Returns `yes()` where the mask is set, `no()` elsewhere. Of single numbers only one of them is called.
+/// Returns `yes()` where the mask is set, `no()` elsewhere. For single numbers only one of them is called.
 template <class Yes, class No>
 [[gnu::always_inline]] inline auto choose(bool mask, const Yes& yes, const No& no) {
   return mask ? yes() : no();

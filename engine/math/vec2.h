@@ -2,8 +2,8 @@
 
 namespace plumb {
 
-/// A vector in the plane. Units are those of the quantity it holds. Always inlined: of vectors of Lanes, a
-/// function compiled for wider registers passes them in another way than one that is not.
+/// A vector in the plane. Units are those of the quantity it holds. Always inlined: for vectors of Lanes,
+/// functions compiled for different register widths pass them differently.
 template <class Real>
 struct Vec2 {
   Real x = 0, y = 0;

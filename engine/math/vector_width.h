@@ -7,7 +7,7 @@ namespace plumb {
 /// Width of the vector registers that loops over many items use. Each gives the same bits.
 enum class VectorWidth : std::uint8_t {
   None,     ///< one number at a time
-  Bytes16,  ///< SSE2, NEON: what all processors of the kind have
+  Bytes16,  ///< SSE2, NEON: available on all such processors
   Bytes32,  ///< AVX2
 };
 

@@ -13,8 +13,9 @@
 
 namespace plumb {
 
-/// True if every byte of a T belongs to its value, so that a copy of its bytes is determinate. The language
-/// knows this for integers and structs of integers. A struct with floats declares it beside its definition:
+/// True if every byte of a T belongs to its value, so that copying its bytes gives a defined result. The
+/// language guarantees this for integers and structs of integers. A struct with floats declares it beside its
+/// definition:
 ///
 ///     template <>
 ///     inline constexpr bool kWholeBytes<Arm> = members_fill<Arm, float, float, int>();
@@ -118,7 +119,7 @@ class ByteReader {
   /// Returns the unread part.
   std::span<const std::byte> rest() const { return in_; }
 
-  /// Throws unless `holds` is true; `problem` ends the sentence that begins with `field`.
+  /// Throws unless `holds` is true; `problem` completes the sentence that begins with `field`.
   static void require(bool holds, const char* field, const char* problem) {
     if (!holds) throw Error(Error::Kind::Value, "snapshot", field, "", problem);
   }

@@ -27,7 +27,7 @@ std::string_view name_of(Error::Kind kind) {
   return "error";
 }
 
-/// Returns `value` as it appears in the sentence: names are quoted once.
+/// Returns `value` for the message; names are quoted.
 std::string shown(Error::Kind kind, const std::string& value) {
   const bool bare = kind == Error::Kind::Name && !value.empty() && value[0] != '\'' && value[0] != '"';
   return bare ? quoted(value) : value;

@@ -4,7 +4,7 @@
 
 #include "engine/scene/scene.h"
 
-/// Features of a scene that not every engine supports: all but circles and boxes with friction and
+/// Features of a scene that not every engine supports: everything except circles and boxes with friction and
 /// restitution, plain revolute joints and rods. Each function describes the first such feature, or returns
 /// nothing.
 namespace plumb {

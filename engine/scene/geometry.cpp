@@ -74,7 +74,7 @@ Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
 Extent extent(const Capsule& capsule) {
   const double r = capsule.radius, span = length(capsule.end - capsule.start);
   const Vec2d middle = 0.5 * (capsule.start + capsule.end);
-  // A rectangle between two half discs: a half's centroid lies 4 r/(3 pi) from its flat side.
+  // A rectangle between two half discs: the centroid of a half disc lies 4 r/(3 pi) from its flat side.
   const double disc = kPi * r * r, between = 2 * r * span, area = disc + between;
   const double of_ends = r * r / 2 + span * span / 4 + span * (4 * r / (3 * kPi));
   const double of_middle = (span * span + 4 * r * r) / 12;

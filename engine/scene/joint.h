@@ -25,7 +25,7 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
-/// Drives towards a speed with limited force or torque.
+/// Drives a joint towards a speed with limited force or torque.
 struct Motor {
   double speed = 0;      ///< m/s or rad/s
   double max_force = 0;  ///< N or N m, >= 0

@@ -166,11 +166,11 @@ struct ContactRules {
   double restitution_threshold = 0;  ///< m/s; slower impacts do not bounce
   Simultaneous simultaneous = Simultaneous::Sequence;
   ImpactRule impact = ImpactRule::Newton;
-  double yield_speed = 0;  ///< m/s, >= 0: restitution falls with the fourth root of faster ones; 0: never
+  double yield_speed = 0;  ///< m/s, >= 0: above, restitution falls with the speed's fourth root; 0: never
   double tangential_restitution =
-      0;  ///< 0..1, share of the slip that comes back where friction has stopped it
+      0;  ///< 0..1, fraction of the slip that is restored after friction has stopped it
   double friction_after_stop =
-      1;  ///< 0..1, share of the friction that is left in an impact whose slip has stopped
+      1;  ///< 0..1, fraction of the friction that remains in an impact after the slip has stopped
   friend bool operator==(const ContactRules&, const ContactRules&) = default;
 };
 

@@ -20,7 +20,7 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
   definition.integrator = accuracy.integrator;
   definition.iterations = accuracy.iterations;
   definition.threads = accuracy.threads;
-  definition.quarantine = false;  // a run with a body missing is another scene's
+  definition.quarantine = false;  // a run without one of its bodies would be that of another scene
   return definition;
 }
 
@@ -63,8 +63,8 @@ void WorldDriver<Real>::step() {
   if (found_) act_on_violation();
 }
 
-/// Force laws act at the middle of each substep, so with them the world takes the substeps one by one. The
-/// Euler schemes take forces at its start.
+/// Force laws are evaluated at the middle of each substep, so with them the world takes the substeps as
+/// single steps. The Euler schemes evaluate forces at the start.
 template <class Real>
 void WorldDriver<Real>::advance() {
   const bool one_by_one = !forces_.empty();

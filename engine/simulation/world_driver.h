@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-/// Fixed steps: a world with a scene's parts in it, and the scene's force laws.
+/// A world with a scene's bodies and joints, and the scene's force laws, advanced in fixed steps.
 template <class Real>
 class WorldDriver final : public Driver {
  public:
@@ -48,13 +48,13 @@ class WorldDriver final : public Driver {
   SceneParts parts_;
   SceneForces<Real> forces_;
   std::vector<BodyState> before_;  // by body, at the start of the step
-  std::vector<std::byte> undo_;    // the whole state then, where a violation takes the step back
+  std::vector<std::byte> undo_;    // the whole state at that time, if a violation undoes the step
   std::optional<InvariantMonitor<Real>> monitor_;
   std::optional<Error> found_;      // in this step
   std::optional<Error> violation_;  // the first
   std::int64_t steps_ = 0;
   double force_time_ = 0;   // ns
-  bool abandoned_ = false;  // a step ended for want of memory: only `before_` is sound
+  bool abandoned_ = false;  // memory ran out during a step: only `before_` is valid
   bool profiling_ = false;
 };
 

@@ -29,7 +29,7 @@ using scenarios::Problem;
 using Law = Expectation::Law;
 namespace fs = std::filesystem;
 
-constexpr double kLongest = 1e6;  // s, of a run: what follows from a slip of the pen
+constexpr double kLongest = 1e6;  // s, of a run: longer durations are taken for typing errors
 
 struct LawName {
   const char* name;
@@ -137,7 +137,7 @@ class Reader {
     out_.problem.expected.push_back(std::move(expectation));
   }
 
-  // Reads when an entry holds: at some times, or from one time until another.
+  // Reads the times of an entry: single times, or from one time until another.
   void read_times(const Member& entry, Expectation& expectation) const {
     if (entry.has("at")) {
       if (entry.at("at").is_list()) {
@@ -279,7 +279,8 @@ class Reader {
       motions_[*body] = std::move(motion);
   }
 
-  // Motions of all that moves are the truth of the whole scene: runs then have errors, and sweeps figures.
+  // If the file gives the motions of all moving bodies, they are the truth of the whole scene: runs then have
+  // errors, and sweeps can use them.
   void set_truth() {
     const std::vector<Body>& bodies = out_.problem.scene.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -322,7 +323,8 @@ CaseFile read_case(const std::string& path) {
 bool is_case(const std::string& path) {
   try {
     if (!fs::is_regular_file(path)) return false;
-    // Decides by a key in the text: a file with a slip may be meant as a case, and the error then says so.
+    // Looks for a key in the text: a file with a syntax error may be meant as a case, and the error then says
+    // so.
     return read_text(path).find("\"plumb_case\"") != std::string::npos;
   } catch (const std::exception&) {
     return false;

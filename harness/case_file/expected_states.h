@@ -29,11 +29,11 @@ inline double component(const BodyState& state, std::size_t index) {
   return all[index];
 }
 
-/// s on either side of an impact in which expected velocities are not compared: the step of 1/60 s in which
-/// an engine may see it.
+/// Time on either side of an impact in which expected velocities are not compared, s: an engine may detect
+/// the impact within a step of 1/60 s.
 inline constexpr double kImpactWindow = 1.0 / 60 * (1 + 1e-9);
 
-/// An expected state of one body at one time, as far as it is given.
+/// Expected state of one body at one time; components that are not given are empty.
 struct StateRow {
   double time = 0;  ///< s
   std::string body;
@@ -47,8 +47,8 @@ std::vector<StateRow> states_from_csv(const std::string& text, const std::string
 /// Reads a list of objects with the same members.
 std::vector<StateRow> states_from(const Member& list);
 
-/// Returns what `rows` expect, an expectation a body and component. Throws `Error` for a body that the scene
-/// lacks and for a time beyond `duration`.
+/// Returns one expectation per body and component in `rows`. Throws `Error` for a body that the scene lacks
+/// and for a time beyond `duration`.
 std::vector<scenarios::Expectation> expectations_of(const std::vector<StateRow>& rows, const Scene& scene,
                                                     double duration, const StateTolerances& tolerances);
 

@@ -90,7 +90,7 @@ Names::Names(const Scene& scene) {
       put(formula_name(rod->name) + ".length", {.value = rod->length});
 }
 
-// Two things of the scene may have one name in formulas: neither is then to be had.
+// If two objects of the scene have one name in formulas, neither can be used.
 void Names::put(const std::string& name, const Symbol& symbol) {
   const auto [place, fresh] = symbols_.try_emplace(name, symbol);
   if (!fresh) place->second.kind = Kind::Shared;
@@ -112,7 +112,7 @@ struct Expression::Parts {
 #ifdef PLUMB_WITH_MUPARSER
   mu::Parser parser;
 #endif
-  bool parsed = false;  // otherwise the value is that of the first used
+  bool parsed = false;  // if false, the value is that of the first used name
 };
 
 Expression::Expression(const std::string& text, const Names& names) : parts_(std::make_shared<Parts>()) {
@@ -143,7 +143,7 @@ Expression::Expression(const std::string& text, const Names& names) : parts_(std
     std::vector<std::string> variables;
     for (const auto& [name, address] : parts_->parser.GetUsedVar()) variables.push_back(name);
     for (const std::string& name : variables) parts_->parser.DefineVar(name, &use(name).value);
-    parts_->parser.Eval();  // throws for the rest of the mistakes
+    parts_->parser.Eval();  // throws for the remaining kinds of errors
   } catch (const mu::Parser::exception_type& error) {
     throw problem(Error::Kind::Syntax, text, "is no formula: " + printable(error.GetMsg(), 160));
   }

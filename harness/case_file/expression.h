@@ -14,13 +14,13 @@ namespace plumb::harness::case_file {
 /// The names that formulas of a case file may use: `t`, constants, and the states of bodies ("ball.x").
 class Names {
  public:
-  /// Takes in every body's state ("ball.x", ".y", ".angle", ".vx", ".vy", ".w"), what it starts from
-  /// ("ball.x0", ...), "ball.mass" and "ball.inertia", the length of each distance joint ("rod.length"),
-  /// "gravity.x", "gravity.y" and `pi`. A character of a name that is no letter, digit or underscore is
-  /// written as an underscore.
+  /// Adds every body's state ("ball.x", ".y", ".angle", ".vx", ".vy", ".w"), its initial state ("ball.x0",
+  /// ...), "ball.mass" and "ball.inertia", the length of each distance joint ("rod.length"), "gravity.x",
+  /// "gravity.y" and `pi`. A character of a name that is not a letter, digit or underscore is written as an
+  /// underscore.
   explicit Names(const Scene& scene);
 
-  /// Adds a constant. Throws `Error` (Name) if the name is taken or no name.
+  /// Adds a constant. Throws `Error` (Name) if the name is taken or invalid.
   void add(const std::string& name, double value);
 
  private:
@@ -39,12 +39,11 @@ class Names {
 /// Returns `name` as formulas write it: "left ball" is "left_ball".
 std::string formula_name(std::string_view name);
 
-/// A formula over the names of a case file, evaluated by muparser. A text that is a number or a name alone
-/// needs no library.
+/// A formula over the names of a case file, evaluated by muparser. A plain number or name needs no library.
 class Expression {
  public:
-  /// Throws `Error`: Syntax for a text that is no formula, Name for an unknown name, Unsupported if plumb was
-  /// built without muparser.
+  /// Throws `Error`: Syntax for an invalid formula, Name for an unknown name, Unsupported if plumb was built
+  /// without muparser.
   Expression(const std::string& text, const Names& names);
 
   double at(double time, std::span<const BodyState> states) const;

@@ -77,7 +77,7 @@ class Member {
     for (const auto& [key, value] : json_->items()) visit(key, at(key));
   }
 
-  /// Returns what `work` returns; an error in it gets this file and member as its place.
+  /// Returns the result of `work`; adds this file and member to an error thrown in it.
   template <class Work>
   auto naming(Work work) const {
     try {

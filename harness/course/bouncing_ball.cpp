@@ -24,8 +24,8 @@ std::string hard_coded(const char* value) {
                      value);
 }
 
-// Returns the factor on the velocity in each step of a fall, if there is one: the speed then grows by less
-// each step, in the same ratio.
+// Returns the factor by which the velocity is multiplied in each step of a fall, if there is one: the
+// increments of the speed then decrease in a constant ratio.
 std::optional<double> kept_each_step(const Trace& trace) {
   const auto gain = [&](std::size_t k) {
     return trace.states[k + 1][0].velocity.y - trace.states[k][0].velocity.y;
@@ -111,7 +111,7 @@ Finding scene_says_gravity(const Lab& lab) {
   const double t = trace.duration();
   const Vec2d v = trace.last(0).velocity, right = v0 + t * gravity;
   const double tolerance = lab.rounding(8, t);
-  // The same gain of velocity under another gravity comes from a constant in the engine.
+  // If the gain of velocity is the same under another gravity, the engine uses a constant.
   const Vec2d gain = v - v0, gain_of_other = other.last(0).velocity;
   const bool same_gain = std::hypot(gain.x - gain_of_other.x, gain.y - gain_of_other.y) < 1e-6 && gain.y != 0;
   return Judgement()
@@ -173,7 +173,8 @@ bool pulled_into_floor(const Lab& lab, const Trace& trace) {
   return false;
 }
 
-// Returns true if the first change of vy leaves (1 - e) of it, as an impulse with e in place of 1 + e does.
+// Returns true if the first change of vy leaves a fraction (1 - e) of it: the impulse then has e in place of
+// 1 + e.
 bool keeps_rest(const Trace& trace, double e) {
   const double v = trace.first(0).velocity.y;
   for (const auto& states : trace.states)
@@ -242,7 +243,7 @@ bool trembles(const Trace& trace) {
   return false;
 }
 
-// Returns true if a ball that has bounced, and that nothing pulls down, rises more slowly later.
+// Returns true if a ball without gravity rises more slowly some time after its bounce.
 bool loses_what_it_got(const Trace& trace) {
   for (std::size_t k = 1; k < trace.states.size(); ++k) {
     const double before = trace.states[k - 1][0].velocity.y, after = trace.states[k][0].velocity.y;
@@ -287,7 +288,7 @@ Finding restitution(const Lab& lab) {
       .finding();
 }
 
-// Returns a wall that the ball is behind, right and left first; empty if it is in the room.
+// Returns a wall behind which the ball is, right and left first; empty if it is in the room.
 std::string wall_passed(const BodyState& s, double half_width, double half_height) {
   if (s.position.x > half_width) return "right";
   if (s.position.x < -half_width) return "left";
@@ -314,7 +315,7 @@ Finding four_walls(const Lab& lab) {
   }
   const double speed = std::hypot(v.x, v.y),
                end = std::hypot(trace.last(0).velocity.x, trace.last(0).velocity.y);
-  // In the unfolded room there is a wall every 2 (half - r).
+  // Unfold the room at its walls: along a straight path there is a wall every 2 (half - r).
   const double t = trace.duration();
   const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
                   static_cast<int>((v.y * t / (half_height - r) + 1) / 2);

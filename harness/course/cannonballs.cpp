@@ -102,7 +102,8 @@ Finding push_ends(const Lab& lab) {
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
-  // An engine that evaluates forces only at the start of each step sees up to a step more or less of it.
+  // An engine that evaluates forces only at the start of each step may apply the push for up to one step more
+  // or less.
   return Judgement()
       .read("vx after the push", "m/s", trace.last(0).velocity.x, v, step + lab.rounding(v, t))
       .mistake("push_never_ends", {force / mass * (t - start)},

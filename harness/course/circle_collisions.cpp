@@ -27,10 +27,10 @@ Trace head_on(const Lab& lab, Ball a, Ball b, double duration = 1.5) {
   return lab.run(scene_of("head on", {}, {make(a), make(b)}), duration);
 }
 
-// Returns the speed at which two balls on the x axis part; below zero they close.
+// Returns the separation speed of two balls on the x axis; negative if they approach.
 double parting(const std::vector<BodyState>& states) { return states[1].velocity.x - states[0].velocity.x; }
 
-// Returns true if two balls that an impulse has sent apart are slowed or sent back afterwards.
+// Returns true if two balls are slowed or reversed after an impulse has separated them.
 bool pulled_back(const Trace& trace, double closing) {
   bool bounced = false;
   for (std::size_t k = 1; k < trace.states.size(); ++k) {
@@ -81,7 +81,7 @@ Finding detects(const Lab& lab) {
       .finding();
 }
 
-// Lets two balls that overlap move apart: nothing should act on them.
+// Starts two overlapping balls that move apart: their velocities should not change.
 Finding parting_is_left_alone(const Lab& lab) try {
   const double v = 1, deep = 0.06, r = 0.4;
   const Trace trace =
@@ -152,7 +152,7 @@ constexpr const char* kInverses =
 
 Finding heavy_hits_light(const Lab& lab) {
   const double heavy = 10, light = 1, v = 2;
-  // The radii add to 1.8 m: a normal that is not divided by its length gives impulses 3.24 times too strong.
+  // The radii add up to 1.8 m: with a normal that is not normalised, impulses are 3.24 times too strong.
   const auto meet = [&](double radius) {
     return head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}, .mass = heavy, .radius = radius},
                    {.position = {0, 0}, .mass = light, .radius = 0.8 * radius}, 2);
@@ -224,7 +224,8 @@ Finding oblique(const Lab& lab) {
                               {.position = {0, 0}, .radius = r}, 2);
   const double s = offset / d, c = std::sqrt(1 - s * s);
   const Vec2d n{c, -s}, hit = v * c * n, stays = Vec2d{v, 0} - hit;
-  // Detected a step late, the line of centres has turned by at most v dt s/d, and velocities by twice that.
+  // If the contact is detected a step late, the line of centres has turned by at most v dt s/d, and the
+  // velocities by twice that.
   const double tolerance = 2 * v * (v * lab.dt() * s / d) + kShare * v;
   const Vec2d a = trace.last(0).velocity, b = trace.last(1).velocity;
   const auto gives = [](Vec2d first, Vec2d second) {
@@ -295,7 +296,7 @@ double kick(const Lab& lab) try {
 }
 
 Finding break_shot(const Lab& lab) {
-  const double r = 0.2, gap = 0.06, v = 2;  // slower than a gap a step: collisions do not coincide
+  const double r = 0.2, gap = 0.06, v = 2;  // crosses less than a gap per step: collisions are separate
   std::vector<Body> bodies{
       make(Ball{.name = "cue", .position = {-1, 0.12}, .velocity = {v, 0}, .radius = r})};
   for (int row = 0; row < 4; ++row) {
@@ -345,8 +346,8 @@ Finding break_shot(const Lab& lab) {
       .finding();
 }
 
-// Lets 10 kg and 1 kg overlap at rest and returns how far each is moved; each is to move by its share of the
-// inverse masses, which leaves the centre of mass in place.
+// Lets 10 kg and 1 kg overlap at rest and measures how far each is moved: by its share of the inverse masses,
+// which leaves the centre of mass in place.
 Finding overlap_is_shared(const Lab& lab) try {
   const double heavy = 10, light = 1, deep = 0.1, r = 0.4;
   const Trace trace =

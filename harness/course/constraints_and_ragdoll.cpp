@@ -33,7 +33,7 @@ DistanceJoint stick(std::string name, std::string a, std::string b, double lengt
 
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
-// Returns true if a ball becomes three times as fast as at the start.
+// Returns true if a ball reaches three times its initial speed.
 bool faster(const Trace& trace) {
   for (const auto& states : trace.states)
     if (length(states[0].velocity) > 3 * length(trace.first(0).velocity)) return true;
@@ -65,8 +65,8 @@ Finding stick_keeps_its_length(const Lab& lab) {
   const double end = length(trace.last(1).position - trace.last(0).position);
   // Each step leaves the circle by (w h)^2 d/2; ten times that may accumulate before it is corrected.
   const double tolerance = (5 * wh * wh + 0.005) * d;
-  // Without correction the tangent step lengthens d^2 by (v h)^2 while d v stays: d^4 grows by 2 d0^2 v0^2
-  // h^2.
+  // Without correction, the tangent step lengthens d^2 by (v h)^2 while d v is constant: d^4 grows by 2 d0^2
+  // v0^2 h^2.
   const double drifted = std::pow(std::pow(d, 4) + 8 * d * d * v * v * lab.dt() * t, 0.25);
   const double spin = cross(trace.last(1).position - trace.last(0).position,
                             trace.last(1).velocity - trace.last(0).velocity) /
@@ -221,7 +221,7 @@ Finding hinged_rod(const Lab& lab) {
     const double a = states[0].angle;
     gap = std::max(gap, length(states[0].position - l / 2 * Vec2d{std::cos(a), std::sin(a)}));
   }
-  // A hinge that does not turn its anchor pulls the rod's centre to half a length right of it, within a
+  // If a hinge does not rotate its anchor, it pulls the rod's centre to half a length right of it within a
   // second.
   double to_unturned = l;
   for (std::size_t k = 0; k < trace.states.size() && trace.times[k] < 1; ++k)

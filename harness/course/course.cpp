@@ -40,8 +40,8 @@ Finding broken(const std::string& says) {
   return out;
 }
 
-// Runs a failed check again. The same scene and settings must give the same bits; where they do not, no
-// figure of the first run can name a mistake.
+// Runs a failed check again. The same scene and settings must give the same bits; otherwise no figure of the
+// first run can identify a mistake.
 void compare_with_second_run(const Check& check, const Lab& lab, Finding& finding) {
   const Finding again = check.run(lab);
   for (std::size_t i = 0; i < std::min(finding.readings.size(), again.readings.size()); ++i) {

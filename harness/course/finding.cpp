@@ -50,7 +50,7 @@ Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says
 }
 
 // Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; above 1 the
-// mistake does not match. A mistake that gives no figure for any reading that is off explains nothing.
+// mistake does not match. A mistake without a figure for any wrong reading explains nothing.
 double Judgement::miss(const Mistake& mistake) const {
   double worst = 0;
   bool explains = false;
@@ -60,7 +60,7 @@ double Judgement::miss(const Mistake& mistake) const {
     if (std::isnan(gives)) continue;
     explains = explains || !reading.good();
     const double way = std::abs(gives - reading.expected);
-    // A figure that the mistake leaves right keeps the reading's own tolerance.
+    // If the mistake does not change a figure, the reading's own tolerance applies.
     const double most = way <= reading.tolerance ? reading.tolerance : kLargestShare * way;
     const double passes = std::max(std::min(reading.tolerance, most), kSmallestShare * way);
     worst = std::max(worst, std::abs(reading.measured - gives) / passes);

@@ -33,10 +33,10 @@ struct Finding {
 /// Stands for a figure that a mistake leaves undetermined.
 inline constexpr double kAny = std::numeric_limits<double>::quiet_NaN();
 
-/// Compares readings with their expected values and, if they are off, with the figures of known mistakes. A
-/// mistake matches if every reading is within the reading's tolerance of the mistake's figure. That tolerance
-/// is clamped to 3 % to 10 % of the distance between right and wrong. A mistake that says nothing of a
-/// reading that is off does not match. Of several matches the nearest is named.
+/// Compares readings with their expected values and, if they are wrong, with the figures of known mistakes. A
+/// mistake matches if every reading is near the mistake's figure, within the reading's tolerance clamped to 3
+/// % to 10 % of the distance between right and wrong. A mistake without figures for the wrong readings does
+/// not match. Of several matches the nearest is named.
 class Judgement {
  public:
   Judgement& read(std::string what, std::string unit, double measured, double expected, double tolerance);

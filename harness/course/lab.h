@@ -21,7 +21,7 @@ struct Trace {
   bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
 
-/// A scene that a check has run, and what came of it.
+/// A scene that a check has run, and its result.
 struct Recorded {
   Scene scene;
   Trace trace;

@@ -151,7 +151,7 @@ Finding ragdoll_drops(const Lab& lab) {
     fastest = std::max(fastest, length(trace.last(i).velocity));
   }
   const double in_ground = std::max(0.0, -lowest);
-  // After a fall from 2 m nothing moves faster than sqrt(2 g 2.6); at rest after 4 s, apart from slow
+  // After a fall from 2 m nothing moves faster than sqrt(2 g 2.6). From 4 s on it is at rest, apart from slow
   // sliding.
   return Judgement()
       .read("widest gap in a joint", "m", gap, 0, 0.1 * lab.coarseness())

@@ -118,8 +118,7 @@ Trace pushed(const Lab& lab, double angle, Vec2d force, Vec2d point) {
 constexpr double kPushed = 0.1;           // s
 constexpr double kPushInertia = 1.0 / 3;  // 2 kg, 1 m by 1 m
 
-// Returns the relative error of the push: an engine that reads the clock once a step sees a step more or less
-// of it.
+// Returns the relative error of the push's duration: an engine may apply it for up to one step more or less.
 double share_of_push(const Lab& lab) { return lab.dt() / kPushed + 0.01; }
 
 constexpr const char* kLever =
@@ -173,7 +172,7 @@ Body upright(Crate crate) {
   return body;
 }
 
-// Two boxes of 2 kg and 1 kg that do not turn meet along x, at different heights.
+// Lets two boxes of 2 kg and 1 kg with fixed rotation collide along x, at different heights.
 Finding upright_boxes_collide(const Lab& lab) {
   const double u = 2, heavy = 2, light = 1, j = 2 * u / (1 / heavy + 1 / light);
   const Body a = upright(
@@ -206,7 +205,7 @@ constexpr const char* kLargestOverlap =
     "y, not the "
     "one with the most.";
 
-// Drops a box that does not turn on a platform's end: it overlaps less along y than along x.
+// Drops a box with fixed rotation on the end of a platform: its overlap along y is smaller than that along x.
 Finding least_overlap(const Lab& lab) {
   const double v = 2, x = 2.1;
   const Body platform = fixed(make(Crate{.name = "platform", .width = 4, .height = 1}));

@@ -12,7 +12,7 @@ struct Ball {
   std::string name = "ball";
   Vec2d position{}, velocity{};
   double mass = 1;
-  double radius = 0.4;  ///< two of them do not add to 1 m, where an unnormalised normal is right by chance
+  double radius = 0.4;  ///< not 0.5: with radii that sum to 1 m, an unnormalised normal is right by chance
   double restitution = 1;
 };
 

@@ -74,7 +74,7 @@ std::vector<FamilyRow> rows_of(const std::vector<stress::Cell>& cells) {
   return out;
 }
 
-// Returns the place in the order of `plumb thresholds --list`, because searches end in any order.
+// Returns the position in the order of `plumb thresholds --list`; searches end in any order.
 std::ptrdiff_t place_of(const thresholds::Finding& finding) {
   const auto& all = thresholds::all();
   return std::ranges::find(all, finding.name, &thresholds::Threshold::name) - all.begin();

@@ -67,7 +67,7 @@ std::string counts(const std::vector<FamilyRow>& rows) {
     }
   }
   std::string out =
-      "### Who survives how much\n\n| engine | survives | of | | does else |\n|---|---|---|---|---|\n";
+      "### Cells survived by each engine\n\n| engine | survived | of | | others |\n|---|---|---|---|---|\n";
   for (const auto& [key, count] : all) {
     if (count.total == 0) continue;
     std::string others;
@@ -85,7 +85,7 @@ bool whole(const FamilyRow& row) { return !row.skipped() && row.survived() == ro
 // Lists for each family the settings of plumb that survive all of it, or else the one that gets farthest.
 std::string advice(const std::vector<std::vector<const FamilyRow*>>& families) {
   std::string out =
-      "### Which setting for which extreme\n\n| extreme | values | survived as a whole by |\n|---|---|---|\n";
+      "### Settings for each extreme\n\n| extreme | values | survived completely by |\n|---|---|---|\n";
   for (const auto& rows : families) {
     std::string names;
     const FamilyRow* farthest = nullptr;
@@ -160,10 +160,9 @@ std::string thresholds_table(const std::vector<Finding>& findings) {
     if (ran && std::ranges::find(engines, engine) == engines.end()) engines.push_back(engine);
   }
   std::string out =
-      "### Critical values\n\nBy bisection, with default settings at 1/60 s ([how](thresholds.md)); in "
-      "brackets what is off by 0.1 % and "
-      "more of the exact\nvalue. Nothing stands where an engine does not have what the scene needs.\n\n| | "
-      "exact |";
+      "### Critical values\n\nFound by bisection, with default settings at 1/60 s ([how](thresholds.md)). "
+      "Brackets show the difference from the exact\nvalue if it is 0.1 % or more. A cell is empty if the "
+      "engine lacks a feature that the scene needs.\n\n| | exact |";
   for (const std::string& engine : engines) out += fmt::format(" {} |", engine);
   out += "\n|---|---|";
   for (std::size_t i = 0; i < engines.size(); ++i) out += "---|";
@@ -209,12 +208,10 @@ std::string measured_part(const LimitsData& data) {
   const auto families = by_family(data.rows);
   if (!families.empty()) {
     out += fmt::format(
-        "What [stress](stress.md) found in {} families of scenes. \"Survives\" is the longest range of "
-        "values in "
-        "which every run is\nright enough to use; what happens at the next value on either side stands "
-        "beside it. "
-        "Engines are as they come\nwhere no setting is named; [these](stress.md#settings) are the "
-        "settings.\n\n",
+        "These are the results of [stress](stress.md) in {} families of scenes. \"Survives\" is the longest "
+        "range of values in\nwhich every run is accurate enough to use; beside it is the outcome at the "
+        "next value on either side. Engines without a\nnamed setting use their defaults; the others are "
+        "[these](stress.md#settings).\n\n",
         families.size());
     out += counts(data.rows) + "\n" + advice(families);
     for (const auto& rows : families) out += "\n" + family_table(rows);

@@ -45,7 +45,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
 
 std::string text_of(const Json& json, const char* name) { return json.at(name).get<std::string>(); }
 
-/// Keeps the last item of each key, at the place of the first.
+/// Keeps the last item of each key, at the position of the first.
 template <class Item>
 class Latest {
  public:

@@ -22,7 +22,8 @@ struct Task {
 /// Returns the cell of `task` before anything has run.
 Cell blank(const Task& task);
 
-/// Called once the settings are known and after every sample, to keep the facts of a run that may die.
+/// Called once the settings are known and after every sample, so that the facts survive if the run's process
+/// dies.
 using Witness = std::function<void(const Cell& so_far)>;
 
 /// Runs a cell in this process. Exceptions of the engine become an outcome; crashes, hangs and memory

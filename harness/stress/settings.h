@@ -20,8 +20,9 @@ struct Setting {
   reference::StepSettings with(double dt) const;
 };
 
-/// Returns "default" first, then those for extremes: of plumb's engines as docs/stress.md advises, of the
-/// others a quarter of the step with four times the iterations. Options that an engine lacks are left out.
+/// Returns "default" first, then the settings for extremes: for plumb's engines those of docs/stress.md, for
+/// the others a quarter of the step with four times the iterations. Options that an engine lacks are left
+/// out.
 std::vector<Setting> settings_of(const reference::Backend& backend);
 
 }  // namespace plumb::harness::stress

@@ -11,8 +11,8 @@
 
 namespace plumb::harness::sweep {
 
-/// References that the runs of one instance are compared with, made when first needed. It is the scenario's
-/// truth, shared by all engines, or each engine's own limit if the scenario has no truth.
+/// References with which the runs of one instance are compared, created on first use: the scenario's truth,
+/// shared by all engines, or each engine's own limit if the scenario has no truth.
 class Cases {
  public:
   /// `seconds`: time limit of the last run for an engine's own limit.

@@ -16,7 +16,8 @@ constexpr double kEnd = 3;
 constexpr int kIdle = 2;
 // Factor on the best cost up to which settings are tried, because expected costs are uncertain.
 constexpr double kMargin = 1.1;
-// Points below a goal whose neighbours are tried: the neighbours of the nearest alone may all be worse.
+// Number of points below a goal whose neighbours are tried, because the neighbours of the nearest one may all
+// be worse.
 constexpr std::size_t kLefts = 3;
 
 }  // namespace
@@ -107,15 +108,14 @@ std::optional<Space::Place> Explorer::step_from(const Point& point, double least
 }
 
 std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dearest) {
-  // Seeds that differ in more than the step are few, and lead out of local optima near the start.
+  // Seeds that differ in more than the step are few, and help to leave local optima near the start.
   for (const Space::Place& seed : space_.seeds()) {
     if (seed[0] != space_.start()[0] || points_.contains(seed)) continue;
     points_[seed] = {};
     return seed;
   }
   const std::vector<Point> known = front();
-  // The first point that meets an error goal; for a cost goal the first that exceeds it, after the last that
-  // keeps it.
+  // For an error goal, the first point that meets it; for a cost goal, the first point that exceeds it.
   const auto met = std::find_if(known.begin(), known.end(), [&](const Point& point) {
     return goal.error ? point.error <= *goal.error : point.cost > *goal.cost;
   });

@@ -6,7 +6,7 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// Takes the middle of each remaining part in turn, so that the first few are spread over all.
+// Repeatedly takes the middle of each remaining part, so that the first few points are spread over all.
 void spread(std::span<const Point> points, std::vector<Point>& out) {
   std::vector<std::span<const Point>> left{points};
   for (std::size_t i = 0; i < left.size(); ++i) {

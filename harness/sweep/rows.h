@@ -21,9 +21,9 @@ std::vector<std::string> engines_of(std::span<const Result> rows);
 /// Keeps the last of the rows with the same key.
 std::vector<Result> latest(std::vector<Result> rows);
 
-/// Removes costs so that each scene has those of one kind of machine: that with the most, the first of those
-/// with as many, or `machine` if it is not empty. Rows whose machine is unknown keep theirs. Marks the others
-/// with `cost_left_out`. Throws `Error` (Name) if no cost is of `machine`.
+/// Removes costs so that each scene has costs of only one kind of machine: `machine` if it is not empty,
+/// otherwise the kind with the most costs (the first of equals). Costs of rows with an unknown machine are
+/// kept. Marks the others with `cost_left_out`. Throws `Error` (Name) if no cost is of `machine`.
 void keep_costs_of_one_machine(std::vector<Result>& rows, const std::string& machine = "");
 
 /// Reads the latest rows of a file of results, or of `results.jsonl` in a folder, with the costs of one kind

@@ -222,8 +222,8 @@ double InstanceSweep::repetition_ns(const Trial& trial) const {
   return kProcess + 2 * trial.rough.setup_ns + stepping;
 }
 
-// Chooses the points whose cost will be measured within `seconds`: every engine's in turns, so that none is
-// left out.
+// Chooses the points whose cost will be measured within `seconds`, one engine after another in turn, so that
+// none is left out.
 std::vector<std::string> InstanceSweep::choose(double seconds) {
   std::vector<Result> rows;
   for (const Trial& trial : known_.trials) {
@@ -353,7 +353,7 @@ Swept sweep(const SweepOptions& options, const SweepEvents& events) {
                          [&](const auto& instance) { return record.of(instance.label()).done == done; });
   };
   const double each = 1.0 / static_cast<double>(options.instances.size());
-  // The remaining instances share the budget evenly; time that one does not use goes to the next ones.
+  // The remaining instances share the budget evenly; unused time goes to the next ones.
   double left = options.budget * each * static_cast<double>(count(false));
   long before = count(true);
   for (const scenarios::Instance& instance : options.instances) {

@@ -30,7 +30,7 @@ constexpr std::size_t kFinalists = 3;
 constexpr int kRungs = 11;
 // Share of the time that the search may take; the rest is for measuring costs and for the last runs.
 constexpr double kSearching = 0.6;
-// Rounds of a cost's measurement that are made in any case: fewer say nothing of the noise.
+// Minimum number of rounds of a cost's measurement: fewer cannot show the noise.
 constexpr int kFewestRounds = 3;
 constexpr std::size_t kMostTried = 64;
 
@@ -98,7 +98,7 @@ void Tuner::enter() {
     if (why.empty() && !cases_.has_truth()) {
       const OwnLimit& limit = cases_.limit(*backend);
       why = limit.problem.empty() ? "" : "no limit of its own: " + limit.problem;
-      // The errors are as uncertain as the limit.
+      // The uncertainty of the limit is that of the errors.
       if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
         why = fmt::format("{}: too uncertain for this tolerance", limit.source);
     }
@@ -180,8 +180,8 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
   }
   // Collect the samples separately first: a trial's rough cost orders it until all are measured.
   std::vector<std::vector<CostSample>> samples(finalists.size());
-  // The whole keeps its time: the search leaves a part of it, and a round begins only if it is likely to end
-  // in time.
+  // Keep to the total time: the search leaves a part of it, and a round begins only if it is likely to end in
+  // time.
   const Clock::time_point begin = Clock::now();
   for (int round = 0; round < options_.repetitions; ++round) {
     const double each = round == 0 ? 0 : seconds_since(begin) / round;
@@ -200,7 +200,7 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
   return true;
 }
 
-// Repeats the answer's run. A goal missed by the second run is missed by the answer.
+// Repeats the answer's run. An answer that misses the goal in the second run is rejected.
 void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
   const Case& scene_case = cases_.at(*entrant.backend, answer.row.dt);
   const IsolatedRun again =

@@ -13,8 +13,7 @@
 
 namespace plumb::harness::sweep {
 
-/// Goal of a search for settings: an error to be reached at least cost, or a cost to be kept with least
-/// error. One of the two is given.
+/// Goal of a search for settings: least cost for a given error, or least error for a given cost.
 struct TuneOptions {
   scenarios::Instance instance;
   std::string run_as{};  ///< the argument of `plumb run`; empty: its label
@@ -22,7 +21,7 @@ struct TuneOptions {
   const MetricField* metric = nullptr;
   std::optional<double> tolerance{};  ///< in the metric's unit
   std::optional<double> budget_ns{};  ///< for one step of the game
-  double step = 1.0 / 60;             ///< s, of the game: dt is this, or this halved repeatedly
+  double step = 1.0 / 60;             ///< s, of the game: dt is this step or a repeated half of it
   double seconds = 45;                ///< for the search; measuring costs follows
   double seconds_a_run = 10;
   int jobs = 1;

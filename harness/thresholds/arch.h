@@ -12,7 +12,8 @@ inline constexpr double kArchRadius = 10;  ///< m, of the middle of the voussoir
 
 /// Thickness / radius of the thinnest such arch that stands: rigid voussoirs with straight edges between
 /// radial joints that do not slip. As the number of voussoirs grows it tends to 0.1075 (Milankovitch 1907;
-/// Heyman 1969 has 0.106). By limit analysis: a line of thrust exists inside all joints.
+/// Heyman 1969 has 0.106). Found by limit analysis: the arch stands if a line of thrust exists inside all
+/// joints.
 inline constexpr double kThinnestArch = 0.107076203;
 
 /// Returns the corners of voussoir `index`, counted from the right springing, relative to the arch's centre,

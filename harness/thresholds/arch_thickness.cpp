@@ -31,8 +31,8 @@ Trial arch(double share, double resolution) {
   Trial trial{.scene = {.name = "arch_thickness", .gravity = {0, -kGravity}}};
   trial.scene.bodies = {held(block("ground", 4 * kArchRadius, 2, {0, -1}, kFriction))};
   for (int i = 0; i < kVoussoirs; ++i) trial.scene.bodies.push_back(voussoir_body(i, share * kArchRadius));
-  // If too thin by a small fraction, its hinges open from rest like tilting blocks. The arm is the arch's
-  // radius, and the centre of mass lies that fraction of the thickness beside the hinge.
+  // If the arch is too thin by a small fraction, its hinges open from rest like tilting blocks. The arm is
+  // the arch's radius, and the centre of mass lies that fraction of the thickness beside the hinge.
   const double beyond = resolution / 2 * kThinnestArch * kArchRadius;
   trial.duration = 2 * time_to_tilt(beyond, kArchRadius, kArchRadius * kArchRadius, kDrop / kArchRadius);
   trial.broke = [bodies = trial.scene.bodies](double time, std::span<const BodyState> states) {

@@ -14,7 +14,8 @@ namespace plumb::harness::thresholds {
 namespace {
 
 constexpr double kDuration = 10;  // s
-// m and rad: large enough for an engine that keeps a margin of a centimetre around its shapes.
+// Displacement, m, and rotation, rad, that count as a failure: above the margin of a centimetre that some
+// engines keep around shapes.
 constexpr double kMoved = 0.05;
 constexpr int kLinks = 10;
 constexpr double kStretch = 0.01;  // of the chain's length

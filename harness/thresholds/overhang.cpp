@@ -11,7 +11,7 @@ namespace plumb::harness::thresholds {
 namespace {
 
 constexpr double kLength = 1, kHeight = 0.2, kFriction = 1;
-// About the middle of a block's lower face: (l^2 + h^2)/12 + (h/2)^2.
+// Squared radius of gyration about the middle of a block's lower face: (l^2 + h^2)/12 + (h/2)^2.
 constexpr double kGyrationSquared = (kLength * kLength + kHeight * kHeight) / 12 + kHeight * kHeight / 4;
 
 // Builds the stack at the table's edge, the origin. Block k, from below, overhangs its support by `shares[k]`

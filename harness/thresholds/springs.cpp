@@ -18,7 +18,7 @@ namespace {
 // grows by 7.1 e a step beyond 2 sqrt(2) (1 + e): 4 / resolution steps with e = resolution / 2 give a factor
 // of exp(14.2) = 1.5e6.
 constexpr double kBurst = 1000;
-// m: small, so that no engine's clamp on a step's displacement hides the growth.
+// Initial amplitude, m: small, so that no engine's clamp on the displacement of a step hides the growth.
 constexpr double kStart = 1e-3;
 constexpr double kRestLength = 1, kPulled = 0.2;  // m
 

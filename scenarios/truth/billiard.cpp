@@ -13,8 +13,8 @@
 
 namespace plumb::scenarios::truth {
 
-// After an impact a pair separates; after a plastic one rounding alone makes it approach, which does not
-// count.
+// After an impact a pair separates. After a plastic impact, an approach velocity is only rounding, and does
+// not count.
 Real time_to_touch(const Disc& first, const Disc& second) {
   constexpr Real kNever = std::numeric_limits<Real>::infinity();
   const Vec2<Real> d = second.motion.position - first.motion.position;

@@ -30,10 +30,10 @@ struct Table {
 };
 
 /// Frictionless discs in uniform gravity: parabolas between impacts, so closed forms joined at the impacts.
-/// Gravity is in none of the relative motions: an impact of a pair comes at the earlier root of
-/// |d + t u| = r1 + r2 (d, u the relative position and velocity), and one with a wall at a root of the
-/// parabola across it. It exchanges the impulse (1 + e) m1 m2/(m1 + m2) |u.n| along the normal n of that
-/// moment. Discs get no spin. Simultaneous impacts are resolved pair by pair, in the discs' order.
+/// Gravity cancels in relative motions: the impact of a pair is at the earlier root of |d + t u| = r1 + r2
+/// (d, u the relative position and velocity), and one with a wall at a root of the parabola across it. An
+/// impact exchanges the impulse (1 + e) m1 m2/(m1 + m2) |u.n| along the normal n of that moment. Discs get no
+/// spin. Simultaneous impacts are resolved pair by pair, in the discs' order.
 class Billiard {
  public:
   /// Throws `Error` (Run) if the number of impacts is unbounded.
@@ -55,7 +55,7 @@ class Billiard {
 };
 
 /// Returns the truth of `scene`, whose dynamic bodies are discs of one restitution, without friction. `walls`
-/// are where its static bodies reflect them.
+/// are the surfaces at which its static bodies reflect them.
 Truth billiard_truth(const Scene& scene, double duration, std::vector<Wall> walls = {});
 
 }  // namespace plumb::scenarios::truth

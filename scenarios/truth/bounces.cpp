@@ -8,7 +8,7 @@ namespace plumb::scenarios::truth {
 
 Bounces::Bounces(Real height, Real gravity, Real e, Real duration) : height_(height), gravity_(gravity) {
   const Real fall = std::sqrt(2 * height / gravity), first = e * gravity * fall;
-  // The n-th impact comes after the sum of the flights so far, 2 v/g (1 + e + ... + e^(n - 1)).
+  // The n-th impact is at the sum of the flight times so far, 2 v/g (1 + e + ... + e^(n - 1)).
   Real power = 1, sum = 0;
   while (fall + 2 * first / gravity * sum < duration) {
     impacts_.push_back({fall + 2 * first / gravity * sum, first * power});

@@ -6,15 +6,15 @@
 
 namespace plumb::scenarios::truth {
 
-/// Height of what is dropped on a floor at 0 and bounces with the restitution `e`: parabolas, each as long as
-/// e times the one before it, and rest after their limit.
+/// Height of a body that is dropped on a floor at 0 and bounces with the restitution `e`: parabolas, each e
+/// times as long as the one before, and rest after their limit.
 class Bounces {
  public:
   Bounces(Real height, Real gravity, Real e, Real duration);
 
   Swing at(Real time) const;
 
-  /// Returns the times of impacts of more than a nanometre a second.
+  /// Returns the times of impacts faster than a nanometre per second.
   std::vector<double> impacts() const;
 
  private:

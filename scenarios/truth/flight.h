@@ -4,9 +4,9 @@
 
 namespace plumb::scenarios::truth {
 
-/// Returns the truth of bodies that fly freely in uniform gravity, each with at most one law of drag among
-/// the scene's forces: none, a linear one, or a quadratic one on a body that is dropped from rest. Source:
-/// any mechanics text, e.g. Taylor, Classical Mechanics, ch. 2.
+/// Returns the truth of free bodies in uniform gravity, each with at most one drag law among the scene's
+/// forces: none, a linear one, or a quadratic one on a body that is dropped from rest. Source: any mechanics
+/// text, e.g. Taylor, Classical Mechanics, ch. 2.
 Truth flight_truth(const Scene& scene);
 
 }  // namespace plumb::scenarios::truth

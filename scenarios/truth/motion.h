@@ -13,7 +13,8 @@
 namespace plumb::scenarios::truth {
 
 #ifdef __wasm__
-// There long double is a software quad, a hundred times slower, and a page needs only a few digits.
+// In this build long double is emulated in software, a hundred times slower, and a page needs only a few
+// digits.
 using Real = double;
 #else
 using Real = long double;

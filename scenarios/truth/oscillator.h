@@ -4,7 +4,7 @@
 
 namespace plumb::scenarios::truth {
 
-/// Place and rate of one coordinate.
+/// Position and velocity of one coordinate.
 struct Swing {
   Real place = 0, rate = 0;
 };
@@ -15,8 +15,8 @@ struct Swing {
 /// text, e.g. Taylor, Classical Mechanics, 5.4.
 Swing damped_swing(Swing start, Real w, Real zeta, Real time);
 
-/// Returns the motion, from its place of rest, of mass `j` of `count` equal masses between walls, joined by
-/// equal springs of k/m = w^2, when the first one is let go at `pulled`: the sum of the modes sin(i k
+/// Returns the displacement of mass `j` from equilibrium, of `count` equal masses between walls, joined by
+/// equal springs of k/m = w^2, when the first one is released at `pulled`: the sum of the modes sin(i k
 /// pi/(count + 1)) of w_k = 2 w sin(k pi/(2 (count + 1))). Source: Goldstein, Classical Mechanics, ch. 6.
 Swing chain_swing(int count, int j, Real w, Real pulled, Real time);
 

@@ -29,10 +29,10 @@ Body piece(std::string name, Vec2d position, const Shape& shape, double mass = 1
 /// Returns a hinge of two bodies' anchors, named after both.
 RevoluteJoint hinge(std::string_view a, Vec2d anchor_a, std::string_view b, Vec2d anchor_b);
 
-/// Appends 0, 1, 2, ... to names that several bodies share, in their order.
+/// Appends 0, 1, 2, ... in their order to the names of bodies that share one.
 void name_apart(Scene& scene);
 
-/// Returns the body with these velocities, m/s and rad/s.
+/// Returns the body with the given velocities, m/s and rad/s.
 Body thrown(Body body, Vec2d velocity, double angular_velocity = 0);
 
 /// Returns a static body.
@@ -59,29 +59,30 @@ double choose(std::string_view variant, std::initializer_list<Choice> choices);
 /// Returns the bound `digits` for every quantity, in its SI unit; for scenes of about a metre and a second.
 Bounds within(double digits);
 
-/// Returns the bounds of a motion that is exact but for rounding in methods of second order.
+/// Returns the bounds of a motion that second-order methods compute exactly up to rounding.
 inline Bounds exact_but_for_rounding() { return within(0); }
 
 /// Motions of the dynamic bodies, in the scene's order.
 using Moving = std::span<Motion>;
 
-/// Sets the motions of the dynamic bodies at `time`. They are given as they start.
+/// Sets the motions of the dynamic bodies at `time`; on entry they have the initial motions.
 using Path = std::function<void(Real time, Moving moving)>;
 
-/// Returns the truth of a scene whose static bodies stand and whose kinematic ones keep their velocities.
+/// Returns the truth of a scene whose static bodies do not move and whose kinematic ones keep their
+/// velocities.
 Truth follow(const Scene& scene, std::string source, Path path, std::vector<double> impacts = {});
 
-/// Likewise, where contacts last: they push and rub between impacts.
+/// Does the same for a scene with persistent contacts, which push and rub between impacts.
 Truth follow_in_contact(const Scene& scene, std::string source, Path path, std::vector<double> impacts = {});
 
 /// Returns the truth as one that is integrated.
 Truth integrated(Truth truth);
 
-/// Returns the truth of bodies that fly freely but for one impact `at` a time. Each velocity then jumps by
-/// its part of `jumps`, in the order of the dynamic bodies.
+/// Returns the truth of free bodies with a single impact, `at` a time. Each velocity then jumps by its part
+/// of `jumps`, in the order of the dynamic bodies.
 Truth one_impact(const Scene& scene, std::string source, Real at, std::vector<Acceleration> jumps);
 
-/// Returns the truth of bodies at rest that stay so, held by each other.
+/// Returns the truth of bodies in equilibrium, which stay at rest.
 Truth equilibrium(const Scene& scene, std::string source);
 
 /// Returns the motion under an acceleration that ends at `end`, s.

@@ -13,7 +13,7 @@ namespace plumb::scenarios::truth {
 /// Part of a motion that one law governs.
 struct Phase {
   Trajectory::Law law;
-  /// Positive in the phase, not so after it; absent: the phase does not end.
+  /// Positive within the phase, zero or negative after it; absent: the phase does not end.
   std::function<Real(const Trajectory::State&)> until{};
   /// Turns the last state into the first one of the next phase; absent: it is the same.
   std::function<Trajectory::State(const Trajectory::State&)> then{};
@@ -22,8 +22,8 @@ struct Phase {
 /// Motion that changes its law at events, each located by bisection on its trajectory.
 class Phases {
  public:
-  /// `horizon`: the time up to which ends of phases are searched for, s. `spacing` of the search: an event
-  /// function that dips below zero for less may be missed.
+  /// `horizon`: time up to which ends of phases are searched for, s. `spacing` of the search: an event
+  /// function that is negative for less than that may be missed.
   Phases(Trajectory::State start, std::vector<Phase> phases, Real horizon, Real spacing = 1.0L / 64);
 
   Trajectory::State at(Real time) const;
@@ -43,9 +43,9 @@ class Phases {
   std::vector<double> ends_, jumps_;
 };
 
-/// Returns the truth of the one dynamic body of `scene`, whose centre goes round `pivot`: at (angle, rate) =
-/// `path` it is at pivot + `arm` turned by the angle. The body turns with the arm if `turns`. Its impacts
-/// are the jumps of the path.
+/// Returns the truth of the one dynamic body of `scene`, whose centre moves on a circle about `pivot`: at
+/// (angle, rate) = `path` it is at pivot + `arm` rotated by the angle. The body rotates with the arm if
+/// `turns`. Its impacts are the jumps of the path.
 Truth turning_truth(const Scene& scene, std::string source, const Phases& path, Vec2<Real> pivot,
                     Vec2<Real> arm, bool turns = true);
 

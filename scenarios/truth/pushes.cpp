@@ -67,7 +67,7 @@ Problem pushed(Scene scene) {
   const auto law = [bodies](std::size_t i, double time, const Motion& motion) {
     return time < kPush * (1 - 1e-9) ? bodies[i]->acceleration(motion) : Acceleration{};
   };
-  // If the push ends inside a step, the part of it that counts is the engine's own choice.
+  // If the push ends within a step, the engine may choose which part of it counts.
   const auto ends_on_a_step = [](double substep) {
     const double steps = kPush / substep;
     return std::fabs(steps - std::round(steps)) < 1e-9 * steps;

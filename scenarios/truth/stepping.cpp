@@ -9,7 +9,7 @@ namespace {
 
 using reference::Scheme;
 
-/// A recurrence that continues from the step last asked for.
+/// A recurrence that continues from the last requested step.
 struct Recurrence {
   std::vector<Motion> start;
   Law law;

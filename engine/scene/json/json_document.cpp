@@ -17,8 +17,8 @@ struct Cursor {
   int token_line = 1;  ///< of the last character that is not white space
 };
 
-/// A character of the text; counts lines when advanced. The lexer looks one character beyond a number, so the
-/// line of a token is that of the last character which is not white space.
+/// Iterator over the text that counts lines. The lexer reads one character beyond a number, so the line of a
+/// token is that of the last character that is not white space.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -80,7 +80,7 @@ std::string explain(std::string message) {
     const std::string expected = std::string("; expected '") + bracket + "'";
     if (message.ends_with(expected)) message.insert(message.size() - 3, "',' or ");
   }
-  // The library quotes all that it read last, up to megabytes; the expected token follows.
+  // The library quotes all text that it read last, up to megabytes; the expected token follows it.
   constexpr std::size_t kHead = 160, kTail = 80;
   if (message.size() > kHead + kTail) {
     message = printable(message, kHead) + " " + message.substr(message.size() - kTail);

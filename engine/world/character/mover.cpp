@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-// Limits of hit surfaces in one move, and of iterations out of overlaps: more than corners need.
+// Maximum number of surfaces hit in one move, and of iterations to resolve overlaps: more than corners need.
 constexpr int kMostRounds = 16;
 constexpr int kMostPushes = 8;
 
@@ -90,7 +90,7 @@ Vec2d Move<Real>::velocity_of(const MoverContact& contact) const {
 }
 
 // Pushes the mover out of overlaps, the deepest first. Each adds its half plane, and the displacement is the
-// shortest into all of them. Without a solution it goes as far as obstacles allow.
+// shortest into all of them. If there is no solution, it moves as far as obstacles permit.
 template <class Real>
 void Move<Real>::push_out() {
   const Vec2d start = position_;
@@ -256,7 +256,7 @@ bool Move<Real>::step_up(double speed) {
   return true;
 }
 
-// Changes the ground. The velocity becomes relative to the new one.
+// Sets the ground. The velocity becomes relative to the new ground.
 template <class Real>
 void Move<Real>::change_ground(const MoverGround& ground) {
   if (ground.contact.shape != ground_->contact.shape) {
@@ -265,7 +265,7 @@ void Move<Real>::change_ground(const MoverGround& ground) {
   ground_ = ground;
 }
 
-// Follows the ground down as far as a step, or leaves it.
+// Follows the ground down by up to a step's height, or leaves it.
 template <class Real>
 void Move<Real>::stay_on_ground(double press) {
   const std::optional<MoverGround> ground =

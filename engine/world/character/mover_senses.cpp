@@ -72,7 +72,7 @@ MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, B
     if (hit.body == except) return 1.0;
     MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
     if (hit.overlapped) {
-      // Within the skin already: it may move away from the shape or along it.
+      // It is already within the skin: it may move away from the shape or along it.
       const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
       if (!near || near->gap < 0) return 1.0;
       contact = *near;

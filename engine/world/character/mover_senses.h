@@ -30,7 +30,7 @@ struct MoverGround {
   bool edge = false;  ///< edge of a step
 };
 
-/// Queries of the surroundings of a mover, of which all its motion is built.
+/// Queries of a mover's surroundings, from which all its motion is built.
 template <class Real>
 class MoverSenses {
  public:
@@ -58,7 +58,7 @@ class MoverSenses {
   std::optional<MoverContact> deepest(Vec2d position, Vec2d velocity) const;
   /// Returns true if a point is no higher than a step above the ground that a mover at `position` stands on.
   bool is_within_step(Vec2d point, Vec2d position) const {
-    // It stands a skin above the ground; a tenth of that is for rounding.
+    // The mover stands a skin above the ground; a tenth of that is for rounding.
     return dot(point - position, up_) - lowest_ <= step_height_ - 0.9 * skin_;
   }
 

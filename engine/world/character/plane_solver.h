@@ -18,8 +18,8 @@ struct PlaneSolution {
 };
 
 /// Returns the point inside all half planes that is nearest to `wanted`, exact to rounding and without
-/// iteration. It is `wanted` itself, or lies on one border or at the intersection of two. A character in a
-/// corner therefore stays there.
+/// iteration. It is `wanted` itself, or lies on one border or at the intersection of two, so a character in a
+/// corner stays there.
 PlaneSolution solve_planes(std::span<const HalfPlane> planes, Vec2d wanted);
 
 }  // namespace plumb

@@ -62,7 +62,7 @@ class ShapeCondition {
 };
 
 /// Filter of a query: it sees shapes with a category in its mask, if their mask has one of its categories. By
-/// default all but sensors and shapes with an empty mask.
+/// default all shapes except sensors and those with an empty mask.
 struct QueryFilter {
   std::uint32_t category = 0xFFFFFFFFu;  ///< categories of the query
   std::uint32_t mask = 0xFFFFFFFFu;      ///< categories that it looks for

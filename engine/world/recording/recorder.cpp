@@ -28,8 +28,8 @@ RecordedWorld<Real>::RecordedWorld(const std::filesystem::path& file, BasicWorld
   record_state();
 }
 
-// Records a call after it succeeded: a rejected call changes nothing and is not recorded. A step that fails
-// differs, as it is written before it is taken.
+// Records a call after it succeeded: a rejected call changes nothing and is not recorded. A failing step is
+// recorded, because steps are written before they are taken.
 template <class Real>
 template <WorldCall kCall, class... Arguments>
 auto RecordedWorld<Real>::call(const Arguments&... arguments) {

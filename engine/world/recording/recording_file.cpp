@@ -11,7 +11,8 @@ namespace {
 
 constexpr char kSubject[] = "recording";
 
-// Increase it when the meaning of records changes. New calls at the end of the table need no increase.
+// Version of the format. Increase it if the meaning of records changes; new calls at the end of the table
+// need no increase.
 constexpr std::uint32_t kVersion = 4;
 
 // "plumbrec" in little-endian order.

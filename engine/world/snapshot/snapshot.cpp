@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-// Increase it when the meaning of bytes changes while their sizes stay the same.
+// Version of the format. Increase it if the meaning of bytes changes while their sizes stay the same.
 constexpr std::uint32_t kVersion = 3;
 
 // "plumbsav" in little-endian order.
@@ -196,7 +196,7 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
                       "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
-  // Reserves the free lists now: destroying objects later must not allocate.
+  // Reserve the free lists now: destroying objects later must not allocate.
   fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
   fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
   fresh.static_tree.make_room(0), fresh.dynamic_tree.make_room(0);
