@@ -8,8 +8,6 @@
 namespace plumb::harness {
 namespace {
 
-double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
-
 Vec2d anchor_of(const JointGaps::End& end, std::span<const BodyState> states) {
   if (!end.body) return end.anchor;
   const BodyState& state = states[*end.body];
@@ -23,7 +21,7 @@ struct Placed {
 };
 
 double rope_length(const PulleyJoint& pulley, const Placed& at) {
-  return magnitude(at.a - pulley.ground_a) + pulley.ratio * magnitude(at.b - pulley.ground_b);
+  return length(at.a - pulley.ground_a) + pulley.ratio * length(at.b - pulley.ground_b);
 }
 
 double outside(const std::optional<Range>& range, double value) {
@@ -32,7 +30,7 @@ double outside(const std::optional<Range>& range, double value) {
 
 // Returns the distance of b's anchor from the allowed part of a's axis.
 double off_axis(const auto& joint, const Placed& at) {
-  const Vec2d axis = (1 / magnitude(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
+  const Vec2d axis = (1 / length(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
   return std::hypot(cross(axis, way), outside(joint.limits, dot(axis, way)));
 }
 
@@ -40,13 +38,13 @@ struct Gap {
   const Placed& at;
   double rope;
 
-  double operator()(const RevoluteJoint&) const { return magnitude(at.b - at.a); }
+  double operator()(const RevoluteJoint&) const { return length(at.b - at.a); }
   double operator()(const DistanceJoint& j) const {
-    const double length = magnitude(at.b - at.a);
+    const double length = length(at.b - at.a);
     if (j.range) return outside(j.range, length);
     return j.spring ? 0 : std::abs(length - j.length);
   }
-  double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : magnitude(at.b - at.a); }
+  double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : length(at.b - at.a); }
   double operator()(const PrismaticJoint& j) const { return off_axis(j, at); }
   double operator()(const WheelJoint& j) const { return off_axis(j, at); }
   double operator()(const PulleyJoint& j) const { return std::abs(rope_length(j, at) - rope); }
@@ -91,7 +89,7 @@ double JointGaps::lever(std::size_t joint, std::span<const BodyState> states) co
       std::holds_alternative<PrismaticJoint>(entry.joint) || std::holds_alternative<WheelJoint>(entry.joint);
   if (!has_axis || !entry.a.body) return 0;
   const Placed at = place(entry.a, entry.b, states);
-  return magnitude(at.b - at.a);
+  return length(at.b - at.a);
 }
 
 }  // namespace plumb::harness

@@ -7,8 +7,6 @@
 namespace plumb::harness {
 namespace {
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 double circle_against_circle(const PlacedShape& a, const PlacedShape& b) {
   return a.half_width + b.half_width - length(b.centre - a.centre);
 }

@@ -7,8 +7,6 @@
 namespace plumb::field {
 namespace {
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 std::vector<Vec2d> core_of(const Circle& circle) { return {circle.centre}; }
 std::vector<Vec2d> core_of(const Capsule& capsule) { return {capsule.a, capsule.b}; }
 std::vector<Vec2d> core_of(const Polygon& polygon) { return polygon.points; }

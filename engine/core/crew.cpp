@@ -32,7 +32,7 @@ class Computing {
 
 // Looks before a thread that waits for another one's last block gives the processor away: some 10 us, longer
 // than nearly all blocks take.
-constexpr int kLooks = 500;
+constexpr int kLooksAtLast = 500;
 
 }  // namespace
 
@@ -196,7 +196,7 @@ void Crew::share(int count, void (*run)(void*, int), void* data) {
   s.next_loop();
   s.take_part(s.leader);
   for (int looks = 0; s.done.load(std::memory_order_acquire) != count; ++looks) {
-    if (looks < kLooks) {
+    if (looks < kLooksAtLast) {
       pause();
     } else {
       std::this_thread::yield();

@@ -5,13 +5,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "engine/math/two_doubles.h"
+
 namespace plumb {
 namespace {
-
-/// value + tail, to about twice the precision of a double.
-struct TwoDoubles {
-  double value = 0, tail = 0;
-};
 
 constexpr TwoDoubles kPi = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr TwoDoubles kHalfPi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};

@@ -4,13 +4,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "engine/math/two_doubles.h"
+
 namespace plumb {
 namespace {
-
-/// value + tail, exact to about twice the precision of a double.
-struct TwoDoubles {
-  double value = 0, tail = 0;
-};
 
 /// angle = quadrant pi/2 + rest, |rest| <= pi/4 (up to a rounding).
 struct Reduced {

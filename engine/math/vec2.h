@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace plumb {
 
 /// A vector in the plane. Units are those of the quantity it holds. Always inlined: for vectors of Lanes,
@@ -48,6 +50,11 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] constexpr Real length_squared(Vec2<Real> a) {
   return dot(a, a);
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Real length(Vec2<Real> a) {
+  return std::sqrt(length_squared(a));
 }
 
 /// Rotates a by a quarter turn counter-clockwise.

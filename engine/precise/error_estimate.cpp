@@ -24,8 +24,6 @@ Precise alone(Precise precise) {
   return precise;
 }
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 }  // namespace
 
 ErrorEstimatingDriver::ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& make)

@@ -13,7 +13,7 @@ namespace {
 /// Number of steps whose errors together equal the tolerance: each errs by a thousandth of it.
 constexpr double kSteps = 1000;
 /// Allowed error of a step's balance, in roundings of a position, a speed or the work.
-constexpr double kRoundings = 16;
+constexpr double kBalanceRoundings = 16;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Invariants::Invariants(const Scene& scene, const Parts& parts, const Precise& pr
 
 double Invariants::bound() const {
   return tolerance_ * most_ * (1 + static_cast<double>(steps_) / kSteps) +
-         kRoundings * std::numeric_limits<double>::epsilon() * std::sqrt(rounding_);
+         kBalanceRoundings * std::numeric_limits<double>::epsilon() * std::sqrt(rounding_);
 }
 
 void Invariants::account(const EventFreeIntegrator& motion) {

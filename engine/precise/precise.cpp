@@ -22,7 +22,7 @@ constexpr double kLonger = 2;
 /// Fraction of the scene's length: deeper initial overlaps are an error at any tolerance.
 constexpr double kDeepestOverlap = 1e-3;
 /// Roundings of positions that gaps at the start may be off by.
-constexpr double kRoundings = 16;
+constexpr double kGapRoundings = 16;
 
 }  // namespace
 
@@ -107,7 +107,7 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
     locked_.push_back(body.fixed_rotation);
   }
   name_redundant_joints();
-  const double rounding = kRoundings * equations_.rounding_of_gaps(), length = equations_.length();
+  const double rounding = kGapRoundings * equations_.rounding_of_gaps(), length = equations_.length();
   for (const JointStart& start : joint_starts(scene)) {
     const double allowed = overlap_ * (start.turns ? 1 : length) + rounding;
     if (start.gap > allowed && start.gap > open_.gap) open_ = start;

@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 /// Sums parts about the origin, and returns the whole about its centroid.
 class Sum {
  public:

@@ -28,11 +28,6 @@ std::size_t fill_bodies(const WorldData<Real>& w, std::span<Value> out, const Fu
   return static_cast<std::size_t>(w.bodies.count());
 }
 
-/// Returns true if the contact has points.
-inline bool has_points(const ContactRecord& contact) {
-  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
-}
-
 template <class Real>
 BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {

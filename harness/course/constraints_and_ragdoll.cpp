@@ -31,8 +31,6 @@ DistanceJoint stick(std::string name, std::string a, std::string b, double lengt
   return joint;
 }
 
-double length(Vec2d a) { return std::hypot(a.x, a.y); }
-
 // Returns true if a ball reaches three times its initial speed.
 bool faster(const Trace& trace) {
   for (const auto& states : trace.states)

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-double length(Vec2d a) { return std::hypot(a.x, a.y); }
-
 struct Limb {
   const char* name;
   Vec2d centre;

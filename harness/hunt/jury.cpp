@@ -21,8 +21,6 @@ constexpr double kCalm = 0.02;
 // error, so the remaining error is twice the change.
 constexpr double kSteady = 0.25;
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 /// Returns the possible error of a first-order method at each sample, m: the displacement of three steps, at
 /// the bodies' largest speed plus that of free fall.
 std::vector<double> bounds(const Case& one, const Motion& motion) {

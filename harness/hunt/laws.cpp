@@ -10,8 +10,6 @@
 namespace plumb::harness::hunt {
 namespace {
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 // Semi-implicit Euler conserves an energy that differs from the true one by a fraction of w h / 2.
 constexpr double kEnergyShare = 0.02, kMostShare = 0.3;
 constexpr double kPreciseShare = 1e-5;

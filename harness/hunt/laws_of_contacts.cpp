@@ -15,8 +15,6 @@ namespace {
 constexpr double kLasting = 0.5;
 constexpr double kWidthShare = 0.15, kReachShare = 0.02;
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 struct Part {
   std::size_t body;
   const Shape* shape;

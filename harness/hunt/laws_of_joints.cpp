@@ -16,8 +16,6 @@ constexpr int kLasting = 6;
 constexpr double kGapShare = 0.05;   // of the arms and reaches of the joint's bodies
 constexpr double kAngleBound = 0.2;  // rad
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 const std::string& name_of(const Joint& joint) {
   return std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
 }

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double length(Vec2d v) { return std::sqrt(dot(v, v)); }
-
 struct Cores {
   std::vector<Outline>& out;
 

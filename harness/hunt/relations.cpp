@@ -20,8 +20,6 @@ constexpr double kShare = 0.1, kCalm = 0.01;
 constexpr double kSampled = 1e-4, kGrown = 1000;
 constexpr double kShift = 64;  // m, a power of two
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 bool plain(const Case& one, const Engine&) { return !one.world_only(); }
 
 template <class Map>

@@ -10,8 +10,6 @@
 namespace plumb::harness::hunt {
 namespace {
 
-double length(Vec2d v) { return std::hypot(v.x, v.y); }
-
 /// Initial state of one end of a joint.
 struct End {
   const Body* body = nullptr;  // none: the fixed frame

@@ -20,8 +20,6 @@ Vec2d anchor_in_world(const BodyState& state, Vec2d anchor) {
   return state.position + rotation_of(state.angle) * anchor;
 }
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 /// Largest |C| over a run, C given by `gap`.
 template <class Gap>
 double largest_gap(const Backend& engine, const Scene& scene, const StepSettings& settings, int steps,

@@ -7,7 +7,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+constexpr double kDistanceRounding = 2 * std::numeric_limits<double>::epsilon();
 
 /// A corner of the Minkowski difference b - a, whose distance from the origin is that of a and b.
 struct Vertex {
@@ -204,7 +204,8 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
     // |q|).
     const Vec2d reference = simplex.vertices[0].w;
     const double gain = dot(simplex.outward, reference - next.w);
-    if (!(gain > kRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w)))) break;
+    if (!(gain > kDistanceRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w))))
+      break;
     const Simplex nearer =
         simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
     // After a gain the new distance is smaller, unless the old one was only rounding: the origin is on the

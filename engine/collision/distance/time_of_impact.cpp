@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double kSweepRounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// Returns q r: the rotation by both angles.
 constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
@@ -81,7 +81,7 @@ class Approach {
   /// Returns a bound (m) of the rounding error of a separation up to a fraction.
   double rounding(double fraction) const {
     const double way = speed_ + bend_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
-    return kRounding *
+    return kSweepRounding *
            (std::abs(start_.x) + std::abs(start_.y) + fraction * way + a_.reach + b_.reach + radius_);
   }
 
@@ -138,12 +138,12 @@ template <class Real>
 bool Approach<Real>::window(double separation, double& first, double& last) const {
   first = 0, last = 1;
   const double distance =
-      (a_.reach + b_.reach + radius_ + separation + bend_ + 2 * rounding(1)) * (1 + kRounding);
+      (a_.reach + b_.reach + radius_ + separation + bend_ + 2 * rounding(1)) * (1 + kSweepRounding);
   if (!(speed_ > 0)) return length_squared(start_) <= distance * distance;
   const double across = cross(motion_, start_) / speed_, along = -dot(start_, motion_) / speed_;
   if (std::abs(across) > distance) return false;
   const double half = std::sqrt(distance * distance - across * across);
-  const double slack = kRounding * (std::abs(along) + half);
+  const double slack = kSweepRounding * (std::abs(along) + half);
   first = std::max(0.0, (along - half - slack) / speed_);
   last = std::min(1.0, (along + half + slack) / speed_);
   return first <= last;

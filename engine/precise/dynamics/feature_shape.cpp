@@ -16,8 +16,6 @@ using Kind = Feature::Kind;
 /// Normals of a chain with a smaller sine between them count as equal.
 constexpr double kAlike = 1e-12;
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
 
 /// A feature relative to its edge: corner and edge in either order are one case.
@@ -101,11 +99,11 @@ void each_edge(const FeatureShape& a, const FeatureShape& b, const Visit& visit)
   for (int i = 0; i < b.edges(); ++i) visit(Kind::CornerOfA, i);
 }
 
-Feature feature(Kind kind, int edge, int corner) {
-  return kind == Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
-}
-
 }  // namespace
+
+Feature feature(Feature::Kind kind, int edge, int corner) {
+  return kind == Feature::Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
+}
 
 double FeatureShape::edge_length(int edge) const {
   return length(corners[next(edge)].point - corners[edge].point);

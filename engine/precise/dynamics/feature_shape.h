@@ -67,6 +67,9 @@ Gap gap_of(const Feature& feature, const FeatureShape& a, const Pose<double>& po
 bool admits(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
             const FeatureShape& b, const Pose<double>& pose_b, double near);
 
+/// Returns the feature of an edge and a corner.
+Feature feature(Feature::Kind kind, int edge, int corner);
+
 /// Rates and accelerations of gap and slip as rows of the bodies' motions. `normal`: gap' = J v, gap'' = J a
 /// + bias. `tangent`: slip = J v, slip' = J a + bias, the velocity of b relative to a at the point of contact
 /// along the normal turned a quarter counter-clockwise.

@@ -16,10 +16,6 @@ struct Pair {
   Gap gap(const Feature& f) const { return gap_of(f, a, pose_a, b, pose_b); }
 };
 
-Feature feature(Kind kind, int edge, int corner) {
-  return kind == Kind::CornerOfB ? Feature{kind, edge, corner} : Feature{kind, corner, edge};
-}
-
 /// Returns the closest corners: beyond the ends of edges rounded shapes touch by their corners, even if an
 /// edge's line is as close to rounding.
 Feature closest_corners(const Pair& pair) {

@@ -99,8 +99,6 @@ std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const
   return a;
 }
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 /// Scales that a law gives at the start: a length, and an acceleration.
 struct LawScale {
   double length = 0, acceleration = 0;

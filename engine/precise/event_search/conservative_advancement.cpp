@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 struct View {
   const FeatureShape &a, &b;
   StepMotionBounds::Placed at_a, at_b;

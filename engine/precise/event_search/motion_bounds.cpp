@@ -8,12 +8,9 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 /// Bounds are widened by this fraction: positions and velocities are two polynomials that agree to the step's
 /// error.
 constexpr double kMargin = 1e-3;
-
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
 
 }  // namespace
 
@@ -48,7 +45,7 @@ StepMotionBounds::Placed StepMotionBounds::at(std::size_t body, double time) con
     if (time > start_) {
       const StepPolynomial& path = motion_->polynomial();
       const double s = (time - start_) / (end_ - start_);
-      const std::size_t first = kPerBody * static_cast<std::size_t>(slot_[body]);
+      const std::size_t first = EquationsOfMotion::kPerBody * static_cast<std::size_t>(slot_[body]);
       now.position += Vec2d{path.at(s, first), path.at(s, first + 1)};
       now.angle += path.at(s, first + 2);
       now.velocity += Vec2d{path.at(s, first + 3), path.at(s, first + 4)};
@@ -67,7 +64,7 @@ void StepMotionBounds::follow_integrated(std::size_t body, int slot, EventFreeIn
                     EquationsOfMotion::state(motion.state().value(), static_cast<std::size_t>(slot)));
     return;
   }
-  const std::size_t first = kPerBody * static_cast<std::size_t>(slot);
+  const std::size_t first = EquationsOfMotion::kPerBody * static_cast<std::size_t>(slot);
   const auto range = [](const Bernstein<kControls>& c) {
     const auto [low, high] = std::minmax_element(c.begin(), c.end());
     return std::pair{*low, *high};

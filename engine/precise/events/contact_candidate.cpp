@@ -11,15 +11,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 Pose<double> pose_of(const BodyState& s) { return {s.position, rotation_of(s.angle)}; }
 Twist<double> twist_of(const BodyState& s) { return {s.velocity, s.angular_velocity}; }
-
-double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b) {
-  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
-         row.angular_b * b.angular_velocity;
-}
 
 Aabb<double> tight_aabb(const FeatureShape& outline, const Pose<double>& pose, double margin) {
   Aabb<double> box{{1e300, 1e300}, {-1e300, -1e300}};
@@ -31,6 +24,11 @@ Aabb<double> tight_aabb(const FeatureShape& outline, const Pose<double>& pose, d
 }
 
 }  // namespace
+
+double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b) {
+  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
+         row.angular_b * b.angular_velocity;
+}
 
 TouchFinder::TouchFinder(const Scene& scene, const Parts& parts)
     : parts_(parts), outlines_(parts.outlines), rules_(scene.contact_rules) {

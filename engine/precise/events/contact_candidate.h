@@ -12,6 +12,9 @@
 
 namespace plumb::precise {
 
+/// Returns a row's rate of change for the motions of its two bodies.
+double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b);
+
 /// Two shapes that touch at an instant, in one or two points, with their relative motion there; or a limit of
 /// a joint that is reached, with one point.
 struct ContactCandidate {

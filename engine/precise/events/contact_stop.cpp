@@ -17,11 +17,6 @@ constexpr double kSamplesARadian = 2.6;
 /// than the difference between a step's polynomial and the step itself.
 constexpr double kForceNoise = 3e-11;
 
-double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<double>& b) {
-  return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
-         row.angular_b * b.angular_velocity;
-}
-
 /// Returns the feature of the corner that touches next when the limit `index` of a corner on an edge is
 /// reached.
 Feature feature_of_height(const Feature& f, const FeatureShape& a, const FeatureShape& b, int index) {

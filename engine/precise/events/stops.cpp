@@ -7,7 +7,7 @@ namespace plumb::precise {
 namespace {
 
 /// Excess over its bound at which a force counts as an event, as a fraction of the largest force.
-constexpr double kForceNoise = 3e-11;
+constexpr double kExcessNoise = 3e-11;
 /// Fraction of the scene's speed: rounding of a rate.
 constexpr double kQuiet = 1e-12;
 /// Fraction of the scene's length, or of a radian: smaller gaps count as zero.
@@ -90,7 +90,7 @@ bool Stops::is_free_limit(std::size_t k) const {
 double Stops::tolerance(std::size_t k) const {
   const bool limit = stop(k).role == RowRole::Limit;
   if (modes_[k] == Mode::Held)
-    return kForceNoise * (limit ? force_scale_ : std::max(force_scale_, stop(k).max_force)) + 1e-300;
+    return kExcessNoise * (limit ? force_scale_ : std::max(force_scale_, stop(k).max_force)) + 1e-300;
   return limit ? kNear * std::max(length_, 1.0) : 0.25 * kQuiet * speed_;
 }
 

@@ -8,7 +8,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Fraction of a row left by the others below which it counts as lost: branches are that close there. The
@@ -41,7 +40,7 @@ void Passage::expect(double time, std::span<const double> y, std::span<const dou
   std::copy(y.begin(), y.end(), base_.begin());
   for (std::size_t i = 0; i < y.size(); ++i) {
     path_.term(1)[i] = rate[i];
-    path_.term(2)[i] = i % kPerBody < 3 ? 0.5 * rate[i + 3] : 0;
+    path_.term(2)[i] = i % EquationsOfMotion::kPerBody < 3 ? 0.5 * rate[i + 3] : 0;
   }
 }
 
@@ -107,7 +106,7 @@ void Passage::rate(double time, std::span<const double> y, std::span<double> out
     if (!(moved <= 1e10)) break;
     if (moved <= enough || (moved > 0.5 * before && moved <= 1e-10 * equations_.length())) {
       for (std::size_t k = 0; k < place_.size(); ++k) {
-        if (k % kPerBody >= 3) place_[k] = y[k];
+        if (k % EquationsOfMotion::kPerBody >= 3) place_[k] = y[k];
       }
       equations_.allow_velocities(time, place_);
       equations_.rate_with_rows(time, place_, out);

@@ -13,8 +13,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
-
 /// Longest step, in the time that the scene's accelerations take over its length: nothing else bounds it when
 /// all bodies are at rest.
 constexpr double kLongestStep = 1e6;
@@ -125,7 +123,7 @@ void EventFreeIntegrator::fly(double end) {
   const std::span<double> whole = all_.polynomial.term(1), bend = all_.polynomial.term(2);
   y_ = y0_;
   for (std::size_t i = 0; i < y_.size(); ++i) {
-    const bool place = i % kPerBody < 3;
+    const bool place = i % EquationsOfMotion::kPerBody < 3;
     const double gained = place ? h * rate[i + 3] : 0;  // change of speed
     bend[i] = 0.5 * h * gained;
     whole[i] = h * rate[i] + bend[i];

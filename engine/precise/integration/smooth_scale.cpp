@@ -12,7 +12,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 /// If only angles are integrated, errors of positions and velocities are not checked: the bound on angles is
 /// reduced to this fraction instead.
 constexpr double kAngles = 0.5;
@@ -26,12 +25,13 @@ void EventFreeIntegrator::set_error_scale() {
     const BodyState now = EquationsOfMotion::state(y_.value(), slot);
     const double speed = std::max(scales_.speed, std::sqrt(length_squared(now.velocity)));
     const double spin = std::max(scales_.speed / scales_.length, std::abs(now.angular_velocity));
-    const double scale[kPerBody] = {scales_.length, scales_.length, 1, speed, speed, spin};
-    for (std::size_t i = 0; i < kPerBody; ++i) all_.error_scale[kPerBody * slot + i] = tolerance_ * scale[i];
+    const double scale[EquationsOfMotion::kPerBody] = {scales_.length, scales_.length, 1, speed, speed, spin};
+    for (std::size_t i = 0; i < EquationsOfMotion::kPerBody; ++i)
+      all_.error_scale[EquationsOfMotion::kPerBody * slot + i] = tolerance_ * scale[i];
   }
   if (!in_angles()) return;
   for (std::size_t link = 0; link < hanging_.size(); ++link) {
-    const double* scale = all_.error_scale.data() + kPerBody * hanging_.slot(link);
+    const double* scale = all_.error_scale.data() + EquationsOfMotion::kPerBody * hanging_.slot(link);
     angles_.error_scale[link] = kAngles * scale[2];
     angles_.error_scale[hanging_.width() + link] = kAngles * scale[5];
   }
@@ -58,7 +58,8 @@ void EventFreeIntegrator::throw_step_underflow() const {
     worst = i;
     fastest = change;
   }
-  const std::size_t slot = in_angles() ? hanging_.slot(worst % hanging_.width()) : worst / kPerBody;
+  const std::size_t slot =
+      in_angles() ? hanging_.slot(worst % hanging_.width()) : worst / EquationsOfMotion::kPerBody;
   const std::string subject = names_.empty() ? "the scene" : "body '" + names_[slot] + "'";
   if (!std::isfinite(fastest))
     throw Error(Error::Kind::Run, subject, "acceleration", shortest(fastest), "not finite");

@@ -7,8 +7,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
-
 /// Regularisation that fixes the free multipliers of dependent rows, relative to the response to a row's own
 /// impulse.
 constexpr double kRedundant = 1e-12;
@@ -256,7 +254,7 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   const auto move = [&] {
     for (int j = 0; j < stages; ++j) {
       for (std::size_t i = 0; i < n; ++i) {
-        if (i % kPerBody >= 3) continue;
+        if (i % EquationsOfMotion::kPerBody >= 3) continue;
         double sum = x[j * n + i];
         for (int k = 0; k < stages; ++k) sum += h * system.a[j * stages + k] * x[k * n + i + 3];
         moved_[j * n + i] = sum;
@@ -268,8 +266,8 @@ void StiffMotion::solve(Use use, std::span<double> x) {
     const int on = slot_[b.on], by = slot_[b.by];
     if (on < 0 || by < 0) continue;
     for (int j = 0; j < stages; ++j) {
-      const double* q = &moved_[j * n + kPerBody * by];
-      const double* v = &x[j * n + kPerBody * by + 3];
+      const double* q = &moved_[j * n + EquationsOfMotion::kPerBody * by];
+      const double* v = &x[j * n + EquationsOfMotion::kPerBody * by + 3];
       for (int i = 0; i < 3; ++i) {
         double force = 0;
         for (int k = 0; k < 3; ++k) force += b.position[i][k] * q[k] + b.velocity[i][k] * v[k];
@@ -284,14 +282,14 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   for (std::size_t slot = 0; slot < inverse_mass_.size(); ++slot) {
     for (int s = 0; s < stages; ++s) {
       for (int i = 0; i < 3; ++i) {
-        x[s * n + kPerBody * slot + 3 + i] += g[stages * body_place_[slot] + 3 * s + i];
+        x[s * n + EquationsOfMotion::kPerBody * slot + 3 + i] += g[stages * body_place_[slot] + 3 * s + i];
       }
     }
   }
   move();
   for (int j = 0; j < stages; ++j) {
     for (std::size_t i = 0; i < n; ++i) {
-      if (i % kPerBody < 3) x[j * n + i] = moved_[j * n + i];
+      if (i % EquationsOfMotion::kPerBody < 3) x[j * n + i] = moved_[j * n + i];
     }
   }
 }

@@ -10,8 +10,6 @@
 namespace plumb::precise {
 namespace {
 
-constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
-
 /// Lengths of the stages: kGamma, kMiddle, and kGamma backwards.
 constexpr int kHalf = 8;
 constexpr double kGamma[kHalf] = {0.13020248308889008087881763,  0.56116298177510838456196441,
@@ -56,7 +54,8 @@ void SymplecticMotion::drift(double time, double h, Compensated& y) {
   constexpr int kMost = 50;
   const std::span<const std::size_t> bodies = equations_.bodies();
   for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
-    for (std::size_t i = 0; i < 3; ++i) y.add(kPerBody * slot + i, h * y[kPerBody * slot + 3 + i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      y.add(EquationsOfMotion::kPerBody * slot + i, h * y[EquationsOfMotion::kPerBody * slot + 3 + i]);
   }
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMost; ++i) {
@@ -65,9 +64,9 @@ void SymplecticMotion::drift(double time, double h, Compensated& y) {
     before = gap;
     for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
       const Twist<double>& p = push_[bodies[slot]];
-      y.add(kPerBody * slot, p.velocity.x);
-      y.add(kPerBody * slot + 1, p.velocity.y);
-      y.add(kPerBody * slot + 2, p.angular_velocity);
+      y.add(EquationsOfMotion::kPerBody * slot, p.velocity.x);
+      y.add(EquationsOfMotion::kPerBody * slot + 1, p.velocity.y);
+      y.add(EquationsOfMotion::kPerBody * slot + 2, p.angular_velocity);
     }
     kick(1 / h, push_, y);
   }

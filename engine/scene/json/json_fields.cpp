@@ -16,7 +16,7 @@ std::string alternatives(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) out += i + 1 == names.size() ? " or " : ", ";
-    out += quoted(names[i]);
+    out += plumb::quoted(names[i]);
   }
   return out;
 }

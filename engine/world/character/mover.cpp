@@ -16,8 +16,6 @@ namespace {
 constexpr int kMostRounds = 16;
 constexpr int kMostPushes = 8;
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 // Half planes of one move.
 struct Planes {
   std::array<HalfPlane, 2 * kMostRounds> items{};

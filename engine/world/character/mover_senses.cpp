@@ -17,8 +17,6 @@ namespace {
 constexpr double kSkinShare = 0.02;
 constexpr double kRightAngle = 0x1.921fb54442d18p+0;
 
-double length(Vec2d v) { return std::sqrt(length_squared(v)); }
-
 Vec2d unit_up(Vec2d up) {
   require_finite("mover", "up", up);
   require_positive("mover", "up", length(up));

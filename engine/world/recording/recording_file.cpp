@@ -9,8 +9,6 @@
 namespace plumb {
 namespace {
 
-constexpr char kSubject[] = "recording";
-
 // Version of the format. Increase it if the meaning of records changes; new calls at the end of the table
 // need no increase.
 constexpr std::uint32_t kVersion = 4;
@@ -46,7 +44,7 @@ constexpr std::size_t kHeaderSize = packed_size<RecordHeader>();
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& file, int bytes_of_real)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")) {
-  if (!file_) throw Error(Error::Kind::Io, kSubject, "file", printable(name_), "cannot be written");
+  if (!file_) throw Error(Error::Kind::Io, kRecording, "file", printable(name_), "cannot be written");
   Encoder(record_).put(FileHeader{.real = static_cast<std::uint32_t>(bytes_of_real)});
   write(record_);
   flush();
@@ -67,25 +65,25 @@ void RecordingWriter::commit() {
 
 void RecordingWriter::flush() {
   if (std::fflush(file_.get()) != 0)
-    throw Error(Error::Kind::Io, kSubject, "file", printable(name_), "cannot be written to any more");
+    throw Error(Error::Kind::Io, kRecording, "file", printable(name_), "cannot be written to any more");
 }
 
 void RecordingWriter::write(std::span<const std::byte> bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-    throw Error(Error::Kind::Io, kSubject, "file", printable(name_), "cannot be written to any more");
+    throw Error(Error::Kind::Io, kRecording, "file", printable(name_), "cannot be written to any more");
 }
 
 RecordingReader::RecordingReader(const std::filesystem::path& file, int bytes_of_real) {
   const std::string name = file.string();
   std::FILE* in = std::fopen(name.c_str(), "rb");
-  if (in == nullptr) throw Error(Error::Kind::Io, kSubject, "file", printable(name), "cannot be read");
+  if (in == nullptr) throw Error(Error::Kind::Io, kRecording, "file", printable(name), "cannot be read");
   std::byte chunk[65536];
   for (std::size_t got; (got = std::fread(chunk, 1, sizeof(chunk), in)) > 0;)
     bytes_.insert(bytes_.end(), chunk, chunk + got);
   const bool broken = std::ferror(in) != 0;
   std::fclose(in);
-  if (broken) throw Error(Error::Kind::Io, kSubject, "file", printable(name), "cannot be read");
-  Decoder decoder(bytes_, kSubject);
+  if (broken) throw Error(Error::Kind::Io, kRecording, "file", printable(name), "cannot be read");
+  Decoder decoder(bytes_, kRecording);
   const FileHeader header = decoder.get<FileHeader>("header");
   decoder.require(header.magic == kMagic, "header", "is not that of a recording");
   decoder.require(header.version == kVersion, "version", "is another one than this program's");
@@ -104,12 +102,12 @@ auto RecordingReader::next() -> std::optional<Record> {
     return std::nullopt;
   };
   if (rest.size() < kHeaderSize) return cut_off();
-  const RecordHeader header = Decoder(rest, kSubject).get<RecordHeader>("record");
+  const RecordHeader header = Decoder(rest, kRecording).get<RecordHeader>("record");
   if (header.size > rest.size() - kHeaderSize) return cut_off();
   const std::span<const std::byte> content = rest.subspan(kHeaderSize, header.size);
   if (header.size == 0 || header.sum != short_sum(content)) {
     if (content.size() + kHeaderSize == rest.size()) return cut_off();
-    throw Error(Error::Kind::Value, kSubject, "record", std::to_string(count_ + 1),
+    throw Error(Error::Kind::Value, kRecording, "record", std::to_string(count_ + 1),
                 "is damaged: its checksum does not fit");
   }
   at_ += kHeaderSize + header.size;

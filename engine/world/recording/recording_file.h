@@ -14,6 +14,9 @@
 /// docs/guide/recording.md describes the format.
 namespace plumb {
 
+/// What errors of recordings name.
+inline constexpr char kRecording[] = "recording";
+
 /// Kind of a record; a Call also has its WorldCall.
 enum class RecordKind : std::uint8_t {
   Call = 0,        ///< WorldCall and arguments

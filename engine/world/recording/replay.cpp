@@ -10,8 +10,6 @@
 namespace plumb {
 namespace {
 
-constexpr char kSubject[] = "recording";
-
 // Type of a decoded argument, which owns the data that the argument refers to.
 template <class T>
 struct Owned {
@@ -60,7 +58,7 @@ Replay<Real>::Replay(const std::filesystem::path& file, std::function<bool(const
 template <class Real>
 bool Replay<Real>::step() {
   while (const auto record = file_.next()) {
-    Decoder in(record->content, kSubject);
+    Decoder in(record->content, kRecording);
     switch (record->kind) {
       case RecordKind::Definition:
         world_ = BasicWorld<Real>(in.get<WorldDefinition>("definition"));
@@ -85,7 +83,7 @@ bool Replay<Real>::step() {
         compare(record->content);
         return true;
       default:
-        throw Error(Error::Kind::Value, kSubject, "record", std::to_string(file_.count()),
+        throw Error(Error::Kind::Value, kRecording, "record", std::to_string(file_.count()),
                     "is of a kind that there is not");
     }
   }
@@ -95,7 +93,7 @@ bool Replay<Real>::step() {
 
 template <class Real>
 void Replay<Real>::repeat(std::span<const std::byte> content) {
-  Decoder in(content, kSubject);
+  Decoder in(content, kRecording);
   const std::size_t which = in.get<std::uint8_t>("call");
   in.require(which < kWorldCalls, "call", "is none that this program knows");
   ++report_.calls;
@@ -103,7 +101,7 @@ void Replay<Real>::repeat(std::span<const std::byte> content) {
   try {
     dispatch(world_, which, in, std::make_index_sequence<kWorldCalls>{});
   } catch (const Error& error) {
-    if (error.subject() == kSubject) throw;
+    if (error.subject() == kRecording) throw;
     say(std::string("the call of ") + kWorldCallNames[which] + " in step " +
         std::to_string(world_.step_count() + 1) + " was refused: " + error.what());
   }
@@ -111,7 +109,7 @@ void Replay<Real>::repeat(std::span<const std::byte> content) {
 
 template <class Real>
 void Replay<Real>::compare(std::span<const std::byte> content) {
-  Decoder in(content, kSubject);
+  Decoder in(content, kRecording);
   const std::uint64_t recorded = in.get<std::uint64_t>("hash"), now = world_.hash();
   if (report_.first_difference) return;
   report_.recorded_hash = recorded, report_.hash = now;

@@ -12,6 +12,11 @@ bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
 /// Returns the categories to query for a shape's AABB: all if it has a group, which may overrule the mask.
 inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 0xFFFFFFFFu : filter.mask; }
+/// Returns true if a contact has points, which the solver has or had.
+inline bool has_points(const ContactRecord& contact) {
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+}
+
 /// Returns true if the shape collides with nothing; such a shape has no proxy in the trees.
 inline bool meets_nothing(const Filter& filter) { return seen_by(filter) == 0; }
 

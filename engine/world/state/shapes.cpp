@@ -49,11 +49,6 @@ void put_material(ShapeRecord<Real>& record, const Material& material) {
   record.surface_speed = static_cast<Real>(material.surface_speed);
 }
 
-template <class Real>
-bool has_points(const ContactRecord& contact) {
-  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
-}
-
 // Calls visit(edge, contact) for the contacts of one shape.
 template <class Real, class Visit>
 void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
@@ -247,14 +242,14 @@ void set_material(WorldData<Real>& w, int shape, const Material& material) {
     });
     wake_body(w, before.body);
     for_each_contact_of(w, shape, [&](int edge, const ContactRecord& contact) {
-      if (has_points<Real>(contact)) wake_body(w, (edge & 1) == 0 ? contact.body_b : contact.body_a);
+      if (has_points(contact)) wake_body(w, (edge & 1) == 0 ? contact.body_b : contact.body_a);
     });
   } catch (...) {
     w.shapes[shape] = before;
     throw;
   }
   for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
-    if (has_points<Real>(contact)) mix_materials(w, contact, constraint_of(w, contact));
+    if (has_points(contact)) mix_materials(w, contact, constraint_of(w, contact));
   });
 }
 
@@ -306,7 +301,7 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
     const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
     contact.hit_events = a.hit_events || b.hit_events;
     contact.pre_solve = a.pre_solve || b.pre_solve;
-    if (!has_points<Real>(contact)) return;
+    if (!has_points(contact)) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
     c.watched = records_impact(contact, c);
   });

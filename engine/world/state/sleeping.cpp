@@ -32,16 +32,11 @@ void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
   told.push_back(id_of(w, body));
 }
 
-template <class Real>
-bool has_points(const ContactRecord& contact) {
-  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
-}
-
 // Calls visit(other body) for every body that a contact with points or a joint connects to `body`.
 template <class Real, class Visit>
 void for_each_constraint_edge(WorldData<Real>& w, int body, Visit&& visit) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
-    if (has_points<Real>(contact)) visit((edge & 1) == 0 ? contact.body_b : contact.body_a);
+    if (has_points(contact)) visit((edge & 1) == 0 ? contact.body_b : contact.body_a);
   });
   for_each_edge(w.joints, w.bodies[body].first_joint,
                 [&](int edge, JointRecord& joint) { visit((edge & 1) == 0 ? joint.body_b : joint.body_a); });

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace plumb {
+
+/// A number as the unevaluated sum of two: `tail` is what rounding took from `value`.
+struct TwoDoubles {
+  double value = 0, tail = 0;
+};
+
+}  // namespace plumb
