@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/joint_solver/joint_lanes.h"
 #include "engine/world/joint_solver/joint_lists.h"
 #include "engine/world/joint_solver/joint_set.h"
 
@@ -34,11 +35,24 @@ struct BodyJoints {
 struct JointRun {
   JointForm form;
   int colour;
+  bool sorted = false;  ///< into blocks and those that are alone, from `first` to `last`
+  JointCounts first{}, last{};
 };
 
-/// Joints that a thread takes at a time: some 1 to 2 us of work, where a thread that joins a loop takes 0.3.
-/// Hinges are solved four at a time.
-inline constexpr int kHingesOfTask = 128, kJointsOfTask = 16;
+/// Joints, and blocks of joints, that a thread takes at a time: some 1 to 2 us of work, where a thread that
+/// joins a loop takes 0.3.
+inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
+
+/// The forms whose joints are solved side by side.
+template <class Real>
+using JointLaneStore =
+    std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, RevoluteRows>>>;
+template <class Joint>
+inline constexpr bool kSideBySide = false;
+template <class Real>
+inline constexpr bool kSideBySide<HingeConstraint<Real>> = true;
+template <class Real>
+inline constexpr bool kSideBySide<JointConstraint<Real, RevoluteRows>> = true;
 
 /// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
 /// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.
@@ -48,7 +62,7 @@ void share_joints(Crew& crew, int count, int grain, void (*visit)(void*, int, in
 /// colour.
 template <class Visit>
 void share_run(JointRun run, int count, Crew* crew, Visit visit) {
-  const int grain = run.form == kHinge ? kHingesOfTask : kJointsOfTask;
+  const int grain = kJointsOfTask;
   if (crew == nullptr || !crew->shares() || run.colour == kOverflowColour || count <= grain)
     return visit(0, count);
   const auto call = [](void* it, int first, int last) { (*static_cast<Visit*>(it))(first, last); };
@@ -62,6 +76,7 @@ struct JointSet<Real>::Parts {
   std::vector<BodyJoints> taken;  ///< by body: its active joints and their colours
   std::vector<JointRun> runs;     ///< in the order of solving
   JointStore<Real> store;
+  JointLaneStore<Real> lanes;
   int count = 0, active = 0;
 
   const JointSlot& slot(int joint) const { return slots[static_cast<std::size_t>(joint)]; }
