@@ -41,12 +41,15 @@ JointBench<Real> crowd(bool side_by_side) {
   int number = 0;
   for (int round = 0; round < 8; ++round) {
     for (const Pair& pair : kPairs) {
-      const double x = 3 * number, turned = 0.3 * number;
-      const int a = bench.body({x, 0.1 * number}, pair.mass_a, pair.inertia_a, turned);
-      const int b = bench.body({x + 0.8, -0.4}, pair.mass_b, pair.inertia_b, -turned);
+      const bool plain = pair.held || pair.mass_a + pair.mass_b == 0;
+      const RevoluteDefinition kind = plain ? RevoluteDefinition{} : joint(number);
+      const double turned = 0.3 * (number % 15), further = turned + 0.05 * (number % 5);
+      const Vec2d at{3.0 * number, 0.1 * number}, gap{0.01 * (number % 3), 0.02};
+      const Vec2d to_b = rotation_of(turned) * kind.anchor_a - rotation_of(further) * kind.anchor_b + gap;
+      const int a = bench.body(at, pair.mass_a, pair.inertia_a, turned);
+      const int b = bench.body(at + to_b, pair.mass_b, pair.inertia_b, further);
       if (bench.dynamic(a)) bench.motion[a].velocity = {Real(0.7), Real(-0.2 * (number % 15))};
       bench.motion[b].angular_velocity = Real(1 + number % 15);
-      const RevoluteDefinition kind = pair.held ? RevoluteDefinition{} : joint(number);
       const int made = bench.join(kind, a, b);
       if (pair.held) bench.joints.hold(made);
       bench.apart.push_back(number % 11 == 10);
@@ -56,7 +59,7 @@ JointBench<Real> crowd(bool side_by_side) {
   for (int star = 0; star < 24; ++star) {
     const int hub = bench.body({3.0 * star, 100}, 8, 30);
     for (int i = 0; i < 5; ++i) {
-      const int spoke = bench.body({3.0 * star + 0.9 * std::cos(i), 100 + 0.6 * std::sin(i)}, 1, 12, 0.2 * i);
+      const int spoke = bench.body({3.0 * star + 0.9, 99.8 + 0.1 * i}, 1, 12, 0.02 * i);
       bench.motion[spoke].velocity = {Real(0.3 * i), Real(-0.3)};
       bench.join(joint(2 + star % 8 + 3 * (i % 2)), hub, spoke);
       bench.apart.push_back(0);
