@@ -43,7 +43,7 @@ TYPED_TEST(FourLanes, EachLaneIsTheSumOfSingleNumbers) {
     less[lane] = x[lane];
     EXPECT_FALSE(all(a > Four<Real>::load(less))) << lane;
   }
-  expect_lanes(sqrt(b * b), {7, std::sqrt(y[1] * y[1]), std::sqrt(y[2] * y[2]), 2});
+  expect_lanes(sqrt(b * b), {Real(7), std::sqrt(y[1] * y[1]), std::sqrt(y[2] * y[2]), Real(2)});
   expect_lanes(Four<Real>::of([&](int i) { return x[i]; }), {x[0], x[1], x[2], x[3]});
   expect_lanes(Four<Real>(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
 }

@@ -57,7 +57,7 @@ TEST(Churn, StepsOfRagdollsThatComeAndGoDoNotAllocate) {
   for (int step = 0; step < 12 * kCycle; ++step) {
     if (step % kEvery == 0) {
       std::vector<BodyId>& group = groups[step / kEvery % kGroups];
-      for (const BodyId body : group) world.destroy_body(body);
+      for (const BodyId body : group) world.destroy(body);
       group.clear();
       for (int i = 0; i < 3; ++i) {
         const Vec2d at{-12 + 4.0 * (step / kEvery % kGroups) + i, 6.0 + 2 * i};

@@ -202,6 +202,17 @@ struct JointConstraint {
     return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
+  /// Returns the least opening of the angle's limits, rad, each with `slack`: negative beyond one of them.
+  [[gnu::always_inline]] Real beyond_limits(Real turned, Scalar<Real> slack) const {
+    using std::min;
+    const Real now = static_cast<Real>(angle.start) + turned;
+    Real least = slack;
+    for (int i = 0; i < turn.count; ++i)
+      if (turn.rule[i].role == RowRole::Limit)
+        least = min(least, Real(turn.rule[i].sign * (now - turn.rule[i].origin) + slack));
+    return least;
+  }
+
   /// Returns the load of the present rows.
   JointLoad<Real> load(const JointVelocities<Real>& v) const {
     constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);

@@ -226,6 +226,22 @@ void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const Solve
 }
 
 template <class Joint>
+void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+                                       const void* data) {
+  for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
+                            __attribute__((always_inline)) {
+    if constexpr (requires { block.joint.turn.rule; }) {
+      const LaneBodies<Number> a(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a, true);
+      const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b, true);
+      const Number beyond = block.joint.beyond_limits(b.turned - a.turned, slack);
+      if (!any(beyond < Number(0))) return;
+      for (int i = 0; i < block.kLanes; ++i)
+        if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
+    }
+  });
+}
+
+template <class Joint>
 void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& bodies) {
   for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
                             __attribute__((always_inline)) {
@@ -234,9 +250,13 @@ void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& b
   });
 }
 
-#define PLUMB_FOR(Real)                      \
-  template class JointBlocks<HingeConstraint<Real>>; \
-  template class JointBlocks<JointConstraint<Real, RevoluteRows>>;
+#define PLUMB_FOR(Real)                                             \
+  template class JointBlocks<HingeConstraint<Real>>;                \
+  template class JointBlocks<JointConstraint<Real, DistanceRows>>;  \
+  template class JointBlocks<JointConstraint<Real, RevoluteRows>>;  \
+  template class JointBlocks<JointConstraint<Real, PrismaticRows>>; \
+  template class JointBlocks<JointConstraint<Real, WeldRows>>;      \
+  template class JointBlocks<JointConstraint<Real, WheelRows>>;
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

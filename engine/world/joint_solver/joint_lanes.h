@@ -71,6 +71,12 @@ class JointBlocks {
   }
   void sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& bodies,
              const JointStep<Real>& step);
+  /// Calls `act(joint)` for the joints of blocks of which one is turned beyond a limit by more than `slack`.
+  template <class Act>
+  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, const Act& act) {
+    const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
+    beyond_limits(first, last, motion, slack, call, &act);
+  }
   /// Writes the results back to the joints.
   void finish(int first, int last, const SolverBodies<Real>& bodies);
 
@@ -83,12 +89,15 @@ class JointBlocks {
   template <int kBytes>
   using Block = LanesOfJoints<Joint, Number<kBytes>>;
   using ShareOf = Real (*)(const void*, const Joint&);
+  using Visit = void (*)(const void*, Joint&);
 
   template <int kBytes>
   void sort_into(std::vector<Block<kBytes>>& blocks, std::vector<Joint>& joints,
                  const BodyMotion<Real>* motion, const std::vector<char>& apart);
   void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
                ShareOf share, const void* data);
+  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+                     const void* data);
   /// Calls `run(block)` for the blocks from first to last, compiled for their registers.
   template <class Run>
   void for_each(int first, int last, const Run& run);

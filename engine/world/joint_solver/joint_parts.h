@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -43,16 +44,20 @@ struct JointRun {
 /// joins a loop takes 0.3.
 inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
 
-/// The forms whose joints are solved side by side.
+/// Joints side by side, of the forms that have them.
 template <class Real>
 using JointLaneStore =
-    std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, RevoluteRows>>>;
-template <class Joint>
-inline constexpr bool kSideBySide = false;
-template <class Real>
-inline constexpr bool kSideBySide<HingeConstraint<Real>> = true;
-template <class Real>
-inline constexpr bool kSideBySide<JointConstraint<Real, RevoluteRows>> = true;
+    std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, DistanceRows>>,
+               JointBlocks<JointConstraint<Real, RevoluteRows>>,
+               JointBlocks<JointConstraint<Real, PrismaticRows>>, JointBlocks<JointConstraint<Real, WeldRows>>,
+               JointBlocks<JointConstraint<Real, WheelRows>>>;
+template <class Constraint, class... Blocks>
+constexpr bool has_blocks(const std::tuple<Blocks...>*) {
+  return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
+}
+template <class Constraint>
+inline constexpr bool kSideBySide = has_blocks<Constraint>(
+    static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
 
 /// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
 /// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.
@@ -67,6 +72,25 @@ void share_run(JointRun run, int count, Crew* crew, Visit visit) {
     return visit(0, count);
   const auto call = [](void* it, int first, int last) { (*static_cast<Visit*>(it))(first, last); };
   share_joints(*crew, count, grain, call, &visit);
+}
+
+/// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its joints that are alone.
+template <class Visit>
+void share_blocks(const JointRun& run, Crew* crew, const Visit& visit) {
+  const int of_blocks = (run.last.blocks - run.first.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
+            of_alone = (run.last.alone - run.first.alone + kJointsOfTask - 1) / kJointsOfTask;
+  if (crew == nullptr || !crew->shares() || of_blocks + of_alone < 2) return visit(run.first, run.last);
+  crew->blocks(of_blocks + of_alone, [&](int task) {
+    JointCounts first = run.first, last = run.first;
+    if (task < of_blocks) {
+      first.blocks += task * kBlocksOfTask;
+      last.blocks = std::min(first.blocks + kBlocksOfTask, run.last.blocks);
+    } else {
+      first.alone += (task - of_blocks) * kJointsOfTask;
+      last.alone = std::min(first.alone + kJointsOfTask, run.last.alone);
+    }
+    visit(first, last);
+  });
 }
 
 template <class Real>

@@ -90,20 +90,7 @@ template <JointSweep kPass, class Joint, class Real>
     if (first.blocks < last.blocks) blocks.sweep(kPass, first.blocks, last.blocks, bodies, step);
     for (int i = first.alone; i < last.alone; ++i) run_alone<kPass>(blocks.alone(i), bodies, step);
   };
-  const int of_blocks = (run.last.blocks - run.first.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
-            of_alone = (run.last.alone - run.first.alone + kJointsOfTask - 1) / kJointsOfTask;
-  if (crew == nullptr || !crew->shares() || of_blocks + of_alone < 2) return visit(run.first, run.last);
-  crew->blocks(of_blocks + of_alone, [&](int task) {
-    JointCounts first = run.first, last = run.first;
-    if (task < of_blocks) {
-      first.blocks += task * kBlocksOfTask;
-      last.blocks = std::min(first.blocks + kBlocksOfTask, run.last.blocks);
-    } else {
-      first.alone += (task - of_blocks) * kJointsOfTask;
-      last.alone = std::min(first.alone + kJointsOfTask, run.last.alone);
-    }
-    visit(first, last);
-  });
+  share_blocks(run, crew, visit);
 }
 
 /// Solves all active joints in the order of solving, colour by colour.
