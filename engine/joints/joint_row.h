@@ -65,7 +65,8 @@ struct AnchorPoint {
 };
 
 template <class Real>
-[[gnu::always_inline]] inline AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a, Vec2<Real> anchor_b) {
+[[gnu::always_inline]] inline AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a,
+                                                             Vec2<Real> anchor_b) {
   const Vec2<Real> arm_a = rotated(pose.rotation_a, anchor_a), arm_b = rotated(pose.rotation_b, anchor_b);
   return {arm_a, arm_b, pose.offset + (arm_b - arm_a)};
 }

@@ -18,7 +18,8 @@ struct PairMobility {
 /// and `arm_b` (m) lead there from their centres of mass. With M = m_a + m_b it is
 ///   (M (i_a + i_b) + i_a i_b |r_b - r_a|^2) / (M + i_a r_a^2 + i_b r_b^2 + i_a i_b (r_a x r_b)^2 / M).
 template <class Number>
-[[gnu::always_inline]] inline Number turning_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a, Vec2<Number> arm_b) {
+[[gnu::always_inline]] inline Number turning_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a,
+                                                      Vec2<Number> arm_b) {
   const Number m = p.m_a + p.m_b, turn = p.i_a + p.i_b, both = p.i_a * p.i_b;
   return choose(
       m > Number(0),
@@ -34,7 +35,8 @@ template <class Number>
 /// Returns the mobility along an axis of unit direction `n`, 1/kg, on which two bodies slide without relative
 /// rotation; `offset`, m, leads from a's centre of mass to b's.
 template <class Number>
-[[gnu::always_inline]] inline Number sliding_mobility(const PairMobility<Number>& p, Vec2<Number> offset, Vec2<Number> n) {
+[[gnu::always_inline]] inline Number sliding_mobility(const PairMobility<Number>& p, Vec2<Number> offset,
+                                                      Vec2<Number> n) {
   const Number m = p.m_a + p.m_b, both = p.i_a * p.i_b;
   const Number along = dot(offset, n), turn = m * (p.i_a + p.i_b);
   const Number held = turn + both * along * along;
@@ -49,8 +51,8 @@ template <class Number>
 /// Returns the mobility along the first of two perpendicular rows at a point while the second holds, 1/kg;
 /// from their linear parts of length 1 and their angular ones, m.
 template <class Number>
-[[gnu::always_inline]] inline Number line_mobility(const PairMobility<Number>& p, Number first_a, Number first_b, Number second_a,
-                     Number second_b) {
+[[gnu::always_inline]] inline Number line_mobility(const PairMobility<Number>& p, Number first_a,
+                                                   Number first_b, Number second_a, Number second_b) {
   const Number m = p.m_a + p.m_b;
   const Number second = m + p.i_a * second_a * second_a + p.i_b * second_b * second_b;
   return choose(
@@ -72,8 +74,7 @@ template <class Number>
 [[gnu::always_inline]] inline Number common_turning(const PairMobility<Number>& p) {
   const Number turn = p.i_a + p.i_b;
   return choose(
-      turn > Number(0),
-      [&]() __attribute__((always_inline)) { return Number(p.i_a * p.i_b / turn); },
+      turn > Number(0), [&]() __attribute__((always_inline)) { return Number(p.i_a * p.i_b / turn); },
       [&]() __attribute__((always_inline)) { return turn; });
 }
 

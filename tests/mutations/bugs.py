@@ -127,7 +127,7 @@ MUTATIONS = [
 
     # The real-time world.
     Mutation("world: a limit pulls", "engine/world/joint_solver/joint_rule.h",
-             "return role == RowRole::Limit ? 0 : -most;", "return -most;", "world"),
+             "return role == RowRole::Limit ? Real(0) : Real(-most);", "return -most;", "world"),
     Mutation("world: flight falls g t^2", "engine/world/integration/free_motion.cpp",
              "const Vec2<Real> before = motion.velocity; motion.velocity += gain;",
              "motion.velocity += gain; const Vec2<Real> before = motion.velocity;", "world"),

@@ -19,9 +19,9 @@ template <class Number, class Real>
                                                Number& inertia) {
   // The second half of a BodyMotion ends with its masses.
   Number half[4];
-  load_records<true>([&](int i) __attribute__((always_inline)) {
-    return &motion[place[i] / kPlaceUnits<Real>].moved.y;
-  }, half);
+  load_records<true>(
+      [&](int i) __attribute__((always_inline)) { return &motion[place[i] / kPlaceUnits<Real>].moved.y; },
+      half);
   mass = half[2], inertia = half[3];
 }
 

@@ -181,11 +181,12 @@ struct JointConstraint {
       return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
     return false;
   }
-  [[gnu::always_inline]] Real turn_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Real turn_spring_mobility(const JointVelocities<Real>& v,
+                                                   const JointRows<Real>& rows) const {
     return turning_mobility<Real>({v.m_a, v.i_a, v.m_b, v.i_b}, rows.point.arm_a, rows.point.arm_b);
   }
   [[gnu::always_inline]] Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
-                             const JointRows<Real>& rows) const {
+                                                    const JointRows<Real>& rows) const {
     const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
     const JointRow<Real>& first = rows.axial[0];
     if constexpr (kAxial > 1) {
@@ -195,7 +196,8 @@ struct JointConstraint {
       return sliding_mobility(pair, at.offset, first.linear_b);
     }
   }
-  [[gnu::always_inline]] Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v,
+                                                                const JointRows<Real>& rows) const {
     const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
     const Real m = v.m_a + v.m_b, turn_together = common_turning(pair);
     const Vec2<Real> p = perpendicular(rows.point.arm_b - rows.point.arm_a);
@@ -346,7 +348,8 @@ struct JointConstraint {
     std::uint64_t key = alone ? 1 : 0;
     const auto add = [&key](const auto& coordinate) {
       key = key << 3 | static_cast<unsigned>(coordinate.count);
-      for (int i = 0; i < coordinate.count; ++i) key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
+      for (int i = 0; i < coordinate.count; ++i)
+        key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
     };
     if constexpr (Rows::kTurn) add(turn);
     for (const auto& coordinate : axial) add(coordinate);
@@ -407,8 +410,7 @@ struct JointConstraint {
     };
     pair(arm_b, one.arm_b);
     if constexpr (Rows::kTurn) coordinate(turn, one.turn);
-    for (int i = 0; i < kAxial; ++i)
-      coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
+    for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
     if constexpr (kBlock > 0)
       for (int i = 0; i < kBlock; ++i)
         row(block.row[i], one.block.row[i]), visit(block.impulse[i], one.block.impulse[i]);

@@ -32,11 +32,11 @@ struct Compiled<32> {
 /// Calls `act(number, address)` for pairs of a block's number and the function that finds it in a lane.
 template <class Joint, class Act>
 [[gnu::always_inline]] inline auto in_lanes(Joint* const* from, const Act& act) {
-  return [from, &act ]<class Number, class Value>(Number & x, Value & one) __attribute__((always_inline)) {
+  return [ from, &act ]<class Number, class Value>(Number & x, Value & one) __attribute__((always_inline)) {
     const std::ptrdiff_t offset = reinterpret_cast<char*>(&one) - reinterpret_cast<char*>(from[0]);
-    act(x, [ from, offset ](int i) __attribute__((always_inline))->Value& {
-      return *reinterpret_cast<Value*>(reinterpret_cast<char*>(from[i]) + offset);
-    });
+    act(
+        x, [ from, offset ](int i) __attribute__((always_inline))->Value &
+               { return *reinterpret_cast<Value*>(reinterpret_cast<char*>(from[i]) + offset); });
   };
 }
 
@@ -68,9 +68,8 @@ struct LanePairs {
       const auto at = [&](int i) __attribute__((always_inline))->const Rotation<Real>& {
         return bodies.rotation[place[i] / kPlaceUnits<Real>];
       };
-      return Rotation<Number>{
-          Number::of([&](int i) __attribute__((always_inline)) { return at(i).c; }),
-          Number::of([&](int i) __attribute__((always_inline)) { return at(i).s; })};
+      return Rotation<Number>{Number::of([&](int i) __attribute__((always_inline)) { return at(i).c; }),
+                              Number::of([&](int i) __attribute__((always_inline)) { return at(i).s; })};
     };
     return {a.moved, b.moved, a.turned, b.turned, rotation(a.place), rotation(b.place)};
   }
@@ -165,34 +164,34 @@ template <class Run>
 template <class Joint>
 void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& bodies,
                                  const JointStep<Real>& step, ShareOf share, const void* data) {
-  for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                            __attribute__((always_inline)) {
-    for (int i = 0; i < block.kLanes; ++i) {
-      block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->a);
-      block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->b);
-    }
-    load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
-    load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
-    block.joint.take_kind(*block.from[0]);
-    const auto load = [&](Number& x, const auto& lane) __attribute__((always_inline)) {
-      x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
-    };
-    block.joint.inputs(*block.from[0], in_lanes(block.from, load));
-    block.joint.share = 1;
-    const LanePairs<Number> pairs(block, bodies, true);
-    const JointMotion<Number> motion = pairs.motion(bodies);
-    block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
-    store_results(block);
-    bool all = true;
-    for (int i = 0; i < block.kLanes; ++i) {
-      block.from[i]->share = share(data, *block.from[i]);
-      all = all && block.from[i]->share == 1;
-    }
-    if (all) return;
-    block.joint.share =
-        Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
-    block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
-  });
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        for (int i = 0; i < block.kLanes; ++i) {
+          block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->a);
+          block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->b);
+        }
+        load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
+        load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+        block.joint.take_kind(*block.from[0]);
+        const auto load = [&](Number & x, const auto& lane) __attribute__((always_inline)) {
+          x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
+        };
+        block.joint.inputs(*block.from[0], in_lanes(block.from, load));
+        block.joint.share = 1;
+        const LanePairs<Number> pairs(block, bodies, true);
+        const JointMotion<Number> motion = pairs.motion(bodies);
+        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
+        store_results(block);
+        bool all = true;
+        for (int i = 0; i < block.kLanes; ++i) {
+          block.from[i]->share = share(data, *block.from[i]);
+          all = all && block.from[i]->share == 1;
+        }
+        if (all) return;
+        block.joint.share =
+            Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
+        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
+      });
 }
 
 template <class Joint>
@@ -202,52 +201,57 @@ void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const Solve
   const JointStep<Real> step = settings;
   switch (pass) {
     case JointSweep::WarmStart:
-      return for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                                       __attribute__((always_inline)) {
-        LanePairs<Number> pairs(block, bodies, false);
-        block.joint.warm_start(pairs.v);
-        pairs.store(block);
-      });
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, false);
+            block.joint.warm_start(pairs.v);
+            pairs.store(block);
+          });
     case JointSweep::Solve:
-      return for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                                       __attribute__((always_inline)) {
-        LanePairs<Number> pairs(block, bodies, false);
-        block.joint.solve(pairs.v, step);
-        pairs.store(block);
-      });
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, false);
+            block.joint.solve(pairs.v, step);
+            pairs.store(block);
+          });
     case JointSweep::Relax:
-      return for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                                       __attribute__((always_inline)) {
-        LanePairs<Number> pairs(block, bodies, true);
-        block.joint.relax(pairs.motion(bodies), pairs.v, step);
-        pairs.store(block);
-      });
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, true);
+            block.joint.relax(pairs.motion(bodies), pairs.v, step);
+            pairs.store(block);
+          });
   }
 }
 
 template <class Joint>
 void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
                                        const void* data) {
-  for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                            __attribute__((always_inline)) {
-    if constexpr (requires { block.joint.turn.rule; }) {
-      const LaneBodies<Number> a(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a, true);
-      const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b, true);
-      const Number beyond = block.joint.beyond_limits(b.turned - a.turned, slack);
-      if (!any(beyond < Number(0))) return;
-      for (int i = 0; i < block.kLanes; ++i)
-        if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
-    }
-  });
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        if constexpr (requires { block.joint.turn.rule; }) {
+          const LaneBodies<Number> a(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a,
+                                     true);
+          const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b,
+                                     true);
+          const Number beyond = block.joint.beyond_limits(b.turned - a.turned, slack);
+          if (!any(beyond < Number(0))) return;
+          for (int i = 0; i < block.kLanes; ++i)
+            if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
+        }
+      });
 }
 
 template <class Joint>
 void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& bodies) {
-  for_each(first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block)
-                            __attribute__((always_inline)) {
-    store_results(block);
-    for (int i = 0; i < block.kLanes; ++i) block.from[i]->end_step(bodies);
-  });
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        store_results(block);
+        for (int i = 0; i < block.kLanes; ++i) block.from[i]->end_step(bodies);
+      });
 }
 
 #define PLUMB_FOR(Real)                                             \

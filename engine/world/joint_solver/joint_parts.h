@@ -49,15 +49,15 @@ template <class Real>
 using JointLaneStore =
     std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, DistanceRows>>,
                JointBlocks<JointConstraint<Real, RevoluteRows>>,
-               JointBlocks<JointConstraint<Real, PrismaticRows>>, JointBlocks<JointConstraint<Real, WeldRows>>,
-               JointBlocks<JointConstraint<Real, WheelRows>>>;
+               JointBlocks<JointConstraint<Real, PrismaticRows>>,
+               JointBlocks<JointConstraint<Real, WeldRows>>, JointBlocks<JointConstraint<Real, WheelRows>>>;
 template <class Constraint, class... Blocks>
 constexpr bool has_blocks(const std::tuple<Blocks...>*) {
   return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
 }
 template <class Constraint>
-inline constexpr bool kSideBySide = has_blocks<Constraint>(
-    static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
+inline constexpr bool kSideBySide =
+    has_blocks<Constraint>(static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
 
 /// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
 /// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.

@@ -33,7 +33,8 @@ void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Rea
   if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
   // A ratchet advances at reached positions, not at predicted ones.
   if constexpr (Constraint::kRatchet) {
-    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step, JointTime::Between);
+    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
+                   JointTime::Between);
   }
 }
 

@@ -14,7 +14,7 @@ namespace plumb {
 /// The two solutions of a substep: with bias, or without.
 enum JointPass { kSolve = 0, kRelax = 1 };
 
-// What a substep computes is inlined by force, and `Real` may be Lanes: several joints side by side, whose
+// Inlined by force are the functions of a substep, as `Real` may be Lanes: several joints side by side, whose
 // rules have the same roles.
 
 /// Coefficients of a row in one solution: delta = -mass (J v + bias) - scale impulse.
@@ -27,7 +27,8 @@ struct RowTerm {
 template <class Mask, class Real>
 [[gnu::always_inline]] inline RowTerm<Real> either(const Mask& mask, const RowTerm<Real>& yes,
                                                    const RowTerm<Real>& no) {
-  return {select(mask, yes.bias, no.bias), select(mask, yes.mass, no.mass), select(mask, yes.scale, no.scale)};
+  return {select(mask, yes.bias, no.bias), select(mask, yes.mass, no.mass),
+          select(mask, yes.scale, no.scale)};
 }
 
 /// Under-relaxation of a joint that shares bodies with others.
@@ -149,8 +150,8 @@ struct SolverRule {
         term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
         if (const auto firm = mobility > part.stiffest(step.stiffest) * compliance; any(firm)) [[unlikely]] {
           const StiffSpring<Real> stiff(spring, mobility / compliance, share, step);
-          term[kSolve] = either(
-              firm, {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale}, term[kSolve]);
+          term[kSolve] = either(firm, {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale},
+                                term[kSolve]);
           term[kRelax] = either(firm, hold, term[kRelax]);
         }
         return;

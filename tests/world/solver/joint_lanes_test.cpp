@@ -23,8 +23,8 @@ constexpr Pair kPairs[] = {{1, 2, 3, 4},       {1e-3, 2e-3, 5, 9}, {1, 1, 1, 1},
                            {4, 9, 0.1, 0.3},   {1, 12, 1, 12},     {3, 5, 8, 13}, {0, 4, 0, 9},
                            {1, 1, 2, 2},       {1e4, 1e4, 1, 3},   {2, 24, 5, 60}};
 
-/// Joints that are solved side by side. Hinges of all kinds: their rules at work and at rest, springs that are solved as they are and ones that
-/// are too stiff for it, and how they answer at a body that many share.
+/// Joints that are solved side by side. Hinges of all kinds: their rules at work and at rest, springs that
+/// are solved as they are and ones that are too stiff for it, and how they answer at a body that many share.
 template <class Real>
 JointBench<Real> crowd(bool side_by_side) {
   JointBench<Real> bench;
@@ -63,12 +63,16 @@ JointBench<Real> crowd(bool side_by_side) {
     const JointKind kinds[] = {
         DistanceDefinition{.anchor_a = {0.1, 0.2}},
         DistanceDefinition{.length = 0.9, .spring = spring, .range = Range{0.85, 1.02}},
-        PrismaticDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .limits = Range{-0.01, 0.02},
-                            .motor = Motor{1, 3}},
+        PrismaticDefinition{
+            .anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .limits = Range{-0.01, 0.02}, .motor = Motor{1, 3}},
         PrismaticDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .spring = spring},
         WeldDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .reference_angle = 0.02 * i},
-        WheelDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}, .axis = {0, 1}, .spring = spring,
-                        .limits = Range{-0.02, 0.02}, .motor = Motor{2, 1}}};
+        WheelDefinition{.anchor_a = {0.5, 0},
+                        .anchor_b = {-0.5, 0},
+                        .axis = {0, 1},
+                        .spring = spring,
+                        .limits = Range{-0.02, 0.02},
+                        .motor = Motor{2, 1}}};
     bench.motion[b].velocity = {Real(0.1 * (i % 9)), Real(-0.5)};
     bench.join(kinds[i % 6], a, b);
     bench.apart.push_back(0);
