@@ -87,8 +87,10 @@ template <JointSweep kPass, class Joint, class Real>
 [[gnu::noinline]] void sweep_blocks(JointBlocks<Joint>& blocks, const JointRun& run, Crew* crew,
                                     const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
   const auto visit = [&](JointCounts first, JointCounts last) {
-    if (first.blocks < last.blocks) blocks.sweep(kPass, first.blocks, last.blocks, bodies, step);
+    // Those that are alone come first: blocks of the next colour, which load a body's velocity as one, would
+    // wait for what was just stored in pieces.
     for (int i = first.alone; i < last.alone; ++i) run_alone<kPass>(blocks.alone(i), bodies, step);
+    if (first.blocks < last.blocks) blocks.sweep(kPass, first.blocks, last.blocks, bodies, step);
   };
   share_blocks(run, crew, visit);
 }
