@@ -85,23 +85,37 @@ struct LanePairs {
 template <class Joint>
 void JointBlocks<Joint>::begin(VectorWidth width) {
   width_ = !kNarrow && width == VectorWidth::Bytes16 ? VectorWidth::None : width;
-  count_ = 0, alone_.clear();
+  count_ = narrow_ = 0, alone_.clear(), places_.clear();
 }
 
 template <class Joint>
 void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
                               const std::vector<char>& apart) {
   ensure_room(alone_, alone_.size() + joints.size());
-  if (width_ == VectorWidth::Bytes32) return sort_into<32>(blocks32_, joints, motion, apart);
+  if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
   if constexpr (kNarrow)
-    if (width_ == VectorWidth::Bytes16) return sort_into<16>(blocks16_, joints, motion, apart);
+    if (width_ == VectorWidth::Bytes16) return sort_into<16>(joints, motion, apart);
   for (Joint& joint : joints) alone_.push_back(&joint);
 }
 
 template <class Joint>
 template <int kBytes>
-void JointBlocks<Joint>::sort_into(std::vector<Block<kBytes>>& blocks, std::vector<Joint>& joints,
-                                   const BodyMotion<Real>* motion, const std::vector<char>& apart) {
+void JointBlocks<Joint>::add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints,
+                                   int count, std::uint64_t kind) {
+  if (place == static_cast<int>(blocks.size())) {
+    ensure_room(blocks, blocks.size() + 1);
+    blocks.emplace_back();
+  }
+  Block<kBytes>& block = blocks[place];
+  for (int i = 0; i < block.kLanes; ++i) block.from[i] = joints[std::min(i, count - 1)];
+  block.gives_way_a = (kind & 1) != 0, block.gives_way_b = (kind & 2) != 0;
+  ++count_;
+}
+
+template <class Joint>
+template <int kBytes>
+void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
+                                   const std::vector<char>& apart) {
   constexpr int kLanes = Block<kBytes>::kLanes;
   struct Waiting {
     std::uint64_t kind;
@@ -109,14 +123,15 @@ void JointBlocks<Joint>::sort_into(std::vector<Block<kBytes>>& blocks, std::vect
     Joint* joint[kLanes];
   } waiting[kKinds];
   int kinds = 0;
-  const auto add_block = [&](const Waiting& from) {
-    if (count_ == static_cast<int>(blocks.size())) {
-      ensure_room(blocks, blocks.size() + 1);
-      blocks.emplace_back();
+  const auto add = [&](const Waiting& from) {
+    if constexpr (kNarrow) {
+      if (from.count <= Block<16>::kLanes) {
+        append(places_, -1 - narrow_);
+        return add_block<16>(blocks16_, narrow_++, from.joint, from.count, from.kind);
+      }
     }
-    Block<kBytes>& block = blocks[count_++];
-    for (int i = 0; i < kLanes; ++i) block.from[i] = from.joint[std::min(i, from.count - 1)];
-    block.gives_way_a = (from.kind & 1) != 0, block.gives_way_b = (from.kind & 2) != 0;
+    append(places_, count_ - narrow_);
+    add_block<32>(blocks32_, count_ - narrow_, from.joint, from.count, from.kind);
   };
   for (Joint& joint : joints) {
     if constexpr (requires { joint.held; })
@@ -136,12 +151,12 @@ void JointBlocks<Joint>::sort_into(std::vector<Block<kBytes>>& blocks, std::vect
     Waiting& of_kind = waiting[place];
     if (place == kinds) ++kinds, of_kind.kind = kind;
     of_kind.joint[of_kind.count++] = &joint;
-    if (of_kind.count == kLanes) add_block(of_kind), of_kind.count = 0;
+    if (of_kind.count == kLanes) add(of_kind), of_kind.count = 0;
   }
   for (int place = 0; place < kinds; ++place) {
     const Waiting& rest = waiting[place];
     if (rest.count >= kLeastLanes) {
-      add_block(rest);
+      add(rest);
     } else {
       alone_.insert(alone_.end(), rest.joint, rest.joint + rest.count);
     }
@@ -151,13 +166,23 @@ void JointBlocks<Joint>::sort_into(std::vector<Block<kBytes>>& blocks, std::vect
 template <class Joint>
 template <class Run>
 [[gnu::always_inline]] inline void JointBlocks<Joint>::for_each(int first, int last, const Run& run) {
-  const auto all = [&](auto* blocks) __attribute__((always_inline)) {
-    for (int i = first; i < last; ++i) run(blocks[i]);
-  };
   if (width_ == VectorWidth::Bytes32) {
-    Compiled<32>::run([&]() __attribute__((always_inline)) { all(blocks32_.data()); });
+    Compiled<32>::run([&]() __attribute__((always_inline)) {
+      for (int i = first; i < last; ++i) {
+        const int place = places_[i];
+        if constexpr (kNarrow) {
+          if (place < 0) {
+            run(blocks16_[-1 - place]);
+            continue;
+          }
+        }
+        run(blocks32_[place]);
+      }
+    });
   } else if constexpr (kNarrow) {
-    Compiled<16>::run([&]() __attribute__((always_inline)) { all(blocks16_.data()); });
+    Compiled<16>::run([&]() __attribute__((always_inline)) {
+      for (int i = first; i < last; ++i) run(blocks16_[-1 - places_[i]]);
+    });
   }
 }
 

@@ -91,9 +91,12 @@ class JointBlocks {
   using ShareOf = Real (*)(const void*, const Joint&);
   using Visit = void (*)(const void*, Joint&);
 
+  /// Sorts into blocks of `kBytes`, what remains of a kind into narrow ones if they suffice.
   template <int kBytes>
-  void sort_into(std::vector<Block<kBytes>>& blocks, std::vector<Joint>& joints,
-                 const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  void sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  template <int kBytes>
+  void add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints, int count,
+                 std::uint64_t kind);
   void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
                ShareOf share, const void* data);
   void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
@@ -103,8 +106,9 @@ class JointBlocks {
   void for_each(int first, int last, const Run& run);
 
   VectorWidth width_ = VectorWidth::None;
-  int count_ = 0;
+  int count_ = 0, narrow_ = 0;  ///< blocks; those of 16 bytes among them
   std::vector<Joint*> alone_;
+  std::vector<int> places_;  ///< of the blocks: in blocks32_, or from -1 on downwards in blocks16_
   std::vector<Block<16>> blocks16_;
   std::vector<Block<32>> blocks32_;
 };
