@@ -377,7 +377,8 @@ struct JointConstraint {
     };
     const auto coordinate = [&](auto& x, auto& y) __attribute__((always_inline)) {
       for (int i = 0; i < x.count; ++i) {
-        auto &p = x.rule[i], &q = y.rule[i];
+        auto& p = x.rule[i];
+        auto& q = y.rule[i];
         visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed), visit(p.most, q.most);
         visit(p.spring.rate, q.spring.rate), visit(p.spring.compliance, q.spring.compliance);
         visit(p.impulse, q.impulse), visit(p.drift, q.drift);
