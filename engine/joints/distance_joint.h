@@ -16,12 +16,15 @@ struct DistanceRows : JointTraits<0, 1> {
   DistanceRows() = default;
   DistanceRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
     using std::sqrt;
     const Real length = sqrt(length_squared(point.gap));
     // Coinciding anchors have no direction: any one separates them.
-    const Vec2<Real> u = length > 0 ? (1 / length) * point.gap : Vec2<Real>{1, 0};
+    const auto apart = length > Real(0);
+    const Real inverse = Real(1) / length;
+    const Vec2<Real> u{select(apart, Real(inverse * point.gap.x), Real(1)),
+                       select(apart, Real(inverse * point.gap.y), Real(0))};
     out.axial[0] = point.row(u, length);
     out.arm_b = point.arm_b;
   }

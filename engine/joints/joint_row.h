@@ -5,11 +5,19 @@
 #include <optional>
 
 #include "engine/joints/definitions.h"
+#include "engine/math/lanes.h"
 #include "engine/math/vec2.h"
 
 /// Description of every kind of joint: coordinates with their Jacobians, and the rules on them. Kinds do not
-/// depend on their solvers.
+/// depend on their solvers. What a step computes is inlined by force: `Real` may be Lanes, which a function
+/// compiled for wider registers passes in another way than one that is not.
 namespace plumb {
+
+/// Rotates from the body's frame to the world's.
+template <class Real>
+[[gnu::always_inline]] inline Vec2<Real> rotated(const Rotation<Real>& q, Vec2<Real> v) {
+  return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
+}
 
 /// Relative pose of the joined bodies, from which residuals are computed.
 template <class Real>
@@ -37,26 +45,29 @@ struct AnchorPoint {
 
   /// The row of C = n . gap, where n turns with a:
   /// dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a + gap)).
-  JointRow<Real> row(Vec2<Real> n, Real residual) const {
+  [[gnu::always_inline]] JointRow<Real> row(Vec2<Real> n, Real residual) const {
     return {-n, n, -cross(arm_a + gap, n), cross(arm_b, n), residual};
   }
-  JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
+  [[gnu::always_inline]] JointRow<Real> row(Vec2<Real> n) const { return row(n, dot(n, gap)); }
 
   /// Moves both arms to anchor b, which conserves angular momentum. The Jacobian is that of the gap in a's
   /// frame: right for wide gaps, where b is placed in that frame.
-  AnchorPoint at_b() const { return {arm_a + gap, arm_b, gap}; }
+  [[gnu::always_inline]] AnchorPoint at_b() const { return {arm_a + gap, arm_b, gap}; }
   /// Moves both arms to the middle of the gap, which conserves angular momentum too. The Jacobian is that of
   /// the gap in a frame that turns at the mean of the bodies' rates.
-  AnchorPoint middle() const { return {arm_a + Real(0.5) * gap, arm_b - Real(0.5) * gap, gap}; }
+  [[gnu::always_inline]] AnchorPoint middle() const {
+    return {arm_a + Real(0.5f) * gap, arm_b - Real(0.5f) * gap, gap};
+  }
   /// Returns the row of n . gap with the arms unchanged.
-  JointRow<Real> plain_row(Vec2<Real> n) const {
+  [[gnu::always_inline]] JointRow<Real> plain_row(Vec2<Real> n) const {
     return {-n, n, -cross(arm_a, n), cross(arm_b, n), dot(n, gap)};
   }
 };
 
 template <class Real>
-AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a, Vec2<Real> anchor_b) {
-  const Vec2<Real> arm_a = pose.rotation_a * anchor_a, arm_b = pose.rotation_b * anchor_b;
+[[gnu::always_inline]] inline AnchorPoint<Real> anchor_point(const JointPose<Real>& pose, Vec2<Real> anchor_a,
+                                                             Vec2<Real> anchor_b) {
+  const Vec2<Real> arm_a = rotated(pose.rotation_a, anchor_a), arm_b = rotated(pose.rotation_b, anchor_b);
   return {arm_a, arm_b, pose.offset + (arm_b - arm_a)};
 }
 

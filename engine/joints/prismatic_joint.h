@@ -18,9 +18,9 @@ struct PrismaticRows : JointTraits<2, 1> {
   PrismaticRows() = default;
   PrismaticRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
-    const Vec2<Real> n = pose.rotation_a * axis;
+    const Vec2<Real> n = rotated(pose.rotation_a, axis);
     out.block[0] = {{}, {}, -1, 1, pose.angle};
     out.block[1] = point.row(perpendicular(n));
     out.axial[0] = point.row(n);

@@ -17,7 +17,7 @@ struct RevoluteRows : JointTraits<0, 0> {
   RevoluteRows() = default;
   RevoluteRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     out.point = anchor_point(pose, anchor_a, anchor_b).middle();
   }
 };

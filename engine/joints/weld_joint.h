@@ -16,7 +16,7 @@ struct WeldRows : JointTraits<3, 0> {
   WeldRows() = default;
   WeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
     const AnchorPoint<Real> middle = point.middle();
     out.block[0] = {{}, {}, -1, 1, pose.angle};
@@ -39,7 +39,7 @@ struct SoftWeldRows : JointTraits<0, 0> {
   SoftWeldRows() = default;
   SoftWeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     out.point = anchor_point(pose, anchor_a, anchor_b).middle();
   }
 };

@@ -19,9 +19,9 @@ struct WheelRows : JointTraits<0, 2> {
   WheelRows() = default;
   WheelRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
 
-  void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
+  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
-    const Vec2<Real> n = pose.rotation_a * axis;
+    const Vec2<Real> n = rotated(pose.rotation_a, axis);
     out.axial[0] = point.row(n);
     out.axial[1] = point.row(perpendicular(n));
     out.arm_b = point.arm_b;

@@ -1,9 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
+
+/// Compiles a function for registers of 32 bytes, without fused operations.
+#if defined(__x86_64__) || defined(__i386__)
+#define PLUMB_AVX2 [[gnu::target("avx2")]]
+#else
+#define PLUMB_AVX2
+#endif
 
 namespace plumb {
 
@@ -54,6 +63,13 @@ struct Lanes {
   alignas(Part) alignas(kParts == kCount ? alignof(Part) : kBytes) Part part[kParts];
 
   Lanes() = default;
+  /// Copied a register at a time, also within structures: these g++ copies as bytes, by halves of a wide
+  /// register where it compiles without them, and loading as one what was just stored in halves waits.
+  [[gnu::always_inline]] Lanes(const Lanes& from) { *this = from; }
+  [[gnu::always_inline]] Lanes& operator=(const Lanes& from) {
+    for (int k = 0; k < kParts; ++k) part[k] = from.part[k];
+    return *this;
+  }
   /// The same number in all lanes.
   [[gnu::always_inline]] Lanes(Real value) {
     for (int k = 0; k < kParts; ++k) part[k] = value - Part{};
@@ -63,6 +79,11 @@ struct Lanes {
     const auto* parts = reinterpret_cast<const typename Registers::Loose*>(from);
     for (int k = 0; k < kParts; ++k) out.part[k] = parts[k].part;
     return out;
+  }
+  /// Collects `number(0)` to `number(kCount - 1)`.
+  template <class Each>
+  [[gnu::always_inline]] static Lanes of(const Each& number) {
+    return collect(number, std::make_integer_sequence<int, kCount / kParts>());
   }
   [[gnu::always_inline]] void store(Real* to) const {
     auto* parts = reinterpret_cast<typename Registers::Loose*>(to);
@@ -126,7 +147,34 @@ struct Lanes {
     for (int k = 0; k < kParts; ++k) out.part[k] = a.part[k] < b.part[k] ? b.part[k] : a.part[k];
     return out;
   }
+  [[gnu::always_inline]] friend Lanes sqrt(const Lanes& a) {
+    Real lane[kCount];
+    a.store(lane);
+    return of([&](int i) __attribute__((always_inline)) { return std::sqrt(lane[i]); });
+  }
+
+ private:
+  template <class Each, int... kWithin>
+  [[gnu::always_inline]] static Lanes collect(const Each& number, std::integer_sequence<int, kWithin...>) {
+    Lanes out;
+    for (int k = 0; k < kParts; ++k) out.part[k] = Part{number(k * (kCount / kParts) + kWithin)...};
+    return out;
+  }
 };
+
+/// The type of one of the numbers: of Lanes, that of a lane.
+template <class Number>
+struct ScalarOf {
+  using Type = Number;
+};
+template <class Real, int kCount, int kBytes>
+struct ScalarOf<Lanes<Real, kCount, kBytes>> {
+  using Type = Real;
+};
+template <class Number>
+using Scalar = typename ScalarOf<Number>::Type;
+template <class Number>
+inline constexpr bool kIsLanes = !std::is_same_v<Number, Scalar<Number>>;
 
 /// Returns true if the mask is set in any lane.
 template <class Real, int kCount, int kBytes>
@@ -145,8 +193,26 @@ template <class Real, int kCount, int kBytes>
 #endif
 }
 
+/// Returns true if the mask is set in all lanes.
+template <class Real, int kCount, int kBytes>
+[[gnu::always_inline]] inline bool all(const LaneMask<Real, kCount, kBytes>& mask) {
+#ifdef PLUMB_VECTORS
+  using Words = typename Register<Real, kBytes>::Words;
+  Words set = reinterpret_cast<Words>(mask.part[0]);
+  for (int k = 1; k < mask.kParts; ++k) set &= reinterpret_cast<Words>(mask.part[k]);
+  long long word = set[0];
+  for (int i = 1; i < static_cast<int>(kBytes / sizeof(word)); ++i) word &= set[i];
+  return word == -1;
+#else
+  for (const bool set : mask.part)
+    if (!set) return false;
+  return true;
+#endif
+}
+
 // The same for single numbers, so that one algorithm serves both.
 [[gnu::always_inline]] constexpr bool any(bool mask) { return mask; }
+[[gnu::always_inline]] constexpr bool all(bool mask) { return mask; }
 template <class Real>
 requires std::is_floating_point_v<Real>
 [[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }

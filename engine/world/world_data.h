@@ -307,7 +307,8 @@ struct Scratch {
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
   std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<RestitutionContact<Real>> bounces;
-  std::vector<char> apart;  ///< by contact: it is not solved side by side with others
+  std::vector<char> apart;         ///< by contact: it is not solved side by side with others
+  std::vector<char> joints_apart;  ///< by the joint's slot: likewise
   SoftContacts<Real> passes;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -35,13 +36,15 @@ TYPED_TEST(FourLanes, EachLaneIsTheSumOfSingleNumbers) {
   expect_lanes(a * b, {x[0] * y[0], x[1] * y[1], x[2] * y[2], x[3] * y[3]});
   expect_lanes(a / b, {x[0] / y[0], x[1] / y[1], x[2] / y[2], x[3] / y[3]});
   expect_lanes(-a, {-x[0], -x[1], -x[2], -x[3]});
-  EXPECT_FALSE(all_greater(a, b));
+  EXPECT_FALSE(all(a > b));
   for (int lane = 0; lane < 4; ++lane) {
     Real less[4] = {Real(0.05), -4, Real(1e9), Real(1e-21)};
-    EXPECT_TRUE(all_greater(a, Four<Real>::load(less)));
+    EXPECT_TRUE(all(a > Four<Real>::load(less)));
     less[lane] = x[lane];
-    EXPECT_FALSE(all_greater(a, Four<Real>::load(less))) << lane;
+    EXPECT_FALSE(all(a > Four<Real>::load(less))) << lane;
   }
+  expect_lanes(sqrt(b * b), {Real(7), std::sqrt(y[1] * y[1]), std::sqrt(y[2] * y[2]), Real(2)});
+  expect_lanes(Four<Real>::of([&](int i) { return x[i]; }), {x[0], x[1], x[2], x[3]});
   expect_lanes(Four<Real>(Real(0.7)), {Real(0.7), Real(0.7), Real(0.7), Real(0.7)});
 }
 
@@ -79,12 +82,9 @@ TYPED_TEST(FourLanes, RowsBecomeColumns) {
   Four<Real> out[4];
   transpose(in, out);
   for (int k = 0; k < 4; ++k) expect_lanes(out[k], {rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
-  Four<Real> loaded[4], pairs[2];
-  load_rows({rows[0], rows[1], rows[2], rows[3]}, loaded);
+  Four<Real> loaded[4];
+  load_records<true>([&](int i) { return rows[i]; }, loaded);
   for (int k = 0; k < 4; ++k) expect_lanes(loaded[k], {rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
-  load_pairs({rows[0] + 1, rows[1], rows[2] + 2, rows[3]}, pairs);
-  for (int k = 0; k < 2; ++k)
-    expect_lanes(pairs[k], {rows[0][k + 1], rows[1][k], rows[2][k + 2], rows[3][k]});
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/world/allocations.h"
+#include "tests/world/ragdoll.h"
 #include "tests/world/support.h"
 
 namespace plumb {
@@ -42,6 +44,32 @@ TEST(Churn, StepsHardlyEverAllocateOnceWarm) {
   }
   EXPECT_LE(test::allocations() - before, 3);
   EXPECT_GT(begun, 600) << "otherwise nothing is stirred";
+}
+
+// Each group of ragdolls is taken away when its turn comes again, as in the field's rain. Creating bodies may
+// allocate, steps may not, once the lists are as long as they become.
+TEST(Churn, StepsOfRagdollsThatComeAndGoDoNotAllocate) {
+  constexpr int kGroups = 6, kEvery = 8, kCycle = kGroups * kEvery;
+  World world({.sleeping = false});
+  world.create_body({.type = BodyType::Static}, ShapeDefinition{.geometry = Box{40, 1}});
+  std::vector<BodyId> groups[kGroups];
+  long of_steps = 0;
+  for (int step = 0; step < 12 * kCycle; ++step) {
+    if (step % kEvery == 0) {
+      std::vector<BodyId>& group = groups[step / kEvery % kGroups];
+      for (const BodyId body : group) world.destroy(body);
+      group.clear();
+      for (int i = 0; i < 3; ++i) {
+        const Vec2d at{-12 + 4.0 * (step / kEvery % kGroups) + i, 6.0 + 2 * i};
+        const std::vector<BodyId> parts = add_ragdoll(world, {.at = at, .group = -(i + 1)});
+        group.insert(group.end(), parts.begin(), parts.end());
+      }
+    }
+    const long before = test::allocations();
+    world.step();
+    if (step >= 8 * kCycle) of_steps += test::allocations() - before;
+  }
+  EXPECT_EQ(of_steps, 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "engine/math/lane_rows.h"
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/lane_bodies.h"
 
 namespace plumb {
 
@@ -19,7 +20,7 @@ struct ContactBlock {
   using Constraint = ContactConstraint<Real>;
   static constexpr int kLanes = Number::kLanes;
 
-  /// Of the bodies, in units of 8 bytes from the first BodyMotion on: an address's largest scale.
+  /// Of the bodies: see kPlaceUnits.
   std::uint32_t place_a[kLanes], place_b[kLanes];
   Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
 
@@ -91,24 +92,15 @@ template <class Number, class Real>
   const ContactRows<Number> rows{block};
   for (int k = 0; k < kRows; k += 4) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
 
-  constexpr std::uint32_t kUnits = sizeof(BodyMotion<Real>) / 8;
   block.watched = false;
   for (int i = 0; i < Block::kLanes; ++i) {
     const Constraint& c = *block.contact[i];
-    block.place_a[i] = kUnits * static_cast<std::uint32_t>(c.body_a);
-    block.place_b[i] = kUnits * static_cast<std::uint32_t>(c.body_b);
+    block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_a);
+    block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_b);
     block.watched |= c.watched;
   }
-  // The second half of a BodyMotion ends with its masses.
-  const auto load_masses = [&](const std::uint32_t(&place)[Block::kLanes], Number& mass, Number& inertia)
-      __attribute__((always_inline)) {
-    Number half[4];
-    load_records<true>(
-        [&](int i) __attribute__((always_inline)) { return &motion[place[i] / kUnits].moved.y; }, half);
-    mass = half[2], inertia = half[3];
-  };
-  load_masses(block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
-  load_masses(block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+  load_masses(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
+  load_masses(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
 
   const Constraint& first = *block.contact[0];
   block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);

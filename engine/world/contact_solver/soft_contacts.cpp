@@ -5,12 +5,7 @@
 
 #include "engine/core/room.h"
 #include "engine/world/contact_solver/contact_passes.h"
-
-#if defined(__x86_64__) || defined(__i386__)
-#define PLUMB_AVX2 [[gnu::target("avx2")]]
-#else
-#define PLUMB_AVX2
-#endif
+#include "engine/world/contact_solver/lane_bodies.h"
 
 namespace plumb {
 namespace {
@@ -62,43 +57,6 @@ template <class Pass, class Real>
   if (both || is_dynamic(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
   if (both || is_dynamic(pair.b)) pair.b.velocity = pair.vb, pair.b.angular_velocity = pair.wb;
 }
-
-/// The bodies a, or the bodies b, of a block.
-template <class Number>
-struct LaneBodies {
-  using Real = typename Number::Number;
-
-  BodyMotion<Real>* motion;
-  const std::uint32_t (&place)[Number::kLanes];
-  const Number &inverse_mass, &inverse_inertia;
-  Vec2<Number> velocity{}, moved{};
-  Number angular_velocity = 0, turned = 0;
-
-  [[gnu::always_inline]] LaneBodies(BodyMotion<Real>* bodies, const std::uint32_t (&places)[Number::kLanes],
-                                    const Number& mass, const Number& inertia, bool moves)
-      : motion(bodies), place(places), inverse_mass(mass), inverse_inertia(inertia) {
-    static_assert(sizeof(BodyMotion<Real>) == 8 * sizeof(Real) && offsetof(BodyMotion<Real>, velocity) == 0 &&
-                  offsetof(BodyMotion<Real>, turned) == 5 * sizeof(Real));
-    Number first[4], last[4];
-    load_records<true>(
-        [&](int i) __attribute__((always_inline)) { return row(i, 0); }, first);
-    velocity = {first[0], first[1]}, angular_velocity = first[2], moved.x = first[3];
-    if (!moves) return;
-    load_records<true>(
-        [&](int i) __attribute__((always_inline)) { return row(i, 4); }, last);
-    moved.y = last[0], turned = last[1];
-  }
-
-  [[gnu::always_inline]] void store(const Vec2<Number>& v, const Number& w) const {
-    store_records<true>([&](int i) __attribute__((always_inline)) { return row(i, 0); },
-                        {v.x, v.y, w, moved.x});
-  }
-
- private:
-  [[gnu::always_inline]] Real* row(int lane, int number) const {
-    return reinterpret_cast<Real*>(reinterpret_cast<char*>(motion) + std::size_t{8} * place[lane]) + number;
-  }
-};
 
 template <class Pass, class Number, class Real>
 [[gnu::always_inline]] inline void run_blocks(BodyMotion<Real>* motion, ContactBlock<Number>* block,

@@ -16,8 +16,8 @@ struct JointBlock {
   Real impulse[N]{};
 
   /// Factorises for the present rows.
-  void factorise(const JointVelocities<Real>& v) {
-    constexpr Real kNothing = 32 * std::numeric_limits<Real>::epsilon();
+  [[gnu::always_inline]] void factorise(const JointVelocities<Real>& v) {
+    constexpr Scalar<Real> kNothing = 32 * std::numeric_limits<Scalar<Real>>::epsilon();
     Real pivot[N];
     for (int i = 0; i < N; ++i) {
       const Real diagonal = v.inverse_mass(row[i], row[i]);
@@ -28,18 +28,19 @@ struct JointBlock {
         lower[i][j] = sum * inverse_pivot[j];
         rest -= lower[i][j] * lower[i][j] * pivot[j];
       }
-      const bool free = rest > kNothing * diagonal;
-      pivot[i] = free ? rest : 0;
-      inverse_pivot[i] = free ? 1 / rest : 0;
+      const auto free = rest > kNothing * diagonal;
+      pivot[i] = select(free, rest, Real(0));
+      inverse_pivot[i] = select(free, Real(Real(1) / rest), Real(0));
     }
   }
-  void warm_start(JointVelocities<Real>& v) const {
+  [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     for (int i = 0; i < N; ++i) v.apply(row[i], impulse[i]);
   }
 
-  void solve(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass pass, Real share) {
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Scalar<Real>>& step,
+                                    JointPass pass, Real share) {
     const bool soft = pass == kSolve;
-    const Softness<Real> s = soft ? step.softness : Softness<Real>{};
+    const Softness<Scalar<Real>> s = soft ? step.softness : Softness<Scalar<Real>>{};
     Real x[N];
     for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + share * s.bias_rate * row[i].residual;
     for (int i = 1; i < N; ++i)

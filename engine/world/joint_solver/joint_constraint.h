@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <type_traits>
 
 #include "engine/joints/joint_angle.h"
@@ -19,11 +20,19 @@ namespace plumb {
 template <int>
 struct NoPart {};
 
-/// A joint of kind `Kind`, prepared for solving. Only the parts that the kind has take memory. They are
-/// solved in the order turn, axial, block, point, so that rigid rows hold best.
+/// Of a block of joints side by side: their own angles at the start of the step, rad.
+template <class Real>
+struct LaneAngles {
+  Real start = 0;
+};
+
+/// A joint of kind `Kind`, prepared for solving; with Lanes for `Real`, the numbers of several joints side by
+/// side, whose rules have the same roles. Only the parts that the kind has take memory. They are solved in
+/// the order turn, axial, block, point, so that rigid rows hold best.
 template <class Real, template <class> class Kind>
 struct JointConstraint {
   using Rows = Kind<Real>;
+  using Step = JointStep<Scalar<Real>>;
   using Definition = typename Rows::Definition;
   static constexpr AngleUse kAngle = Rows::kAngle;
   static constexpr bool kRatchet = std::is_same_v<Rows, RatchetRows<Real>>;
@@ -37,11 +46,12 @@ struct JointConstraint {
   int joint = 0, a = 0, b = 0;
   Real share = 1;                   ///< under-relaxation factor of its impulses
   bool alone = false;               ///< no other joint moves its bodies
-  Real known_h = 0;                 ///< s, substep length that the rules are set for
+  Scalar<Real> known_h = 0;         ///< s, substep length that the rules are set for
   Vec2<Real> offset{}, offset_a{};  ///< m, at the start of the step
   Vec2<Real> arm_b{};
   Rows kind{};
-  [[no_unique_address]] If<kAngle != AngleUse::None, JointAngle, 0> angle{};
+  using Angle = std::conditional_t<kIsLanes<Real>, LaneAngles<Real>, JointAngle>;
+  [[no_unique_address]] If<kAngle != AngleUse::None, Angle, 0> angle{};
   [[no_unique_address]] If<kRatchet || kPulley, JointMemory, 1> memory{};
   [[no_unique_address]] If<Rows::kTurn, JointCoordinate<Real, true>, 2> turn{};
   std::array<JointCoordinate<Real, false>, kAxial> axial{};
@@ -83,7 +93,7 @@ struct JointConstraint {
     known_h = h;
   }
 
-  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  void begin_step(const SolverBodies<Real>& bodies, const Step& step) {
     offset = find_offset(bodies, b);
     if constexpr (kPulley) offset_a = find_offset_a(bodies);
     if constexpr (kAngle != AngleUse::None) count_turns(bodies, step.h);
@@ -93,43 +103,42 @@ struct JointConstraint {
     }
     if constexpr (kPulley) recall_length(bodies);
     if (step.warm_start != 1) scale(step.warm_start);
-    evaluate(bodies, step, When::StepStarts);
   }
+  void end_step(const SolverBodies<Real>& bodies) { remember(motion_of(bodies, a, b)); }
 
-  /// Time of an evaluation. Motors add up their drift from the start of the step over each substep.
-  enum class When { StepStarts, SubstepEnds, Between };
   /// Evaluates all rows at the present poses.
-  void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step, When when = When::Between) {
-    const JointVelocities<Real> v = velocities(bodies);
+  [[gnu::always_inline]] void evaluate(const JointMotion<Real>& now, const JointVelocities<Real>& v,
+                                       const Step& step, JointTime time) {
     JointRows<Real> rows;
-    const JointPose<Real> at = pose(bodies);
+    const JointPose<Real> at = pose(now);
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
     arm_b = rows.arm_b;
-    if (when != When::Between) follow(bodies, rows, when, step.h);
+    if (time != JointTime::Between) follow(now, rows, time == JointTime::StepStarts, step.h);
     evaluate_coordinates(at, rows, v, step, {share, alone});
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
+    remember(now);
   }
 
-  void follow(const SolverBodies<Real>& bodies, const JointRows<Real>& rows, When when, Real h) {
-    const bool starts = when == When::StepStarts;
-    const auto see = [starts, h](auto& coordinate, Real q) {
+  [[gnu::always_inline]] void follow(const JointMotion<Real>& now, const JointRows<Real>& rows, bool starts,
+                                     Scalar<Real> h) {
+    const auto see = [ starts, h ](auto& coordinate, Real q) __attribute__((always_inline)) {
       starts ? coordinate.start_at(q) : coordinate.follow(q, h);
     };
     // Rotation since the step began (0 at that time), because the angle may have many turns.
-    if constexpr (Rows::kTurn) see(turn, bodies.motion[b].turned - bodies.motion[a].turned);
+    if constexpr (Rows::kTurn) see(turn, now.turned_b - now.turned_a);
     for (int i = 0; i < kAxial; ++i) see(axial[i], rows.axial[i].residual);
     if constexpr (Rows::kPoint)
       if (!starts) point.follow(rows.point.gap);
   }
 
   /// Evaluates turn, axial and point rows at a pose; `at.angle` and the residuals are the coordinates.
-  void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
-                            const JointVelocities<Real>& v, const JointStep<Real>& step,
-                            JointShare<Real> part) {
+  [[gnu::always_inline]] void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
+                                                   const JointVelocities<Real>& v, const Step& step,
+                                                   JointShare<Real> part) {
     if constexpr (Rows::kTurn) {
       if (turn_beside_rigid()) {
         turn.evaluate_beside_rigid(at.angle, v, turn_spring_mobility(v, rows), step, part);
@@ -147,37 +156,37 @@ struct JointConstraint {
       }
     }
     if constexpr (Rows::kPoint) {
-      if (point_beside_rigid()) {
-        point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
-      } else {
-        point.evaluate(rows.point, v, step, part);
-      }
+      if constexpr (!kIsLanes<Real>)
+        if (point_beside_rigid())
+          return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
+      point.evaluate(rows.point, v, step, part);
     }
   }
 
   // Springs beside rigid rows of the joint refer to their effective mass given these: see
   // engine/joints/spring_mobility.h.
   /// Returns true if the angle has a spring beside a rigid point.
-  bool turn_beside_rigid() const {
+  [[gnu::always_inline]] bool turn_beside_rigid() const {
     if constexpr (Rows::kTurn && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
     return false;
   }
   /// Returns true if the first axial coordinate has a spring beside a rigid block or second coordinate.
-  bool axial_beside_rigid() const {
+  [[gnu::always_inline]] bool axial_beside_rigid() const {
     if constexpr (kAxial > 0 && (kBlock > 0 || kAxial > 1)) return axial[0].has(RowRole::Spring);
     return false;
   }
   /// Returns true if the point has a spring beside a rigid angle.
-  bool point_beside_rigid() const {
+  [[gnu::always_inline]] bool point_beside_rigid() const {
     if constexpr (Rows::kTurn && Rows::kPoint)
-      return point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
+      return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
     return false;
   }
-  Real turn_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Real turn_spring_mobility(const JointVelocities<Real>& v,
+                                                   const JointRows<Real>& rows) const {
     return turning_mobility<Real>({v.m_a, v.i_a, v.m_b, v.i_b}, rows.point.arm_a, rows.point.arm_b);
   }
-  Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
-                             const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
+                                                    const JointRows<Real>& rows) const {
     const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
     const JointRow<Real>& first = rows.axial[0];
     if constexpr (kAxial > 1) {
@@ -187,15 +196,27 @@ struct JointConstraint {
       return sliding_mobility(pair, at.offset, first.linear_b);
     }
   }
-  Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v, const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v,
+                                                                const JointRows<Real>& rows) const {
     const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
     const Real m = v.m_a + v.m_b, turn_together = common_turning(pair);
     const Vec2<Real> p = perpendicular(rows.point.arm_b - rows.point.arm_a);
     return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
+  /// Returns the least opening of the angle's limits, rad, each with `slack`: negative beyond one of them.
+  [[gnu::always_inline]] Real beyond_limits(Real turned, Scalar<Real> slack) const {
+    using std::min;
+    const Real now = static_cast<Real>(angle.start) + turned;
+    Real least = slack;
+    for (int i = 0; i < turn.count; ++i)
+      if (turn.rule[i].role == RowRole::Limit)
+        least = min(least, Real(turn.rule[i].sign * (now - turn.rule[i].origin) + slack));
+    return least;
+  }
+
   /// Returns the load of the present rows.
-  JointLoad<Real> load(const SolverBodies<Real>& bodies) const {
+  JointLoad<Real> load(const JointVelocities<Real>& v) const {
     constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);
     JointRow<Real> rows[kRows];
     int count = 0;
@@ -207,27 +228,20 @@ struct JointConstraint {
     if constexpr (Rows::kPoint)
       for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}})
         rows[count++] = point.point.plain_row(n);
-    return joint_load(rows, velocities(bodies));
+    return joint_load(rows, v);
   }
 
-  void warm_start(const SolverBodies<Real>& bodies) const {
-    JointVelocities<Real> v = velocities(bodies);
+  [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     if constexpr (Rows::kTurn) turn.warm_start(v);
     for (int i = 0; i < kAxial; ++i) axial[i].warm_start(v);
     if constexpr (kBlock > 0) block.warm_start(v);
     if constexpr (Rows::kPoint) point.warm_start(v);
-    store(v, bodies);
-  }
-
-  void pass(const SolverBodies<Real>& bodies, const JointStep<Real>& step, JointPass which) {
-    JointVelocities<Real> v = velocities(bodies);
-    solve_coordinates(v, step, which, share);
-    store(v, bodies);
   }
 
   /// Solves all rows once. Rigid rows beside a spring are solved before and after it: the spring then sees
   /// the velocity that they leave, and its response includes them.
-  void solve_coordinates(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+  [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
+                                                Real part) {
     if (turn_beside_rigid()) solve_point(v, which);
     if (point_beside_rigid()) solve_turn(v, which), solve_point(v, which);
     if (axial_beside_rigid()) {
@@ -239,32 +253,43 @@ struct JointConstraint {
     solve_block(v, step, which, part);
     if (!point_beside_rigid()) solve_point(v, which);
   }
-  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step) { pass(bodies, step, kSolve); }
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-    evaluate(bodies, step, When::SubstepEnds);
-    pass(bodies, step, kRelax);
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Step& step) {
+    solve_coordinates(v, step, kSolve, share);
+  }
+  [[gnu::always_inline]] void relax(const JointMotion<Real>& now, JointVelocities<Real>& v,
+                                    const Step& step) {
+    evaluate(now, v, step, JointTime::SubstepEnds);
+    solve_coordinates(v, step, kRelax, share);
   }
 
-  /// Returns the present pose; counts turns on.
-  JointPose<Real> pose(const SolverBodies<Real>& bodies) {
-    const BodyMotion<Real>&motion_a = bodies.motion[a], &motion_b = bodies.motion[b];
-    JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
+  /// Returns the pose.
+  [[gnu::always_inline]] JointPose<Real> pose(const JointMotion<Real>& now) const {
+    JointPose<Real> at{.rotation_a = now.rotation_a, .rotation_b = now.rotation_b};
     if constexpr (Rows::kGrounded) {
-      at.offset = offset + motion_b.moved;
-      at.offset_a = offset_a + motion_a.moved;
+      at.offset = offset + now.moved_b;
+      at.offset_a = offset_a + now.moved_a;
     } else {
-      at.offset = offset + (motion_b.moved - motion_a.moved);
+      at.offset = offset + (now.moved_b - now.moved_a);
     }
     if constexpr (kAngle == AngleUse::Geared) {
-      at.angle = static_cast<Real>(angle.start) + (motion_b.turned - kind.ratio * motion_a.turned);
-      angle.a = angle.start_a + motion_a.turned;
-      angle.b = angle.start_b + motion_b.turned;
+      at.angle = static_cast<Real>(angle.start) + (now.turned_b - kind.ratio * now.turned_a);
     } else if constexpr (kAngle != AngleUse::None) {
-      const Real turned = motion_b.turned - motion_a.turned;
-      at.angle = static_cast<Real>(angle.start) + turned;
-      angle.b = angle.start_b + turned;
+      at.angle = static_cast<Real>(angle.start) + (now.turned_b - now.turned_a);
     }
     return at;
+  }
+  JointPose<Real> pose(const SolverBodies<Real>& bodies) const { return pose(motion_of(bodies, a, b)); }
+
+  /// Keeps the angles, from which turns are counted on.
+  [[gnu::always_inline]] void remember(const JointMotion<Real>& now) {
+    if constexpr (kIsLanes<Real>) {
+      return;  // at the end of the step: `end_step`
+    } else if constexpr (kAngle == AngleUse::Geared) {
+      angle.a = angle.start_a + now.turned_a;
+      angle.b = angle.start_b + now.turned_b;
+    } else if constexpr (kAngle != AngleUse::None) {
+      angle.b = angle.start_b + (now.turned_b - now.turned_a);
+    }
   }
 
   /// Returns the present pose and rows, at any time; counts turns from the last evaluation.
@@ -316,14 +341,95 @@ struct JointConstraint {
       if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
   }
 
+  // ---- Of a block of joints side by side (joint_lanes.h)
+
+  /// Returns what joints of a block have in common: the rules' roles, and whether they are alone.
+  std::uint64_t lane_kind() const {
+    std::uint64_t key = alone ? 1 : 0;
+    const auto add = [&key](const auto& coordinate) {
+      key = key << 3 | static_cast<unsigned>(coordinate.count);
+      for (int i = 0; i < coordinate.count; ++i)
+        key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
+    };
+    if constexpr (Rows::kTurn) add(turn);
+    for (const auto& coordinate : axial) add(coordinate);
+    return key;
+  }
+  bool fits_lanes() const {
+    if constexpr (Rows::kPoint) return point.rigid();
+    return true;
+  }
+  /// Takes over what joints of the kind have in common.
+  void take_kind(const JointConstraint<Scalar<Real>, Kind>& from) {
+    alone = from.alone;
+    const auto take = [](auto& coordinate, const auto& other) {
+      coordinate.count = other.count;
+      for (int i = 0; i < other.count; ++i) coordinate.rule[i].role = other.rule[i].role;
+    };
+    if constexpr (Rows::kTurn) take(turn, from.turn);
+    for (int i = 0; i < kAxial; ++i) take(axial[i], from.axial[i]);
+  }
+  /// Visits the numbers that a step starts with, of a block and of one of its joints.
+  template <class One, class Visit>
+  [[gnu::always_inline]] void inputs(One& one, const Visit& visit) {
+    const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
+      visit(x.x, y.x), visit(x.y, y.y);
+    };
+    const auto coordinate = [&](auto& x, auto& y) __attribute__((always_inline)) {
+      for (int i = 0; i < x.count; ++i) {
+        auto& p = x.rule[i];
+        auto& q = y.rule[i];
+        visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed), visit(p.most, q.most);
+        visit(p.spring.rate, q.spring.rate), visit(p.spring.compliance, q.spring.compliance);
+        visit(p.impulse, q.impulse), visit(p.drift, q.drift);
+      }
+    };
+    pair(offset, one.offset);
+    if constexpr (requires { kind.anchor_a; })
+      pair(kind.anchor_a, one.kind.anchor_a), pair(kind.anchor_b, one.kind.anchor_b);
+    if constexpr (requires { kind.axis; }) pair(kind.axis, one.kind.axis);
+    if constexpr (kAngle != AngleUse::None) visit(angle.start, one.angle.start);
+    if constexpr (Rows::kTurn) coordinate(turn, one.turn);
+    for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]);
+    if constexpr (kBlock > 0)
+      for (int i = 0; i < kBlock; ++i) visit(block.impulse[i], one.block.impulse[i]);
+    if constexpr (Rows::kPoint) pair(point.impulse, one.point.impulse);
+  }
+  /// Visits likewise the numbers that are read after a step.
+  template <class One, class Visit>
+  [[gnu::always_inline]] void results(One& one, const Visit& visit) {
+    const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
+      visit(x.x, y.x), visit(x.y, y.y);
+    };
+    const auto row = [&](auto& x, auto& y) __attribute__((always_inline)) {
+      pair(x.linear_a, y.linear_a), pair(x.linear_b, y.linear_b);
+      visit(x.angular_a, y.angular_a), visit(x.angular_b, y.angular_b), visit(x.residual, y.residual);
+    };
+    const auto coordinate = [&](auto& x, auto& y) __attribute__((always_inline)) {
+      for (int i = 0; i < x.count; ++i)
+        visit(x.rule[i].impulse, y.rule[i].impulse), visit(x.rule[i].drift, y.rule[i].drift);
+    };
+    pair(arm_b, one.arm_b);
+    if constexpr (Rows::kTurn) coordinate(turn, one.turn);
+    for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
+    if constexpr (kBlock > 0)
+      for (int i = 0; i < kBlock; ++i)
+        row(block.row[i], one.block.row[i]), visit(block.impulse[i], one.block.impulse[i]);
+    if constexpr (Rows::kPoint) {
+      pair(point.impulse, one.point.impulse);
+      pair(point.point.arm_a, one.point.point.arm_a), pair(point.point.arm_b, one.point.point.arm_b);
+    }
+  }
+
  private:
-  void solve_turn(JointVelocities<Real>& v, JointPass which) {
+  [[gnu::always_inline]] void solve_turn(JointVelocities<Real>& v, JointPass which) {
     if constexpr (Rows::kTurn) turn.solve(v, which);
   }
-  void solve_block(JointVelocities<Real>& v, const JointStep<Real>& step, JointPass which, Real part) {
+  [[gnu::always_inline]] void solve_block(JointVelocities<Real>& v, const Step& step, JointPass which,
+                                          Real part) {
     if constexpr (kBlock > 0) block.solve(v, step, which, part);
   }
-  void solve_point(JointVelocities<Real>& v, JointPass which) {
+  [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, JointPass which) {
     if constexpr (Rows::kPoint) point.solve(v, which);
   }
 
@@ -334,15 +440,6 @@ struct JointConstraint {
 
   Vec2<Real> find_offset_a(const SolverBodies<Real>& bodies) const {
     return (bodies.position[a] - kind.ground_a).template as<Real>();
-  }
-
-  JointVelocities<Real> velocities(const SolverBodies<Real>& bodies) const {
-    JointVelocities<Real> v(bodies.motion[a], bodies.motion[b]);
-    if constexpr (kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
-    return v;
-  }
-  void store(const JointVelocities<Real>& v, const SolverBodies<Real>& bodies) const {
-    v.store(bodies.motion[a], bodies.motion[b]);
   }
 
   void scale(Real factor) {

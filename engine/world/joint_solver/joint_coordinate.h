@@ -39,28 +39,28 @@ struct JointCoordinate {
   }
 
   /// Record the coordinate at the start of a step, and at the end of each substep.
-  void start_at(Real q) {
+  [[gnu::always_inline]] void start_at(Real q) {
     for (int i = 0; i < count; ++i) rule[i].last = q;
   }
-  void follow(Real q, Real h) {
+  [[gnu::always_inline]] void follow(Real q, Scalar<Real> h) {
     for (int i = 0; i < count; ++i) rule[i].follow(q, h);
   }
 
   /// Returns the sum of all rules' lambda along +q.
-  Real impulse() const {
+  [[gnu::always_inline]] Real impulse() const {
     Real sum = 0;
     for (int i = 0; i < count; ++i) sum += rule[i].sign * rule[i].impulse;
     return sum;
   }
 
-  bool has(RowRole role) const {
+  [[gnu::always_inline]] bool has(RowRole role) const {
     for (int i = 0; i < count; ++i)
       if (rule[i].role == role) return true;
     return false;
   }
 
   /// Returns J M^-1 J^T.
-  Real mobility(const JointVelocities<Real>& v) const {
+  [[gnu::always_inline]] Real mobility(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {
       return v.i_a + v.i_b;
     } else {
@@ -69,30 +69,33 @@ struct JointCoordinate {
   }
 
   /// Evaluates the rules at the coordinate `q`, at the pose of `row`.
-  void evaluate(Real q, const JointVelocities<Real>& v, const JointStep<Real>& step, JointShare<Real> part) {
+  [[gnu::always_inline]] void evaluate(Real q, const JointVelocities<Real>& v,
+                                       const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
     if (count == 0) return;
     inverse_mass = mobility(v);
     evaluate(q, inverse_mass, step, part);
   }
   /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. The reduced value is
   /// its response if the joint is solved alone, with these rows before and after the spring.
-  void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held, const JointStep<Real>& step,
-                             JointShare<Real> part) {
-    inverse_mass = part.share == 1 ? held : mobility(v);
+  [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held,
+                                                    const JointStep<Scalar<Real>>& step,
+                                                    JointShare<Real> part) {
+    inverse_mass = select(part.share < Real(1), mobility(v), held);
     evaluate(q, held, step, part);
   }
-  void warm_start(JointVelocities<Real>& v) const {
+  [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());
   }
 
-  void solve(JointVelocities<Real>& v, JointPass pass) {
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, JointPass pass) {
     if (count == 0) return;
+    using std::max, std::min;
     Real rate = along(v), sum = 0;
     for (int i = 0; i < count; ++i) {
       SolverRule<Real>& r = rule[i];
       const RowTerm<Real>& t = solved[i].term[pass];
       const Real wanted = r.impulse - t.mass * (r.sign * rate + t.bias) - t.scale * r.impulse;
-      const Real total = std::min(std::max(wanted, r.lower()), r.most);
+      const Real total = min(max(wanted, r.lower()), r.most);
       const Real delta = r.sign * (total - r.impulse);
       r.impulse = total;
       rate += inverse_mass * delta;
@@ -102,18 +105,19 @@ struct JointCoordinate {
   }
 
  private:
-  void evaluate(Real q, Real spring_mobility, const JointStep<Real>& step, JointShare<Real> part) {
+  [[gnu::always_inline]] void evaluate(Real q, Real spring_mobility, const JointStep<Scalar<Real>>& step,
+                                       JointShare<Real> part) {
     for (int i = 0; i < count; ++i)
       rule[i].terms(q, inverse_mass, spring_mobility, part, step, solved[i].term);
   }
-  Real along(const JointVelocities<Real>& v) const {
+  [[gnu::always_inline]] Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {
       return v.w_b - v.w_a;
     } else {
       return v.along(row);
     }
   }
-  void apply(JointVelocities<Real>& v, Real impulse) const {
+  [[gnu::always_inline]] void apply(JointVelocities<Real>& v, Real impulse) const {
     if constexpr (kAngular) {
       v.w_a -= v.i_a * impulse;
       v.w_b += v.i_b * impulse;

@@ -40,47 +40,63 @@ template <class Real>
 /// Returns the load of any rows. Redundant rows count once.
 template <class Real, int N>
 JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocities<Real>& v) {
-  double k[N][N], part[2][N][N];  // J M^-1 J^T; of a and b
+  static_assert(N <= 3, "two bodies move against each other in three ways");
+  double k[N][N], share[N][N];  // J M^-1 J^T; of a
   for (int i = 0; i < N; ++i) {
-    for (int j = 0; j < N; ++j) {
+    for (int j = 0; j <= i; ++j) {
       const JointRow<Real>&r = rows[i], &s = rows[j];
-      part[0][i][j] = v.m_a * dot(r.linear_a, s.linear_a) + v.i_a * (r.angular_a * s.angular_a);
-      part[1][i][j] = v.m_b * dot(r.linear_b, s.linear_b) + v.i_b * (r.angular_b * s.angular_b);
-      k[i][j] = part[0][i][j] + part[1][i][j];
+      const double of_a = v.m_a * dot(r.linear_a, s.linear_a) + v.i_a * (r.angular_a * s.angular_a);
+      const double of_b = v.m_b * dot(r.linear_b, s.linear_b) + v.i_b * (r.angular_b * s.angular_b);
+      share[i][j] = share[j][i] = of_a;
+      k[i][j] = k[j][i] = of_a + of_b;
     }
   }
-  // Gauss-Jordan elimination turns the parts into K^-1 K_a and K^-1 K_b. Rows that depend on those before
-  // them are left out.
+  // Gauss-Jordan elimination turns the share into S = K^-1 K_a. Rows that depend on those before them are
+  // left out.
   double diagonal[N];
   for (int i = 0; i < N; ++i) diagonal[i] = k[i][i];
+  int rank = 0;
   for (int i = 0; i < N; ++i) {
     constexpr double kNothing = 1e-6;  // of the diagonal, which has single precision
-    const double inverse = k[i][i] > kNothing * diagonal[i] ? 1 / k[i][i] : 0;
-    for (int j = 0; j < N; ++j) k[i][j] *= inverse, part[0][i][j] *= inverse, part[1][i][j] *= inverse;
+    const bool counts = k[i][i] > kNothing * diagonal[i];
+    const double inverse = counts ? 1 / k[i][i] : 0;
+    rank += counts ? 1 : 0;
+    for (int j = i + 1; j < N; ++j) k[i][j] *= inverse;
+    for (int j = 0; j < N; ++j) share[i][j] *= inverse;
     for (int row = 0; row < N; ++row) {
       if (row == i) continue;
       const double factor = k[row][i];
-      for (int j = 0; j < N; ++j) {
-        k[row][j] -= factor * k[i][j];
-        part[0][row][j] -= factor * part[0][i][j], part[1][row][j] -= factor * part[1][i][j];
-      }
+      for (int j = i + 1; j < N; ++j) k[row][j] -= factor * k[i][j];
+      for (int j = 0; j < N; ++j) share[row][j] -= factor * share[i][j];
     }
   }
-  // The trace of the 16th power is the sum of the eigenvalues' 16th powers: within 7 % of the largest.
-  const auto largest = [](double(&s)[N][N]) {
+  double first = 0, second = 0, third = 0;  // elementary symmetric sums of the eigenvalues of S
+  for (int i = 0; i < N; ++i) {
+    first += share[i][i];
+    for (int j = 0; j < i; ++j) second += share[i][i] * share[j][j] - share[i][j] * share[j][i];
+  }
+  if constexpr (N == 3) {
+    const auto minor = [&share](int i, int j) {
+      return share[1][i] * share[2][j] - share[1][j] * share[2][i];
+    };
+    third = share[0][0] * minor(1, 2) - share[0][1] * minor(0, 2) + share[0][2] * minor(0, 1);
+  }
+  // Squares all eigenvalues four times (Dandelin and Graeffe's method): the sum of their 16th powers is
+  // within a root of 1.07 of the largest. Relative to their sum, so that nothing is lost of small ones.
+  const auto largest = [](double sum, double pairs, double product) {
+    if (!(sum > 0)) return Real(0);
+    double a = 1, b = pairs / (sum * sum), c = product / (sum * sum * sum);
     for (int squaring = 0; squaring < 4; ++squaring) {
-      double t[N][N]{};
-      for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j)
-          for (int m = 0; m < N; ++m) t[i][j] += s[i][m] * s[m][j];
-      std::copy(&t[0][0], &t[0][0] + N * N, &s[0][0]);
+      const double next = a * a - 2 * b;
+      b = b * b - 2 * a * c, c = c * c, a = next;
     }
-    double sum = 0;
-    for (int i = 0; i < N; ++i) sum += s[i][i];
-    for (int root = 0; root < 4; ++root) sum = std::sqrt(std::max(sum, 0.0));
-    return static_cast<Real>(std::min(sum, 1.0));
+    for (int root = 0; root < 4; ++root) a = std::sqrt(std::max(a, 0.0));
+    return static_cast<Real>(std::min(sum * a, 1.0));
   };
-  return {largest(part[0]), largest(part[1])};
+  // The eigenvalues of K^-1 K_b are 1 minus these, where rows count.
+  const double n = rank, of_three = rank == 3 ? 1 - first + second - third : 0;
+  return {largest(first, second, third),
+          largest(n - first, n * (n - 1) / 2 - (n - 1) * first + second, of_three)};
 }
 
 }  // namespace plumb

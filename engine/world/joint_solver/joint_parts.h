@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "engine/world/joint_solver/joint_lanes.h"
 #include "engine/world/joint_solver/joint_lists.h"
 #include "engine/world/joint_solver/joint_set.h"
 
@@ -34,11 +36,28 @@ struct BodyJoints {
 struct JointRun {
   JointForm form;
   int colour;
+  bool sorted = false;  ///< into blocks and those that are alone, from `first` to `last`
+  JointCounts first{}, last{};
 };
 
-/// Joints that a thread takes at a time: some 1 to 2 us of work, where a thread that joins a loop takes 0.3.
-/// Hinges are solved four at a time.
-inline constexpr int kHingesOfTask = 128, kJointsOfTask = 16;
+/// Joints, and blocks of joints, that a thread takes at a time: some 1 to 2 us of work, where a thread that
+/// joins a loop takes 0.3.
+inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
+
+/// Joints side by side, of the forms that have them.
+template <class Real>
+using JointLaneStore =
+    std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, DistanceRows>>,
+               JointBlocks<JointConstraint<Real, RevoluteRows>>,
+               JointBlocks<JointConstraint<Real, PrismaticRows>>,
+               JointBlocks<JointConstraint<Real, WeldRows>>, JointBlocks<JointConstraint<Real, WheelRows>>>;
+template <class Constraint, class... Blocks>
+constexpr bool has_blocks(const std::tuple<Blocks...>*) {
+  return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
+}
+template <class Constraint>
+inline constexpr bool kSideBySide =
+    has_blocks<Constraint>(static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
 
 /// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
 /// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.
@@ -48,11 +67,30 @@ void share_joints(Crew& crew, int count, int grain, void (*visit)(void*, int, in
 /// colour.
 template <class Visit>
 void share_run(JointRun run, int count, Crew* crew, Visit visit) {
-  const int grain = run.form == kHinge ? kHingesOfTask : kJointsOfTask;
+  const int grain = kJointsOfTask;
   if (crew == nullptr || !crew->shares() || run.colour == kOverflowColour || count <= grain)
     return visit(0, count);
   const auto call = [](void* it, int first, int last) { (*static_cast<Visit*>(it))(first, last); };
   share_joints(*crew, count, grain, call, &visit);
+}
+
+/// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its joints that are alone.
+template <class Visit>
+void share_blocks(const JointRun& run, Crew* crew, const Visit& visit) {
+  const int of_blocks = (run.last.blocks - run.first.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
+            of_alone = (run.last.alone - run.first.alone + kJointsOfTask - 1) / kJointsOfTask;
+  if (crew == nullptr || !crew->shares() || of_blocks + of_alone < 2) return visit(run.first, run.last);
+  crew->blocks(of_blocks + of_alone, [&](int task) {
+    JointCounts first = run.first, last = run.first;
+    if (task < of_blocks) {
+      first.blocks += task * kBlocksOfTask;
+      last.blocks = std::min(first.blocks + kBlocksOfTask, run.last.blocks);
+    } else {
+      first.alone += (task - of_blocks) * kJointsOfTask;
+      last.alone = std::min(first.alone + kJointsOfTask, run.last.alone);
+    }
+    visit(first, last);
+  });
 }
 
 template <class Real>
@@ -62,6 +100,7 @@ struct JointSet<Real>::Parts {
   std::vector<BodyJoints> taken;  ///< by body: its active joints and their colours
   std::vector<JointRun> runs;     ///< in the order of solving
   JointStore<Real> store;
+  JointLaneStore<Real> lanes;
   int count = 0, active = 0;
 
   const JointSlot& slot(int joint) const { return slots[static_cast<std::size_t>(joint)]; }

@@ -13,7 +13,7 @@ namespace plumb {
 template <class Real>
 struct Symmetric2 {
   Real xx = 0, xy = 0, yy = 0;
-  friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
+  [[gnu::always_inline]] friend Vec2<Real> operator*(Symmetric2 m, Vec2<Real> v) {
     return {m.xx * v.x + m.xy * v.y, m.xy * v.x + m.yy * v.y};
   }
 };
@@ -43,12 +43,14 @@ template <class Number>
 template <class Real>
 [[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real share) {
   const Real trace = k.xx + k.yy;
-  if (k.determinant > std::numeric_limits<Real>::epsilon() * (trace * trace)) {
-    const Real inverse = share / k.determinant;
-    return {inverse * k.yy, -inverse * k.xy, inverse * k.xx};
-  }
-  const Real inverse = trace > 0 ? share / trace : 0;
-  return {inverse, 0, inverse};
+  const Real inverse = share / k.determinant;
+  const Symmetric2<Real> mass{inverse * k.yy, -inverse * k.xy, inverse * k.xx};
+  const auto regular = k.determinant > std::numeric_limits<Scalar<Real>>::epsilon() * (trace * trace);
+  if (all(regular)) [[likely]]
+    return mass;
+  const Real by_trace = select(trace > Real(0), Real(share / trace), Real(0));
+  return {select(regular, mass.xx, by_trace), select(regular, mass.xy, Real(0)),
+          select(regular, mass.yy, by_trace)};
 }
 
 template <class Real>
@@ -58,7 +60,7 @@ template <class Real>
 }
 
 /// Both components of the gap between two anchors, solved together, by a rule that bounds the vector's
-/// length.
+/// length. Side by side are solved those that are rigid without a bound.
 template <class Real>
 struct JointPoint {
   SolverRule<Real> rule{};  ///< without sign and origin
@@ -77,24 +79,28 @@ struct JointPoint {
   void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
 
   /// Records the gap at the end of a substep; the gap at its start is that of `point`.
-  void follow(Vec2<Real> gap) {
-    if (rule.role != RowRole::Motor) return;
-    const bool suffices = length_squared(impulse) < rule.most * rule.most;
-    drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
+  [[gnu::always_inline]] void follow(Vec2<Real> gap) {
+    if (kIsLanes<Real> || rule.role != RowRole::Motor) return;
+    if constexpr (!kIsLanes<Real>) {
+      const bool suffices = length_squared(impulse) < rule.most * rule.most;
+      drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
+    }
   }
 
-  bool rigid() const {
-    return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
+  [[gnu::always_inline]] bool rigid() const {
+    if constexpr (kIsLanes<Real>) {
+      return true;
+    } else {
+      return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
+    }
   }
 
-  void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v, const JointStep<Real>& step,
-                JointShare<Real> part) {
+  [[gnu::always_inline]] void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
+                                       const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
     const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    if (rule.role == RowRole::Spring) {
-      evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
-      return;
-    }
+    if constexpr (!kIsLanes<Real>)
+      if (rule.role == RowRole::Spring) return evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
     mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
     rule.drift = 1;
@@ -114,15 +120,20 @@ struct JointPoint {
     if (part.share == 1) k = {held.xx, held.xy, held.yy, held.xx * held.yy - held.xy * held.xy};
     evaluate_spring(held, k, step, part);
   }
-  void warm_start(JointVelocities<Real>& v) const { v.apply(impulse, point.arm_a, point.arm_b); }
+  [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
+    v.apply(impulse, point.arm_a, point.arm_b);
+  }
 
-  void solve(JointVelocities<Real>& v, JointPass pass) {
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, JointPass pass) {
     const Vec2<Real> before = impulse;
     Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
-    if (rule.role == RowRole::Spring) rate += compliance * before;
+    if constexpr (!kIsLanes<Real>)
+      if (rule.role == RowRole::Spring) rate += compliance * before;
     impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
-    const Real size = length_squared(impulse);
-    if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
+    if constexpr (!kIsLanes<Real>) {
+      const Real size = length_squared(impulse);
+      if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
+    }
     v.apply(impulse - before, point.arm_a, point.arm_b);
   }
 

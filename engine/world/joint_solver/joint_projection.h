@@ -32,7 +32,10 @@ void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Rea
     for (Real& impulse : joint.block.impulse) impulse = 0;
   if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
   // A ratchet advances at reached positions, not at predicted ones.
-  if constexpr (Constraint::kRatchet) joint.evaluate(bodies, step);
+  if constexpr (Constraint::kRatchet) {
+    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
+                   JointTime::Between);
+  }
 }
 
 template <class Real>
@@ -46,12 +49,12 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
              const JointStep<Real>& step) {
   using Constraint = JointConstraint<Real, Kind>;
   BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
-  JointVelocities<Real> v(a, b);
-  if constexpr (Constraint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  JointVelocities<Real> v = velocities_of(bodies, joint);
   const JointVelocities<Real> before = v;
   const Real h = step.h;
 
   const JointPose<Real> at = joint.pose(bodies);
+  joint.remember(motion_of(bodies, joint.a, joint.b));
   JointRows<Real> rows;
   joint.kind.evaluate(at, rows);
   joint.arm_b = rows.arm_b;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/joints/joint_row.h"
+#include "engine/math/lanes.h"
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/joint_solver/joint_set.h"
 
@@ -13,11 +14,22 @@ namespace plumb {
 /// The two solutions of a substep: with bias, or without.
 enum JointPass { kSolve = 0, kRelax = 1 };
 
+// Inlined by force are the functions of a substep, as `Real` may be Lanes: several joints side by side, whose
+// rules have the same roles.
+
 /// Coefficients of a row in one solution: delta = -mass (J v + bias) - scale impulse.
 template <class Real>
 struct RowTerm {
   Real bias = 0, mass = 0, scale = 0;
 };
+
+/// Returns `yes` where the mask is set, `no` elsewhere.
+template <class Mask, class Real>
+[[gnu::always_inline]] inline RowTerm<Real> either(const Mask& mask, const RowTerm<Real>& yes,
+                                                   const RowTerm<Real>& no) {
+  return {select(mask, yes.bias, no.bias), select(mask, yes.mass, no.mass),
+          select(mask, yes.scale, no.scale)};
+}
 
 /// Under-relaxation of a joint that shares bodies with others.
 template <class Real>
@@ -25,7 +37,9 @@ struct JointShare {
   Real share = 1;      ///< fraction of its impulses that is applied at a time
   bool alone = false;  ///< no other joint moves its bodies
 
-  Real stiffest(Real shared) const { return alone ? std::numeric_limits<Real>::infinity() : shared * share; }
+  [[gnu::always_inline]] Real stiffest(Scalar<Real> shared) const {
+    return alone ? Real(std::numeric_limits<Scalar<Real>>::infinity()) : shared * share;
+  }
 };
 
 /// A damped spring in a substep h, implicit Euler: J v' + rate C + compliance lambda' = 0 along its row,
@@ -52,20 +66,23 @@ template <class Real>
 struct StiffSpring {
   Real rate = 0, mass_scale = 1, impulse_scale = 0;
 
-  StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share, const JointStep<Real>& step) {
-    const Softness<Real>& rigid = step.softness;
+  [[gnu::always_inline]] StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share,
+                                     const JointStep<Scalar<Real>>& step) {
+    using std::max, std::min, std::sqrt;
+    const Softness<Scalar<Real>>& rigid = step.softness;
     // h^2 k and h c, times the mobility.
     const Real most = rigid.impulse_scale > 0
                           ? step.h * rigid.bias_rate * rigid.mass_scale / rigid.impulse_scale
                           : step.stiffest;
     const Real elastic = step.h * spring.rate * firmness;
-    const Real k = std::min(elastic, most);
+    const Real k = min(elastic, most);
     // Keeps the settling time c / k if k was reduced.
-    Real c = elastic > 0 ? std::max(firmness - elastic, Real(0)) * (k / elastic) : Real(0);
+    const Real damping =
+        select(elastic > Real(0), Real(max(Real(firmness - elastic), Real(0)) * (k / elastic)), Real(0));
     // Largest damping for which a star of a hundred is stable.
-    constexpr Real kMostDamping = 10;
-    if (share < 1) c = std::min(c, 2 * kMostDamping * std::sqrt(k));
-    const Real held = std::max(k + c, k / (step.h * rigid.bias_rate));
+    constexpr Scalar<Real> kMostDamping = 10;
+    const Real c = select(share < Real(1), Real(min(damping, Real(2 * kMostDamping * sqrt(k)))), damping);
+    const Real held = max(Real(k + c), Real(k / (step.h * rigid.bias_rate)));
     rate = k / (step.h * held);
     mass_scale = held / (1 + held);
     impulse_scale = 1 / (1 + held);
@@ -77,7 +94,7 @@ template <class Real>
 struct SolverRule {
   RowRole role = RowRole::Rigid;
   Real sign = 1, origin = 0, speed = 0;
-  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
+  Real most = std::numeric_limits<Scalar<Real>>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
   /// Of a motor, m or rad: deviation from its target motion, added up while its force sufficed.
@@ -99,9 +116,11 @@ struct SolverRule {
   }
 
   /// Updates a motor's drift over a substep that ended at `q`.
-  void follow(Real q, Real h) {
+  [[gnu::always_inline]] void follow(Real q, Scalar<Real> h) {
     if (role != RowRole::Motor) return;
-    drift = std::abs(impulse) < most ? drift + sign * (q - last) - speed * h : 0;
+    using std::max;
+    const Real size = max(impulse, Real(-impulse));
+    drift = select(size < most, Real(drift + sign * (q - last) - speed * h), Real(0));
     last = q;
   }
 
@@ -109,12 +128,13 @@ struct SolverRule {
   /// `relax` of this substep, `solve` of the next one. `spring_mobility` is the mobility that its spring
   /// refers to. A spring's force belongs to the pose at the start of the substep: one impulse per substep, in
   /// both passes.
-  void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part, const JointStep<Real>& step,
-             RowTerm<Real> (&term)[2]) const {
+  [[gnu::always_inline]] void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part,
+                                    const JointStep<Scalar<Real>>& step, RowTerm<Real> (&term)[2]) const {
     const Real share = part.share;
     const Real c = sign * (q - origin);
-    const Real mass = mobility > 0 ? share / mobility : 0;
-    const Softness<Real>& rigid = step.softness;
+    const auto moves = mobility > Real(0);
+    const Real mass = select(moves, Real(share / mobility), Real(0));
+    const Softness<Scalar<Real>>& rigid = step.softness;
     const RowTerm<Real> pull{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
     const RowTerm<Real> hold{0, mass, 0};
     switch (role) {
@@ -122,27 +142,27 @@ struct SolverRule {
         term[kSolve] = pull, term[kRelax] = hold;
         return;
       case RowRole::Spring: {
-        constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
-        const Real compliance = std::max(spring.compliance * spring_mobility, mobility / kFirmest);
-        if (!(mobility > part.stiffest(step.stiffest) * compliance)) {
-          const Real inverse = mobility > 0 ? 1 / (mobility + compliance) : 0;
-          term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
-          term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
-        } else {
+        using std::max;
+        constexpr Scalar<Real> kFirmest = Scalar<Real>(1e12);  // beyond it a spring is rigid to rounding
+        const Real compliance = max(Real(spring.compliance * spring_mobility), Real(mobility / kFirmest));
+        const Real inverse = select(moves, Real(Real(1) / (mobility + compliance)), Real(0));
+        term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
+        term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
+        if (const auto firm = mobility > part.stiffest(step.stiffest) * compliance; any(firm)) [[unlikely]] {
           const StiffSpring<Real> stiff(spring, mobility / compliance, share, step);
-          term[kSolve] = {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale};
-          term[kRelax] = hold;
+          term[kSolve] = either(firm, {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale},
+                                term[kSolve]);
+          term[kRelax] = either(firm, hold, term[kRelax]);
         }
         return;
       }
-      case RowRole::Limit:
+      case RowRole::Limit: {
         // An open limit may close within the substep, but no faster.
-        if (c > 0) {
-          term[kSolve] = term[kRelax] = {c * step.inverse_h, mass, 0};
-        } else {
-          term[kSolve] = pull, term[kRelax] = hold;
-        }
+        const auto open = c > Real(0);
+        const RowTerm<Real> close{c * step.inverse_h, mass, 0};
+        term[kSolve] = either(open, close, pull), term[kRelax] = either(open, close, hold);
         return;
+      }
       case RowRole::Motor:
         // Like rigid rows, with decaying impulses and position feedback. With undiminished impulses, legs on
         // many held hips swing up.
@@ -151,7 +171,7 @@ struct SolverRule {
         return;
     }
   }
-  Real lower() const { return role == RowRole::Limit ? 0 : -most; }
+  [[gnu::always_inline]] Real lower() const { return role == RowRole::Limit ? Real(0) : Real(-most); }
 };
 
 }  // namespace plumb

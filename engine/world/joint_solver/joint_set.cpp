@@ -13,7 +13,6 @@
 #include "engine/core/room.h"
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
-#include "engine/world/joint_solver/hinge_sweeps.h"
 #include "engine/world/joint_solver/joint_parts.h"
 #include "engine/world/joint_solver/joint_share.h"
 
@@ -64,31 +63,54 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
   });
 }
 
-template <class Parts, class F>
-[[gnu::noinline]] void sweep_run(Parts& parts, JointRun run, Crew* crew, F f) {
-  parts.with(run.form, [&](auto& lists) {
-    auto& list = lists[run.colour];
-    share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-      F own = f;  // a copy, which no other pointer reaches
-      auto* const end = list.data() + last;
-      for (auto* constraint = list.data() + first; constraint != end; ++constraint) own(*constraint);
-    });
-  });
+/// Calls `f(joint)` for a range of a list. `f` is copied, so that no other pointer reaches it.
+template <class Joint, class F>
+[[gnu::noinline]] void for_range(Joint* joint, Joint* const end, F f) {
+  for (; joint != end; ++joint) f(*joint);
 }
 
-/// Visits all active joints in the order of solving, plain revolute ones colour by colour. `others` is not
-/// inlined: plain joints would otherwise pay for its stack frame.
-template <class Real, class Parts, class Hinges, class Others>
-[[gnu::always_inline]] inline void sweep(Parts& parts, Crew* crew, Hinges&& hinges, Others&& others) {
+/// Solves a joint that is alone.
+template <JointSweep kPass, class Joint, class Real>
+[[gnu::always_inline]] inline void run_alone(Joint& joint, const SolverBodies<Real>& bodies,
+                                             const JointStep<Real>& step) {
+  if constexpr (kIsHinge<Joint>)
+    if (joint.held) return;
+  JointVelocities<Real> v = velocities_of(bodies, joint);
+  if constexpr (kPass == JointSweep::WarmStart) joint.warm_start(v);
+  if constexpr (kPass == JointSweep::Solve) joint.solve(v, step);
+  if constexpr (kPass == JointSweep::Relax) joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
+  v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
+}
+
+/// Solves the blocks of a run, and its joints that are alone.
+template <JointSweep kPass, class Joint, class Real>
+[[gnu::noinline]] void sweep_blocks(JointBlocks<Joint>& blocks, const JointRun& run, Crew* crew,
+                                    const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  const auto visit = [&](JointCounts first, JointCounts last) {
+    // Those that are alone come first: blocks of the next colour, which load a body's velocity as one, would
+    // wait for what was just stored in pieces.
+    for (int i = first.alone; i < last.alone; ++i) run_alone<kPass>(blocks.alone(i), bodies, step);
+    if (first.blocks < last.blocks) blocks.sweep(kPass, first.blocks, last.blocks, bodies, step);
+  };
+  share_blocks(run, crew, visit);
+}
+
+/// Solves all active joints in the order of solving, colour by colour.
+template <JointSweep kPass, class Parts, class Real>
+[[gnu::always_inline]] inline void sweep(Parts& parts, Crew* crew, const SolverBodies<Real>& bodies,
+                                         const JointStep<Real>& step) {
   for (const JointRun& run : parts.runs) {
-    if (run.form == kHinge) {
-      auto& list = std::get<kHinge>(parts.store)[run.colour];
+    parts.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      if constexpr (kSideBySide<One>)
+        if (run.sorted)
+          return sweep_blocks<kPass>(std::get<JointBlocks<One>>(parts.lanes), run, crew, bodies, step);
+      auto& list = lists[run.colour];
       share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-        hinges(HingeRun<Real>{list.data() + first, last - first, run.colour != kOverflowColour});
+        for_range(list.data() + first, list.data() + last,
+                  [bodies, step](One& joint) { run_alone<kPass>(joint, bodies, step); });
       });
-    } else {
-      sweep_run(parts, run, crew, others);
-    }
+    });
   }
 }
 
@@ -335,44 +357,113 @@ void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
 
 // ---- Steps
 
-template <class Real>
-void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  Parts& p = *parts_;
-  const auto prepare = [&](auto& constraint) {
-    using Definition = typename std::decay_t<decltype(constraint)>::Definition;
-    if (constraint.known_h != step.h)
-      constraint.set_substep(std::get<Definition>(p.slot(constraint.joint).definition), step.h);
-    const int count_a = p.taken[constraint.a].count, count_b = p.taken[constraint.b].count;
-    constraint.share = 1;
-    if constexpr (!kIsHinge<std::decay_t<decltype(constraint)>>)
-      constraint.alone = std::max(count_a, count_b) < 2;
-    constraint.prepare(bodies, step);
-    if (std::max(count_a, count_b) < kManyJoints) return;
-    constraint.share = joint_share(constraint.load(bodies), count_a, count_b);
-    if (constraint.share < 1) constraint.evaluate(bodies, step);
+namespace {
+
+/// Begins a joint's step.
+template <class Parts, class Joint, class Real>
+void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  using Definition = typename Joint::Definition;
+  if (joint.known_h != step.h)
+    joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
+  joint.share = 1;
+  joint.alone = std::max(p.taken[joint.a].count, p.taken[joint.b].count) < 2;
+  joint.begin_step(bodies, step);
+}
+
+/// Returns the under-relaxation factor of a joint that was evaluated.
+template <class Parts, class Joint, class Real>
+Real share_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodies) {
+  const int count_a = p.taken[joint.a].count, count_b = p.taken[joint.b].count;
+  if (std::max(count_a, count_b) < kManyJoints) return 1;
+  return joint_share(joint.load(velocities_of(bodies, joint)), count_a, count_b);
+}
+
+/// Evaluates a joint whose step has begun.
+template <class Parts, class Joint, class Real>
+void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies,
+                    const JointStep<Real>& step) {
+  if constexpr (kIsHinge<Joint>)
+    if (joint.held) return;
+  const auto evaluate = [&] {
+    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
+                   JointTime::StepStarts);
   };
-  for (const JointRun& run : p.runs) sweep_run(p, run, crew, prepare);
+  evaluate();
+  joint.share = share_of(p, joint, bodies);
+  if (joint.share < 1) evaluate();
+}
+
+}  // namespace
+
+template <class Real>
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  Parts& p = *parts_;
+  for (JointRun& run : p.runs) run.sorted = false;
+  p.for_each_active([&](auto& joint) {
+    begin_step(p, joint, bodies, step);
+    evaluate_first(p, joint, bodies, step);
+  });
 }
 
 template <class Real>
-void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>&, Crew* crew) {
-  sweep<Real>(
-      *parts_, crew, [&](auto hinges) { warm_start_hinges(hinges, bodies); },
-      [bodies](auto& joint) { joint.warm_start(bodies); });
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                             const std::vector<char>& apart, Crew* crew) {
+  Parts& p = *parts_;
+  std::apply([](auto&... blocks) { (blocks.begin(vector_width()), ...); }, p.lanes);
+  for (JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      auto& list = lists[run.colour];
+      run.sorted = kSideBySide<One> && run.colour != kOverflowColour;
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        for (int i = first; i < last; ++i) {
+          begin_step(p, list[i], bodies, step);
+          if (!run.sorted) evaluate_first(p, list[i], bodies, step);
+        }
+      });
+      if constexpr (kSideBySide<One>) {
+        if (!run.sorted) return;
+        JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+        run.first = blocks.counts();
+        blocks.sort(list, bodies.motion, apart);
+        run.last = blocks.counts();
+      }
+    });
+  }
+  const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
+    const auto share = [&](const Joint& joint) { return share_of(p, joint, bodies); };
+    const JointCounts counts = blocks.counts();
+    crew->ranges(counts.blocks, kBlocksOfTask,
+                 [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
+    crew->ranges(counts.alone, kJointsOfTask, [&](int first, int last) {
+      for (int i = first; i < last; ++i) evaluate_first(p, blocks.alone(i), bodies, step);
+    });
+  };
+  std::apply([&](auto&... blocks) { (evaluate(blocks), ...); }, p.lanes);
+}
+
+template <class Real>
+void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
+  const auto finish = [&](auto& blocks) {
+    crew->ranges(blocks.counts().blocks, kBlocksOfTask,
+                 [&](int first, int last) { blocks.finish(first, last, bodies); });
+  };
+  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, parts_->lanes);
+}
+
+template <class Real>
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
+  sweep<JointSweep::WarmStart>(*parts_, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep<Real>(
-      *parts_, crew, [&](auto hinges) { solve_hinges(hinges, bodies, step); },
-      [bodies, step](auto& joint) { joint.solve(bodies, step); });
+  sweep<JointSweep::Solve>(*parts_, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep<Real>(
-      *parts_, crew, [&](auto hinges) { relax_hinges(hinges, bodies, step); },
-      [bodies, step](auto& joint) { joint.relax(bodies, step); });
+  sweep<JointSweep::Relax>(*parts_, crew, bodies, step);
 }
 
 // ---- SlotMap

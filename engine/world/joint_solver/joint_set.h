@@ -118,7 +118,12 @@ class JointSet {
   void put_elsewhere(int joint);
 
   /// Evaluates all rows at the start of the step.
-  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Does the same, and solves joints side by side until `finish`, which must come at the end of the step.
+  /// Those that something else reads or changes before are marked in `apart` (by slot; may be empty).
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, const std::vector<char>& apart,
+               Crew* crew);
+  void finish(const SolverBodies<Real>& bodies, Crew* crew);
   /// Applies the impulses of the last substep.
   void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
   /// Solves velocities with soft position correction.

@@ -12,7 +12,7 @@ HeldHinge<Real> JointSet<Real>::hold(int joint) {
   const JointSlot& slot = parts_->slot(joint);
   const auto& definition = std::get<RevoluteDefinition>(slot.definition);
   HingeConstraint<Real>& hinge = std::get<kHinge>(parts_->store)[slot.colour][slot.index];
-  hinge.held = hinge.alone = true;
+  hinge.held = true;
   return {definition.anchor_a - slot.centre_a, definition.anchor_b - slot.centre_b, &hinge.impulse};
 }
 

@@ -54,18 +54,29 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
 template <class Real>
 bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
                                             Real slack, Real most, Crew* crew) {
+  using Hinge = JointConstraint<Real, RevoluteRows>;
   std::atomic<bool> any = false;
   auto& lists = std::get<kRevolute>(parts_->store);
+  auto& blocks = std::get<JointBlocks<Hinge>>(parts_->lanes);
+  const auto project = [&](Hinge& joint) {
+    const Real turn = plumb::project_angular_limits(joint, bodies.motion, slack);
+    if (turn == 0) return;
+    turn_joint(joint, bodies, rotation, std::clamp(turn, -most, most));
+    any.store(true, std::memory_order_relaxed);
+  };
   for (const JointRun& run : parts_->runs) {
     if (run.form != kRevolute) continue;
+    if (run.sorted) {
+      share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+        if (first.blocks < last.blocks)
+          blocks.beyond_limits(first.blocks, last.blocks, bodies.motion, slack, project);
+        for (int i = first.alone; i < last.alone; ++i) project(blocks.alone(i));
+      });
+      continue;
+    }
     auto& list = lists[run.colour];
     share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-      for (int i = first; i < last; ++i) {
-        const Real turn = plumb::project_angular_limits(list[i], bodies.motion, slack);
-        if (turn == 0) continue;
-        turn_joint(list[i], bodies, rotation, std::clamp(turn, -most, most));
-        any.store(true, std::memory_order_relaxed);
-      }
+      for (int i = first; i < last; ++i) project(list[i]);
     });
   }
   return any.load(std::memory_order_relaxed);

@@ -6,7 +6,10 @@ namespace plumb {
 
 template <class Real>
 void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  parts_->for_each_active([bodies, step](auto& constraint) { constraint.evaluate(bodies, step); });
+  parts_->for_each_active([bodies, step](auto& joint) {
+    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
+                   JointTime::Between);
+  });
 }
 
 template <class Real>

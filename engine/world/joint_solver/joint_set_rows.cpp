@@ -67,8 +67,7 @@ template <class Real, template <class> class Kind>
 void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
               std::vector<JointSolverRow<Real>>& rows) {
   using Constraint = JointConstraint<Real, Kind>;
-  JointVelocities<Real> v(bodies.motion[joint.a], bodies.motion[joint.b]);
-  if constexpr (Constraint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  const JointVelocities<Real> v = velocities_of(bodies, joint);
   const std::size_t first = rows.size();
   const RowList<Real> list{rows, v};
   const JointPose<Real> at = joint.pose(bodies);

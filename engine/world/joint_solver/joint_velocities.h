@@ -12,7 +12,8 @@ struct JointVelocities {
   Real w_a = 0, w_b = 0;
   Real m_a = 0, i_a = 0, m_b = 0, i_b = 0;  ///< inverse
 
-  JointVelocities(const BodyMotion<Real>& a, const BodyMotion<Real>& b)
+  template <class Body>
+  [[gnu::always_inline]] JointVelocities(const Body& a, const Body& b)
       : v_a(a.velocity),
         v_b(b.velocity),
         w_a(a.angular_velocity),
@@ -30,16 +31,16 @@ struct JointVelocities {
   }
 
   /// Returns J v.
-  Real along(const JointRow<Real>& row) const {
+  [[gnu::always_inline]] Real along(const JointRow<Real>& row) const {
     return dot(row.linear_a, v_a) + row.angular_a * w_a + (dot(row.linear_b, v_b) + row.angular_b * w_b);
   }
   /// Returns J_i M^-1 J_j^T.
-  Real inverse_mass(const JointRow<Real>& i, const JointRow<Real>& j) const {
+  [[gnu::always_inline]] Real inverse_mass(const JointRow<Real>& i, const JointRow<Real>& j) const {
     return m_a * dot(i.linear_a, j.linear_a) + i_a * (i.angular_a * j.angular_a) +
            (m_b * dot(i.linear_b, j.linear_b) + i_b * (i.angular_b * j.angular_b));
   }
   /// Applies an impulse: v += M^-1 J^T impulse.
-  void apply(const JointRow<Real>& row, Real impulse) {
+  [[gnu::always_inline]] void apply(const JointRow<Real>& row, Real impulse) {
     v_a += (m_a * impulse) * row.linear_a;
     w_a += i_a * (impulse * row.angular_a);
     v_b += (m_b * impulse) * row.linear_b;
@@ -47,16 +48,43 @@ struct JointVelocities {
   }
 
   /// Returns the velocity of b relative to a at a point.
-  Vec2<Real> at(Vec2<Real> arm_a, Vec2<Real> arm_b) const {
+  [[gnu::always_inline]] Vec2<Real> at(Vec2<Real> arm_a, Vec2<Real> arm_b) const {
     return (v_b + cross(w_b, arm_b)) - (v_a + cross(w_a, arm_a));
   }
   /// Applies `impulse` to b at the point, and its opposite to a.
-  void apply(Vec2<Real> impulse, Vec2<Real> arm_a, Vec2<Real> arm_b) {
+  [[gnu::always_inline]] void apply(Vec2<Real> impulse, Vec2<Real> arm_a, Vec2<Real> arm_b) {
     v_a -= m_a * impulse;
     w_a -= i_a * cross(arm_a, impulse);
     v_b += m_b * impulse;
     w_b += i_b * cross(arm_b, impulse);
   }
 };
+
+/// Returns the velocities of the bodies of a joint. Body a of a mouse joint takes no part.
+template <class Real, class Joint>
+[[gnu::always_inline]] inline JointVelocities<Real> velocities_of(const SolverBodies<Real>& bodies,
+                                                                  const Joint& joint) {
+  JointVelocities<Real> v(bodies.motion[joint.a], bodies.motion[joint.b]);
+  if constexpr (Joint::kOneBody) v.v_a = {}, v.w_a = 0, v.m_a = 0, v.i_a = 0;
+  return v;
+}
+
+/// How the two bodies of a joint have moved since the start of the step.
+template <class Real>
+struct JointMotion {
+  Vec2<Real> moved_a{}, moved_b{};
+  Real turned_a = 0, turned_b = 0;
+  Rotation<Real> rotation_a{}, rotation_b{};
+};
+
+/// Returns it of the bodies a and b.
+template <class Real>
+[[gnu::always_inline]] inline JointMotion<Real> motion_of(const SolverBodies<Real>& bodies, int a, int b) {
+  const BodyMotion<Real>&at_a = bodies.motion[a], &at_b = bodies.motion[b];
+  return {at_a.moved, at_b.moved, at_a.turned, at_b.turned, bodies.rotation[a], bodies.rotation[b]};
+}
+
+/// Time of an evaluation of rows. Motors add up their drift from the start of the step over each substep.
+enum class JointTime { StepStarts, SubstepEnds, Between };
 
 }  // namespace plumb

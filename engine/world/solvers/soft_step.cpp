@@ -58,6 +58,20 @@ const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   return apart;
 }
 
+// Returns marks, by slot, of the joints that are solved with their island; no marks if there are none.
+template <class Real>
+const std::vector<char>& joints_apart(WorldData<Real>& w) {
+  std::vector<char>& apart = w.scratch.joints_apart;
+  apart.clear();
+  for (int i = 0; i < w.scratch.jointed_count; ++i) {
+    for (const int joint : w.scratch.jointed[i].joints) {
+      if (apart.empty()) make_room(apart, w.joint_set.slots());
+      apart[joint] = 1;
+    }
+  }
+  return apart;
+}
+
 }  // namespace
 
 template <class Real>
@@ -87,8 +101,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .stiffest = stiffest_spring<Real>(1),
       .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
-  if (jointed) w.joint_set.prepare(bodies, joints, &w.crew);
   prepare_direct_islands(w);
+  if (jointed) w.joint_set.prepare(bodies, joints, joints_apart(w), &w.crew);
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
@@ -130,6 +144,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     contacts.warm_start = joints.warm_start = 1;
   }
   passes.finish();
+  if (jointed) w.joint_set.finish(bodies, &w.crew);
   finish_direct_islands(w);
 }
 

@@ -21,6 +21,8 @@ struct JointBench {
   double hertz = 60, damping_ratio = 5;  ///< of rigid rows
   int substeps = 4;
   double last_h = 0;
+  bool side_by_side = false;  ///< as a world solves them
+  std::vector<char> apart;    ///< joints that are not
 
   /// A body by its inverse mass and inertia; it is static when both are 0.
   int body(Vec2d at, double inverse_mass, double inverse_inertia, double angle_at = 0) {
@@ -47,7 +49,12 @@ struct JointBench {
     s.softness = softness<Real>(hertz, damping_ratio, h);
     s.warm_start = last_h > 0 ? static_cast<Real>(h / last_h) : 1;
     last_h = h;
-    joints.prepare(bodies(), s);
+    Crew crew;
+    if (side_by_side) {
+      joints.prepare(bodies(), s, apart, &crew);
+    } else {
+      joints.prepare(bodies(), s);
+    }
     for (int i = 0; i < substeps; ++i) {
       accelerate(s.h);
       joints.warm_start(bodies(), s);
@@ -55,6 +62,7 @@ struct JointBench {
       move(s.h);
       joints.relax(bodies(), s);
     }
+    if (side_by_side) joints.finish(bodies(), &crew);
     finish();
   }
   void run(double time, double dt) {

@@ -1,0 +1,293 @@
+#include "engine/world/joint_solver/joint_lanes.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "engine/core/room.h"
+
+namespace plumb {
+namespace {
+
+// Fewest joints in a block: fewer cost less one at a time.
+constexpr int kLeastLanes = 3;
+// Kinds of joints of a colour that wait for a block at once; those of further ones stay alone.
+constexpr int kKinds = 8;
+
+// Calls a function that is inlined, compiled for registers of so many bytes.
+template <int kBytes>
+struct Compiled {
+  template <class Run>
+  static void run(const Run& run) {
+    run();
+  }
+};
+template <>
+struct Compiled<32> {
+  template <class Run>
+  PLUMB_AVX2 static void run(const Run& run) {
+    run();
+  }
+};
+
+/// Calls `act(number, address)` for pairs of a block's number and the function that finds it in a lane.
+template <class Joint, class Act>
+[[gnu::always_inline]] inline auto in_lanes(Joint* const* from, const Act& act) {
+  return [ from, &act ]<class Number, class Value>(Number & x, Value & one) __attribute__((always_inline)) {
+    const std::ptrdiff_t offset = reinterpret_cast<char*>(&one) - reinterpret_cast<char*>(from[0]);
+    act(
+        x, [ from, offset ](int i) __attribute__((always_inline))->Value &
+               { return *reinterpret_cast<Value*>(reinterpret_cast<char*>(from[i]) + offset); });
+  };
+}
+
+template <class Block>
+[[gnu::always_inline]] inline void store_results(Block& block) {
+  const auto store = [&]<class Number>(Number & x, const auto& lane) __attribute__((always_inline)) {
+    Scalar<Number> value[Number::kLanes];
+    x.store(value);
+    for (int i = 0; i < Number::kLanes; ++i) lane(i) = value[i];
+  };
+  block.joint.results(*block.from[0], in_lanes(block.from, store));
+}
+
+/// The bodies of a block.
+template <class Number>
+struct LanePairs {
+  using Real = Scalar<Number>;
+  LaneBodies<Number> a, b;
+  JointVelocities<Number> v;
+
+  template <class Block>
+  [[gnu::always_inline]] LanePairs(const Block& block, const SolverBodies<Real>& bodies, bool moves)
+      : a(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a, moves),
+        b(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b, moves),
+        v(a, b) {}
+
+  [[gnu::always_inline]] JointMotion<Number> motion(const SolverBodies<Real>& bodies) const {
+    const auto rotation = [&](const std::uint32_t(&place)[Number::kLanes]) __attribute__((always_inline)) {
+      const auto at = [&](int i) __attribute__((always_inline))->const Rotation<Real>& {
+        return bodies.rotation[place[i] / kPlaceUnits<Real>];
+      };
+      return Rotation<Number>{Number::of([&](int i) __attribute__((always_inline)) { return at(i).c; }),
+                              Number::of([&](int i) __attribute__((always_inline)) { return at(i).s; })};
+    };
+    return {a.moved, b.moved, a.turned, b.turned, rotation(a.place), rotation(b.place)};
+  }
+  template <class Block>
+  [[gnu::always_inline]] void store(const Block& block) const {
+    if (block.gives_way_a) a.store(v.v_a, v.w_a);
+    if (block.gives_way_b) b.store(v.v_b, v.w_b);
+  }
+};
+
+}  // namespace
+
+template <class Joint>
+void JointBlocks<Joint>::begin(VectorWidth width) {
+  width_ = !kNarrow && width == VectorWidth::Bytes16 ? VectorWidth::None : width;
+  count_ = narrow_ = 0, alone_.clear(), places_.clear();
+}
+
+template <class Joint>
+void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
+                              const std::vector<char>& apart) {
+  ensure_room(alone_, alone_.size() + joints.size());
+  if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
+  if constexpr (kNarrow)
+    if (width_ == VectorWidth::Bytes16) return sort_into<16>(joints, motion, apart);
+  for (Joint& joint : joints) alone_.push_back(&joint);
+}
+
+template <class Joint>
+template <int kBytes>
+void JointBlocks<Joint>::add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints,
+                                   int count, std::uint64_t kind) {
+  if (place == static_cast<int>(blocks.size())) {
+    ensure_room(blocks, blocks.size() + 1);
+    blocks.emplace_back();
+  }
+  Block<kBytes>& block = blocks[place];
+  for (int i = 0; i < block.kLanes; ++i) block.from[i] = joints[std::min(i, count - 1)];
+  block.gives_way_a = (kind & 1) != 0, block.gives_way_b = (kind & 2) != 0;
+  ++count_;
+}
+
+template <class Joint>
+template <int kBytes>
+void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
+                                   const std::vector<char>& apart) {
+  constexpr int kLanes = Block<kBytes>::kLanes;
+  struct Waiting {
+    std::uint64_t kind;
+    int count = 0;
+    Joint* joint[kLanes];
+  } waiting[kKinds];
+  int kinds = 0;
+  const auto add = [&](const Waiting& from) {
+    if constexpr (kNarrow) {
+      if (from.count <= Block<16>::kLanes) {
+        append(places_, -1 - narrow_);
+        return add_block<16>(blocks16_, narrow_++, from.joint, from.count, from.kind);
+      }
+    }
+    append(places_, count_ - narrow_);
+    add_block<32>(blocks32_, count_ - narrow_, from.joint, from.count, from.kind);
+  };
+  for (Joint& joint : joints) {
+    if constexpr (requires { joint.held; })
+      if (joint.held) continue;
+    if (!joint.fits_lanes() || (!apart.empty() && apart[joint.joint])) {
+      alone_.push_back(&joint);
+      continue;
+    }
+    const std::uint64_t kind = joint.lane_kind() << 2 | std::uint64_t{is_dynamic(motion[joint.b])} << 1 |
+                               std::uint64_t{is_dynamic(motion[joint.a])};
+    int place = 0;
+    while (place < kinds && waiting[place].kind != kind) ++place;
+    if (place == kKinds) {
+      alone_.push_back(&joint);
+      continue;
+    }
+    Waiting& of_kind = waiting[place];
+    if (place == kinds) ++kinds, of_kind.kind = kind;
+    of_kind.joint[of_kind.count++] = &joint;
+    if (of_kind.count == kLanes) add(of_kind), of_kind.count = 0;
+  }
+  for (int place = 0; place < kinds; ++place) {
+    const Waiting& rest = waiting[place];
+    if (rest.count >= kLeastLanes) {
+      add(rest);
+    } else {
+      alone_.insert(alone_.end(), rest.joint, rest.joint + rest.count);
+    }
+  }
+}
+
+template <class Joint>
+template <class Run>
+[[gnu::always_inline]] inline void JointBlocks<Joint>::for_each(int first, int last, const Run& run) {
+  if (width_ == VectorWidth::Bytes32) {
+    Compiled<32>::run([&]() __attribute__((always_inline)) {
+      for (int i = first; i < last; ++i) {
+        const int place = places_[i];
+        if constexpr (kNarrow) {
+          if (place < 0) {
+            run(blocks16_[-1 - place]);
+            continue;
+          }
+        }
+        run(blocks32_[place]);
+      }
+    });
+  } else if constexpr (kNarrow) {
+    Compiled<16>::run([&]() __attribute__((always_inline)) {
+      for (int i = first; i < last; ++i) run(blocks16_[-1 - places_[i]]);
+    });
+  }
+}
+
+template <class Joint>
+void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& bodies,
+                                 const JointStep<Real>& step, ShareOf share, const void* data) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        for (int i = 0; i < block.kLanes; ++i) {
+          block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->a);
+          block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->b);
+        }
+        load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
+        load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+        block.joint.take_kind(*block.from[0]);
+        const auto load = [&](Number & x, const auto& lane) __attribute__((always_inline)) {
+          x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
+        };
+        block.joint.inputs(*block.from[0], in_lanes(block.from, load));
+        block.joint.share = 1;
+        const LanePairs<Number> pairs(block, bodies, true);
+        const JointMotion<Number> motion = pairs.motion(bodies);
+        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
+        store_results(block);
+        bool all = true;
+        for (int i = 0; i < block.kLanes; ++i) {
+          block.from[i]->share = share(data, *block.from[i]);
+          all = all && block.from[i]->share == 1;
+        }
+        if (all) return;
+        block.joint.share =
+            Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
+        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
+      });
+}
+
+template <class Joint>
+void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& of,
+                               const JointStep<Real>& settings) {
+  const SolverBodies<Real> bodies = of;  // copies, which no other pointer reaches
+  const JointStep<Real> step = settings;
+  switch (pass) {
+    case JointSweep::WarmStart:
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, false);
+            block.joint.warm_start(pairs.v);
+            pairs.store(block);
+          });
+    case JointSweep::Solve:
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, false);
+            block.joint.solve(pairs.v, step);
+            pairs.store(block);
+          });
+    case JointSweep::Relax:
+      return for_each(
+          first,
+          last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+            LanePairs<Number> pairs(block, bodies, true);
+            block.joint.relax(pairs.motion(bodies), pairs.v, step);
+            pairs.store(block);
+          });
+  }
+}
+
+template <class Joint>
+void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+                                       const void* data) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        if constexpr (requires { block.joint.turn.rule; }) {
+          const LaneBodies<Number> a(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a,
+                                     true);
+          const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b,
+                                     true);
+          const Number beyond = block.joint.beyond_limits(b.turned - a.turned, slack);
+          if (!any(beyond < Number(0))) return;
+          for (int i = 0; i < block.kLanes; ++i)
+            if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
+        }
+      });
+}
+
+template <class Joint>
+void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& bodies) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        store_results(block);
+        for (int i = 0; i < block.kLanes; ++i) block.from[i]->end_step(bodies);
+      });
+}
+
+#define PLUMB_FOR(Real)                                             \
+  template class JointBlocks<HingeConstraint<Real>>;                \
+  template class JointBlocks<JointConstraint<Real, DistanceRows>>;  \
+  template class JointBlocks<JointConstraint<Real, RevoluteRows>>;  \
+  template class JointBlocks<JointConstraint<Real, PrismaticRows>>; \
+  template class JointBlocks<JointConstraint<Real, WeldRows>>;      \
+  template class JointBlocks<JointConstraint<Real, WheelRows>>;
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

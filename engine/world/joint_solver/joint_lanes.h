@@ -1,0 +1,116 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/math/vector_width.h"
+#include "engine/world/contact_solver/lane_bodies.h"
+#include "engine/world/joint_solver/joint_lists.h"
+
+namespace plumb {
+
+/// A joint of one colour, form and kind in each lane, for the time of a step: the same type as a single joint
+/// has, of lanes. Lanes that are left over repeat the last joint: they come to the same results, which are
+/// stored twice.
+template <class Joint, class Number>
+struct JointLanes;
+template <class Real, class Number, template <class> class Kind>
+struct JointLanes<JointConstraint<Real, Kind>, Number> {
+  using Type = JointConstraint<Number, Kind>;
+};
+template <class Real, class Number>
+struct JointLanes<HingeConstraint<Real>, Number> {
+  using Type = HingeConstraint<Number>;
+};
+template <class Joint, class Number>
+struct LanesOfJoints {
+  static constexpr int kLanes = Number::kLanes;
+
+  std::uint32_t place_a[kLanes], place_b[kLanes];  ///< see kPlaceUnits
+  Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
+  bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
+  Joint* from[kLanes];
+  typename JointLanes<Joint, Number>::Type joint;
+};
+
+/// The passes over joints: apply the last impulses; solve with a bias; evaluate and solve without.
+enum class JointSweep { WarmStart, Solve, Relax };
+
+/// Joints that are solved one at a time, and blocks of them: how many.
+struct JointCounts {
+  int blocks = 0, alone = 0;
+};
+
+/// The joints of one form, side by side. Kept from step to step is only the memory.
+template <class Joint>
+class JointBlocks {
+ public:
+  using Real = Scalar<decltype(Joint::share)>;
+
+  JointBlocks() = default;
+  JointBlocks(const JointBlocks&) {}
+  JointBlocks& operator=(const JointBlocks&) { return *this; }
+
+  /// Begins a step with no joints.
+  void begin(VectorWidth width);
+  /// Sorts joints of a colour, whose step has begun, into blocks and those that stay alone: who are few of
+  /// their kind, or marked in `apart` (by slot), because something else reads or changes them until `finish`.
+  void sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  /// Returns how many there are now.
+  JointCounts counts() const { return {count_, static_cast<int>(alone_.size())}; }
+  Joint& alone(int place) const { return *alone_[place]; }
+
+  /// Fills blocks and evaluates their joints. `share(joint)` returns the under-relaxation factor of a joint
+  /// that was evaluated.
+  template <class Share>
+  void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+               const Share& share) {
+    const auto call = [](const void* it, const Joint& joint) {
+      return (*static_cast<const Share*>(it))(joint);
+    };
+    prepare(first, last, bodies, step, call, &share);
+  }
+  void sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& bodies,
+             const JointStep<Real>& step);
+  /// Calls `act(joint)` for the joints of blocks of which one is turned beyond a limit by more than `slack`.
+  template <class Act>
+  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, const Act& act) {
+    const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
+    beyond_limits(first, last, motion, slack, call, &act);
+  }
+  /// Writes the results back to the joints.
+  void finish(int first, int last, const SolverBodies<Real>& bodies);
+
+ private:
+  /// A narrow register has two doubles: moving them there costs more than it saves.
+  static constexpr bool kNarrow = sizeof(Real) == 4;
+  /// Numbers in a register, or in two: at least four, as the records have that are moved there.
+  template <int kBytes>
+  using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
+  template <int kBytes>
+  using Block = LanesOfJoints<Joint, Number<kBytes>>;
+  using ShareOf = Real (*)(const void*, const Joint&);
+  using Visit = void (*)(const void*, Joint&);
+
+  /// Sorts into blocks of `kBytes`, what remains of a kind into narrow ones if they suffice.
+  template <int kBytes>
+  void sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  template <int kBytes>
+  void add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints, int count,
+                 std::uint64_t kind);
+  void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+               ShareOf share, const void* data);
+  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+                     const void* data);
+  /// Calls `run(block)` for the blocks from first to last, compiled for their registers.
+  template <class Run>
+  void for_each(int first, int last, const Run& run);
+
+  VectorWidth width_ = VectorWidth::None;
+  int count_ = 0, narrow_ = 0;  ///< blocks; those of 16 bytes among them
+  std::vector<Joint*> alone_;
+  std::vector<int> places_;  ///< of the blocks: in blocks32_, or from -1 on downwards in blocks16_
+  std::vector<Block<16>> blocks16_;
+  std::vector<Block<32>> blocks32_;
+};
+
+}  // namespace plumb
