@@ -364,6 +364,16 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
 }
 
+// Marks the bodies that contacts have pressed on in this step: they do not fly freely.
+template <class Real>
+void find_loaded_bodies(WorldData<Real>& w) {
+  w.scratch.loaded.assign(w.bodies.size(), 0);
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const bool presses = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    if (presses || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0) note_loaded(w, c);
+  });
+}
+
 // Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
@@ -487,6 +497,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   w.scratch.deep_contacts.clear();
   if (w.settings.continuous) find_deep_contacts(w);
   if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
+  find_loaded_bodies(w);
   const double time = static_cast<double>(dt);
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
   swept_bodies.clear(), w.scratch.toi_events.clear();

@@ -52,18 +52,32 @@ void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& 
     c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
 }
 
-// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
-// that.
+// rad, turn of a body in a step up to which its manifolds are recycled: the series below then leave 1e-9 of
+// an arm.
+constexpr double kRecycleTurn = 1.0 / 32;
+
+// Recycles the manifold: turns it with body a, and updates separations to first order. Returns false if b has
+// moved too much against a for that. Bodies that move as one, as the filling of a drum, keep theirs however
+// far they go.
 template <class Real>
-bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
+bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_b) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  const Vec2<Real> shift = b.moved - a.moved;
-  c.recycle_budget -= size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
-  if (c.recycle_budget < 0) return false;
-  const Real closed = dot(c.normal, shift);
-  for (int i = 0; i < c.count; ++i) {
-    c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
-  }
+  const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
+  // Sine of a's turn, and 1 less its cosine.
+  const Real turn = a.turned, squared = turn * turn;
+  const Real sine = turn - turn * squared * (Real(1) / 6);
+  const Real bend = Real(0.5) * squared * (1 - squared * (Real(1) / 12));
+  const Vec2<Real> after{n.x - sine * n.y - bend * n.x, n.y + sine * n.x - bend * n.y};
+  // The mean of the normals before and after. Turned together the bodies keep the arms and move by a chord:
+  // `middle` times that is the sine times the arms' difference.
+  const Vec2<Real> middle = Real(0.5) * (n + after);
+  const Real relative_turn = b.turned - turn;
+  const Real closed = dot(middle, shift) + (c.arm_b[0] - c.arm_a[0]) * sine;
+  const Real slid = cross(middle, shift) - (c.arm_tangent_b - c.arm_tangent_a) * sine;
+  c.recycle_budget -= std::abs(closed) + std::abs(slid) + std::abs(relative_turn) * extent_b;
+  if (c.recycle_budget < 0 || std::abs(turn) > Real(kRecycleTurn)) return false;
+  c.normal = after;
+  for (int i = 0; i < c.count; ++i) c.separation[i] += closed + c.arm_b[i] * relative_turn;
   return true;
 }
 
@@ -243,23 +257,15 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
   return c.count > 0 && at.outlook != Outlook::Misses;
 }
 
-// Notes that a contact presses on its bodies. Blocks may note the same body at once.
-template <class Real>
-void note_loaded(WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  if (!(c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0)) return;
-  for (const int body : {c.body_a, c.body_b})
-    __atomic_store_n(&w.scratch.loaded[body], char(1), __ATOMIC_RELAXED);
-}
-
 // Carries a contact with points on from its constraint and its bodies' motion alone. Returns kStale if
 // they have moved too much for that, and kLeft if its shapes may have separated.
 template <class Real>
 int carry_on(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
-  note_loaded(w, c);
+  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = touches(c) != c.touching ? kTouchChange : 0;
   const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;
-  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) return touch | left | kStale;
+  if (!recycle_manifold(w, c, w.extents[c.body_b])) return touch | left | kStale;
   return touch | left | (begin_step(w, c, dt) ? kBounces : 0);
 }
 
