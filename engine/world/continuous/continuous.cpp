@@ -364,13 +364,18 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
 }
 
-// Marks the bodies that contacts have pressed on in this step: they do not fly freely.
+// Marks the bodies that contacts have pressed on in this step, and of the others those that may be held by
+// one.
 template <class Real>
 void find_loaded_bodies(WorldData<Real>& w) {
   w.scratch.loaded.assign(w.bodies.size(), 0);
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     const bool presses = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
-    if (presses || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0) note_loaded(w, c);
+    if (presses || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0) return note_loaded(w, c);
+    const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+    if (c.separation[0] > near && (c.count < 2 || c.separation[1] > near)) return;
+    for (const int body : {c.body_a, c.body_b})
+      if (w.scratch.loaded[body] == 0) w.scratch.loaded[body] = kMayHold;
   });
 }
 

@@ -56,12 +56,11 @@ void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& 
 // an arm.
 constexpr double kRecycleTurn = 1.0 / 32;
 
-// Recycles the manifold: turns it with body a, and updates separations to first order. Returns false if b has
-// moved too much against a for that. Bodies that move as one, as the filling of a drum, keep theirs however
-// far they go.
+// Recycles the manifold of bodies that move as one, as the filling of a drum: turns it with body a, and
+// charges only what b has moved against a. Returns false if that is too much.
 template <class Real>
-bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_b) {
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
+                   ContactConstraint<Real>& c) {
   const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
   // Sine of a's turn, and 1 less its cosine.
   const Real turn = a.turned, squared = turn * turn;
@@ -78,6 +77,23 @@ bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real
   if (c.recycle_budget < 0 || std::abs(turn) > Real(kRecycleTurn)) return false;
   c.normal = after;
   for (int i = 0; i < c.count; ++i) c.separation[i] += closed + c.arm_b[i] * relative_turn;
+  return true;
+}
+
+// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
+// that. What they have left of the budget is first spent on all of their motion, with the normal as it is: a
+// normal that follows each tremor of a light body swings the load of a heavy one on it.
+template <class Real>
+bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Vec2<Real> shift = b.moved - a.moved;
+  const Real all = size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
+  if (!(all <= c.recycle_budget)) return turn_manifold(a, b, extent_b, c);
+  c.recycle_budget -= all;
+  const Real closed = dot(c.normal, shift);
+  for (int i = 0; i < c.count; ++i) {
+    c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
+  }
   return true;
 }
 
@@ -265,7 +281,7 @@ int carry_on(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = touches(c) != c.touching ? kTouchChange : 0;
   const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;
-  if (!recycle_manifold(w, c, w.extents[c.body_b])) return touch | left | kStale;
+  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) return touch | left | kStale;
   return touch | left | (begin_step(w, c, dt) ? kBounces : 0);
 }
 
