@@ -95,6 +95,9 @@ void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScra
   const int contacts = static_cast<int>(bounces.size());
   if (static_cast<int>(room.in_list.size()) < contacts) {
     make_room(room.in_list, contacts), make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
+    const std::size_t points = room.next.size();
+    ensure_room(room.struck, points), ensure_room(room.grouped, points);
+    ensure_room(room.following, points), ensure_room(room.latest, points);
   }
   for (const RestitutionContact<Real>& bounce : bounces) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {

@@ -319,6 +319,8 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
 template <class Real>
 void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
   std::vector<ToiEvent>& toi_events = w.scratch.toi_events;
+  // For four bodies that have all the impacts that a step permits: a burst seldom grows the list.
+  ensure_room(toi_events, 4 * tuning::kImpactsInFlight);
   std::make_heap(toi_events.begin(), toi_events.end(), is_later);
   while (!toi_events.empty()) {
     std::pop_heap(toi_events.begin(), toi_events.end(), is_later);

@@ -58,9 +58,10 @@ constexpr double kRecycleTurn = 1.0 / 32;
 
 // Recycles the manifold of bodies that move as one, as the filling of a drum: turns it with body a, and
 // charges only what b has moved against a. Returns false if that is too much.
+// Not inlined: contacts at rest would pay for its registers.
 template <class Real>
-bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
-                   ContactConstraint<Real>& c) {
+[[gnu::noinline]] bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
+                                     ContactConstraint<Real>& c) {
   const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
   // Sine of a's turn, and 1 less its cosine.
   const Real turn = a.turned, squared = turn * turn;
