@@ -95,6 +95,9 @@ void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScra
   const int contacts = static_cast<int>(bounces.size());
   if (static_cast<int>(room.in_list.size()) < contacts) {
     make_room(room.in_list, contacts), make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
+    const std::size_t points = room.next.size();
+    ensure_room(room.struck, points), ensure_room(room.grouped, points);
+    ensure_room(room.following, points), ensure_room(room.latest, points);
   }
   for (const RestitutionContact<Real>& bounce : bounces) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
@@ -185,6 +188,41 @@ void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, R
   }
 }
 
+// Prefetches the contacts of a list and, once these are loaded, their bodies: they are scattered in memory.
+// Always inlined, because GCC 12 drops calls of a function that only prefetches.
+template <class Real>
+[[gnu::always_inline]] inline void prefetch_listed(const BodyMotion<Real>* motion,
+                                                   const std::vector<RestitutionContact<Real>>& bounces,
+                                                   const std::vector<int>& list, std::size_t i) {
+  constexpr std::size_t kBounces = 12, kContacts = 8, kBodies = 4;
+  if (i + kBounces < list.size()) __builtin_prefetch(&bounces[list[i + kBounces]]);
+  if (i + kContacts < list.size()) {
+    const char* const contact = reinterpret_cast<const char*>(bounces[list[i + kContacts]].contact);
+    for (std::size_t byte = 0; byte < sizeof(ContactConstraint<Real>); byte += 64)
+      __builtin_prefetch(contact + byte);
+  }
+  if (i + kBodies >= list.size()) return;
+  const ContactConstraint<Real>& c = *bounces[list[i + kBodies]].contact;
+  __builtin_prefetch(&motion[c.body_a]), __builtin_prefetch(&motion[c.body_b]);
+}
+
+// Brings the contacts of a list, all of the crowd and marked, into the order of the crowd. Clears the marks.
+template <class Real>
+void arrange_looked(ImpactScratch<Real>& room) {
+  constexpr std::size_t kSorted = 16;  // a list of fewer than one in so many is sorted by itself
+  if (kSorted * room.looked.size() < room.crowd.size()) {
+    std::sort(room.looked.begin(), room.looked.end());
+    for (const int i : room.looked) room.in_list[i] = 0;
+    return;
+  }
+  room.looked.clear();
+  for (const int i : room.crowd) {
+    if (room.in_list[i] == 0) continue;
+    room.in_list[i] = 0;
+    append(room.looked, i);
+  }
+}
+
 // Finds the points of the next impacts: for each body those of its earliest one. Looks only at the contacts
 // that are listed, whose bodies have had an impact since they were looked at: what is expected of the others
 // has not changed.
@@ -192,7 +230,9 @@ template <class Real>
 void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real least,
                  Real h, ImpactScratch<Real>& room) {
   room.struck.clear(), room.groups.clear();
-  for (const int i : room.looked) {
+  for (std::size_t k = 0; k < room.looked.size(); ++k) {
+    prefetch_listed(motion, bounces, room.looked, k);
+    const int i = room.looked[k];
     room.in_list[i] = 0;
     look_at(motion, bounces[i], least, h, room, room.coming[i]);
     for (const int body : {bounces[i].contact->body_a, bounces[i].contact->body_b})
@@ -209,11 +249,11 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     room.earliest[group] = earliest;
     room.marked[group] = 0;
   }
-  std::sort(room.looked.begin(), room.looked.end());
+  arrange_looked(room);
   for (const int i : room.looked) {
-    room.in_list[i] = 0;
-    const ContactConstraint<Real>& c = *bounces[i].contact;
     const ComingImpact<Real>& coming = room.coming[i];
+    if (coming.time[0] == kNever<Real> && coming.time[1] == kNever<Real>) continue;
+    const ContactConstraint<Real>& c = *bounces[i].contact;
     Real until = kNever<Real>;
     for (const int body : {c.body_a, c.body_b})
       if (has_mass(motion[body])) until = std::min(until, room.earliest[group_of(room, body)]);
@@ -232,6 +272,8 @@ template <class Real>
 void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
   std::vector<StruckPoint<Real>>& struck = room.struck;
   const int count = static_cast<int>(struck.size());
+  std::vector<int>&following = room.following, &latest = room.latest;
+  following.assign(struck.size(), -1), latest.assign(struck.size(), -1);
   const auto first_of = [&](int i) {
     while (struck[i].group != i) i = struck[i].group = struck[struck[i].group].group;
     return i;
@@ -247,15 +289,16 @@ void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
     }
   }
   for (int i = 0; i < count; ++i) {
-    struck[i].group = first_of(i);
+    const int group = struck[i].group = first_of(i);
+    if (group != i) following[latest[group]] = i;
+    latest[group] = i;
     for (const int body : {struck[i].bounce->contact->body_a, struck[i].bounce->contact->body_b})
       room.struck_at[group_of(room, body)] = -1;
   }
-  // The list is in the order of contacts and points.
-  std::sort(struck.begin(), struck.end(), [](const StruckPoint<Real>& a, const StruckPoint<Real>& b) {
-    if (a.group != b.group) return a.group < b.group;
-    return a.bounce != b.bounce ? a.bounce < b.bounce : a.point < b.point;
-  });
+  room.grouped.clear();
+  for (int i = 0; i < count; ++i)
+    for (int k = struck[i].group == i ? i : -1; k != -1; k = following[k]) append(room.grouped, struck[k]);
+  struck.swap(room.grouped);
 }
 
 // Returns the factor on a round's impulses with which they gain no energy: 1 if they gain none. Scaled by k

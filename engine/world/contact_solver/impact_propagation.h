@@ -63,7 +63,8 @@ struct ImpactScratch {
   std::vector<int> crowd;   ///< contacts to which impacts may propagate, ascending
   std::vector<int> looked;  ///< contacts to look at
   std::vector<int> groups;  ///< those whose impacts have changed
-  std::vector<StruckPoint<Real>> struck;
+  std::vector<StruckPoint<Real>> struck, grouped;
+  std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
 
   // The bodies of a round with joints, and their rows.
   struct Link {

@@ -372,6 +372,8 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
 template <class Real>
 void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
   std::vector<ToiEvent>& toi_events = w.scratch.toi_events;
+  // For four bodies that have all the impacts that a step permits: a burst seldom grows the list.
+  ensure_room(toi_events, 4 * tuning::kImpactsInFlight);
   std::make_heap(toi_events.begin(), toi_events.end(), is_later);
   while (!toi_events.empty()) {
     std::pop_heap(toi_events.begin(), toi_events.end(), is_later);
@@ -415,6 +417,21 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
     });
   }
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
+}
+
+// Marks the bodies that contacts have pressed on in this step, and of the others those that may be held by
+// one.
+template <class Real>
+void find_loaded_bodies(WorldData<Real>& w) {
+  w.scratch.loaded.assign(w.bodies.size(), 0);
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const bool presses = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+    if (presses || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0) return note_loaded(w, c);
+    const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+    if (c.separation[0] > near && (c.count < 2 || c.separation[1] > near)) return;
+    for (const int body : {c.body_a, c.body_b})
+      if (w.scratch.loaded[body] == 0) w.scratch.loaded[body] = kMayHold;
+  });
 }
 
 // Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
@@ -540,6 +557,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   w.scratch.deep_contacts.clear();
   if (w.settings.continuous) find_deep_contacts(w);
   if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
+  find_loaded_bodies(w);
   const double time = static_cast<double>(dt);
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
   swept_bodies.clear(), w.scratch.toi_events.clear();

@@ -23,6 +23,8 @@ bool is_free(const WorldData<Real>& w, int body) {
   if (record.type != BodyType::Dynamic) return true;
   if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
   if (record.constraints == 0) return true;
+  // Most contacts of what flies in a crowd are too far to hold it, whatever its velocity.
+  if (w.scratch.loaded[body] != kMayHold) return w.scratch.loaded[body] == 0;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});

@@ -4,6 +4,9 @@
 
 namespace plumb {
 
+/// In `Scratch::loaded`, during continuous collision: a contact may hold the body; its velocity decides.
+inline constexpr char kMayHold = 2;
+
 /// Returns the trajectory of a body in a step of `dt`, as computed by the solver.
 template <class Real>
 SweptBody flight_of(const WorldData<Real>& w, int body, double dt);

@@ -53,6 +53,13 @@ ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& 
 template <class Real>
 void set_touching(WorldData<Real>& w, int contact, bool touching);
 
+/// Marks the bodies of a contact that presses on them. Threads may mark the same body at once.
+template <class Real>
+void note_loaded(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  for (const int body : {c.body_a, c.body_b})
+    __atomic_store_n(&w.scratch.loaded[body], char(1), __ATOMIC_RELAXED);
+}
+
 /// Invalidates the manifolds of a body that was teleported.
 template <class Real>
 void invalidate_manifolds(WorldData<Real>& w, int body);

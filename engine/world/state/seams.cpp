@@ -126,7 +126,7 @@ bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbou
 template <class Real>
 void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
   using Kind = typename SeamAnswer<Real>::Kind;
-  if (side.answer.kind == Kind::Hidden || !w.pairs.contains(neighbour, side.mover)) return;
+  if (side.answer.kind == Kind::Hidden) return;
   if (!stays_beside(w, side, w.shapes[neighbour].body)) return;
   const Convex<Real> shape = w.convex(neighbour);
   const SeamAnswer<Real> answer =
@@ -233,8 +233,9 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     edge = record.next[edge & 1];
     const int beside = is_a ? record.shape_b : record.shape_a,
               of_asked = is_a ? record.shape_a : record.shape_b;
-    if (beside != other) look_at(beside);
-    if (of_asked != own && of_asked != other) look_at(of_asked);
+    // A neighbour counts if it has a contact with the shape that moves on it: each is found at that one.
+    if (of_asked == own && beside != other) look_at(beside);
+    if (beside == other && of_asked != own) look_at(of_asked);
   }
   if (!looked) return manifold;
   if (sides[0].answer.kind == Kind::Hidden || sides[1].answer.kind == Kind::Hidden) return {};

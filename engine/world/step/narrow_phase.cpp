@@ -52,14 +52,45 @@ void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& 
     c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
 }
 
+// rad, turn of a body in a step up to which its manifolds are recycled: the series below then leave 1e-9 of
+// an arm.
+constexpr double kRecycleTurn = 1.0 / 32;
+
+// Recycles the manifold of bodies that move as one, as the filling of a drum: turns it with body a, and
+// charges only what b has moved against a. Returns false if that is too much.
+// Not inlined: contacts at rest would pay for its registers.
+template <class Real>
+[[gnu::noinline]] bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
+                                     ContactConstraint<Real>& c) {
+  const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
+  // Sine of a's turn, and 1 less its cosine.
+  const Real turn = a.turned, squared = turn * turn;
+  const Real sine = turn - turn * squared * (Real(1) / 6);
+  const Real bend = Real(0.5) * squared * (1 - squared * (Real(1) / 12));
+  const Vec2<Real> after{n.x - sine * n.y - bend * n.x, n.y + sine * n.x - bend * n.y};
+  // The mean of the normals before and after. Turned together the bodies keep the arms and move by a chord:
+  // `middle` times that is the sine times the arms' difference.
+  const Vec2<Real> middle = Real(0.5) * (n + after);
+  const Real relative_turn = b.turned - turn;
+  const Real closed = dot(middle, shift) + (c.arm_b[0] - c.arm_a[0]) * sine;
+  const Real slid = cross(middle, shift) - (c.arm_tangent_b - c.arm_tangent_a) * sine;
+  c.recycle_budget -= std::abs(closed) + std::abs(slid) + std::abs(relative_turn) * extent_b;
+  if (c.recycle_budget < 0 || std::abs(turn) > Real(kRecycleTurn)) return false;
+  c.normal = after;
+  for (int i = 0; i < c.count; ++i) c.separation[i] += closed + c.arm_b[i] * relative_turn;
+  return true;
+}
+
 // Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
-// that.
+// that. What they have left of the budget is first spent on all of their motion, with the normal as it is: a
+// normal that follows each tremor of a light body swings the load of a heavy one on it.
 template <class Real>
 bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Vec2<Real> shift = b.moved - a.moved;
-  c.recycle_budget -= size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
-  if (c.recycle_budget < 0) return false;
+  const Real all = size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
+  if (!(all <= c.recycle_budget)) return turn_manifold(a, b, extent_b, c);
+  c.recycle_budget -= all;
   const Real closed = dot(c.normal, shift);
   for (int i = 0; i < c.count; ++i) {
     c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
@@ -155,6 +186,8 @@ enum ContactChange : std::uint8_t {
   kBounces = 8,      // see begin_step
   kRenewed = 16,     // its points were computed anew: impulses are not settled yet
   kAsked = 32,       // the user's hook decides about its new points
+  kLeft = 64,        // a shape has left its fat AABB
+  kStale = 128,      // its bodies have moved too much for its points
 };
 
 // Starts a contact without points that has got some, made by `build`.
@@ -187,14 +220,15 @@ void begin_speculative_contact(WorldData<Real>& w, int block, int id, const Spec
 }
 
 // Prefetches contact records kRecords ahead and, once these are loaded, their bodies and shapes kShapes
-// ahead: they are scattered in memory. Always inlined, because GCC 12 drops calls of a function that only
-// prefetches.
-template <class Real>
-[[gnu::always_inline]] inline void prefetch_near(const WorldData<Real>& w, std::size_t i) {
-  constexpr std::size_t kRecords = 16, kShapes = 8;
-  if (i + kRecords < w.near.size()) __builtin_prefetch(&w.contacts[w.near[i + kRecords]]);
-  if (i + kShapes >= w.near.size()) return;
-  const ContactRecord& contact = w.contacts[w.near[i + kShapes]];
+// ahead: they are scattered in memory. `id_at(i)` is the i-th of `count` contacts. Always inlined, because
+// GCC 12 drops calls of a function that only prefetches.
+template <class Real, class IdAt>
+[[gnu::always_inline]] inline void prefetch_contacts(const WorldData<Real>& w, int i, int count,
+                                                     const IdAt& id_at) {
+  constexpr int kRecords = 16, kShapes = 8;
+  if (i + kRecords < count) __builtin_prefetch(&w.contacts[id_at(i + kRecords)]);
+  if (i + kShapes >= count) return;
+  const ContactRecord& contact = w.contacts[id_at(i + kShapes)];
   for (const int body : {contact.body_a, contact.body_b})
     __builtin_prefetch(&w.bodies[body]), __builtin_prefetch(&w.motion[body]);
   for (const int shape : {contact.shape_a, contact.shape_b})
@@ -242,19 +276,28 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
   return c.count > 0 && (holds || at.outlook != Outlook::Misses);
 }
 
-// Recycles the manifold of a contact with points, or rebuilds it if its bodies have moved too much.
+// Carries a contact with points on from its constraint and its bodies' motion alone. Returns kStale if
+// they have moved too much for that, and kLeft if its shapes may have separated.
 template <class Real>
-int update_constraint(WorldData<Real>& w, int block, ContactConstraint<Real>& c, Real dt, Real h) {
+int carry_on(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = touches(c) != c.touching ? kTouchChange : 0;
-  if (w.enlarged[c.body_a] | w.enlarged[c.body_b]) {
-    if (fat_aabbs_apart(w, w.contacts[c.contact])) return touch | kLost;
-  }
-  if (recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b]))
-    return touch | (begin_step(w, c, dt) ? kBounces : 0);
+  const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;
+  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) return touch | left | kStale;
+  return touch | left | (begin_step(w, c, dt) ? kBounces : 0);
+}
+
+// Ends a contact with points whose shapes have separated, or rebuilds its manifold. `change` is what
+// `carry_on` has found, and is completed.
+template <class Real>
+int look_again(WorldData<Real>& w, int block, ContactConstraint<Real>& c, int change, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[c.contact];
-  if (!renew(w, block, contact, dt, h, c)) return touch | kRenewed | kEnded;
-  return touch | kRenewed | (is_asked(w, contact) ? kAsked : 0);
+  if ((change & kLeft) != 0 && fat_aabbs_apart(w, contact)) return (change & kTouchChange) | kLost;
+  const int known = change & ~(kLeft | kStale);
+  if ((change & kStale) == 0) return known;
+  const bool has_points = renew(w, block, contact, dt, h, c);
+  return known | kRenewed | (!has_points ? kEnded : is_asked(w, contact) ? kAsked : 0);
 }
 
 // Contacts of a block: a thread updates them in 10 to 100 us.
@@ -292,7 +335,8 @@ void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
   }
 }
 
-// Updates all contacts, each by itself: what it changes of others is noted.
+// Updates all contacts, each by itself: what it changes of others is noted. First those that are carried on,
+// in the order of memory; then those that need their records and shapes.
 template <class Real>
 void update_each(WorldData<Real>& w, Real dt, Real h) {
   Scratch<Real>& scratch = w.scratch;
@@ -306,24 +350,38 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   // By run: what has changed of any of its contacts.
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
+  scratch.loaded.assign(w.bodies.size(), 0);
+  const auto carry = [&](int block) {
+    const ContactRun<Real> run = runs[block];
+    for (int i = 0; i < run.count; ++i) {
+      const int change = carry_on(w, run.first[i], dt);
+      if (change == 0) continue;
+      changes[run.place + i] = static_cast<std::uint8_t>(change);
+      any[block] |= change;
+    }
+  };
   const auto update = [&](int block) {
     if (block < near_blocks) {
-      for (int i = block * kNearOfBlock; i < std::min(near, (block + 1) * kNearOfBlock); ++i) {
-        prefetch_near(w, i);
-        changes[i] = static_cast<std::uint8_t>(update_nontouching(w, block, w.near[i], dt, h));
+      const int first = block * kNearOfBlock, count = std::min(kNearOfBlock, near - first);
+      const int* const ids = w.near.data() + first;
+      for (int i = 0; i < count; ++i) {
+        prefetch_contacts(w, i, count, [&](int k) { return ids[k]; });
+        changes[first + i] = static_cast<std::uint8_t>(update_nontouching(w, block, ids[i], dt, h));
       }
       return;
     }
+    const int all = any[block - near_blocks];
+    if ((all & (kStale | kLeft)) == 0) return;
     const ContactRun<Real> run = runs[block - near_blocks];
-    std::uint8_t* const noted = changes + run.place;
-    int all = 0;
-    for (int i = 0; i < run.count; ++i) {
-      const int change = update_constraint(w, block, run.first[i], dt, h);
-      if (change == 0) continue;
-      noted[i] = static_cast<std::uint8_t>(change);
-      all |= change;
+    int places[kContactsOfBlock], count = 0;
+    for (int i = 0; i < run.count; ++i)
+      if ((changes[run.place + i] & (kStale | kLeft)) != 0) places[count++] = i;
+    for (int i = 0; i < count; ++i) {
+      prefetch_contacts(w, i, count, [&](int k) { return run.first[places[k]].contact; });
+      std::uint8_t& change = changes[run.place + places[i]];
+      change = static_cast<std::uint8_t>(look_again(w, block, run.first[places[i]], change, dt, h));
+      any[block - near_blocks] |= change;
     }
-    any[block - near_blocks] = all;
   };
   const auto settle = [&](int block) {
     if ((any[block] & kRenewed) != 0) settle_impulses(w, runs[block], dt);
@@ -331,6 +389,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   const int run_count = static_cast<int>(runs.size());
   const Crew::Alone alone(w.crew, w.has_rules());
   w.crew.session([&] {
+    w.crew.blocks(run_count, carry);
     w.crew.blocks(blocks, update);
     w.crew.blocks(run_count, settle);
   });

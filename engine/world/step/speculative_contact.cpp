@@ -37,12 +37,7 @@ template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
-  if (record.constraints == 0) return true;
-  return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
-    if (contact.home != ContactHome::Graph) return false;
-    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    return c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
-  });
+  return w.scratch.loaded[body] == 0;
 }
 
 // Returns the body's motion in the step, relative to `origin`.
