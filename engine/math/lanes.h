@@ -214,8 +214,9 @@ template <class Real, int kCount, int kBytes>
 [[gnu::always_inline]] constexpr bool any(bool mask) { return mask; }
 [[gnu::always_inline]] constexpr bool all(bool mask) { return mask; }
 template <class Real>
-requires std::is_floating_point_v<Real>
-[[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
+[[gnu::always_inline]] constexpr Real select(bool mask, Real yes, Real no) {
+  return mask ? yes : no;
+}
 /// Returns `yes()` where the mask is set, `no()` elsewhere. For single numbers only one of them is called.
 template <class Yes, class No>
 [[gnu::always_inline]] inline auto choose(bool mask, const Yes& yes, const No& no) {
