@@ -92,7 +92,10 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
            action.kind == ActionKind::SetType;
   });
-  const int lasting = std::max(3, static_cast<int>(kLasting / one.dt));
+  // Precise promises that shapes do not overlap at any time.
+  const int lasting = engine.kind == Engine::Kind::Precise
+                          ? 1
+                          : std::max(3, static_cast<int>(kLasting / one.dt));
   std::vector<Outline> now(parts.size());
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
     const Sample& sample = motion.samples[k];
@@ -118,7 +121,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
       }
       ++in[n];
       // An overlap from the start or from an action may take longer, if it keeps shrinking.
-      if (in[n] == lasting / 2) least[n] = depth;
+      if (in[n] == lasting / 2 && lasting > 1) least[n] = depth;
       if (in[n] < lasting || depth < 0.7 * least[n]) {
         if (in[n] >= lasting) in[n] = 0, least[n] = INFINITY;
         continue;
