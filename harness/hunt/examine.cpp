@@ -1,5 +1,6 @@
 #include "harness/hunt/examine.h"
 
+#include "harness/hunt/case_seeds.h"
 #include "harness/hunt/promises.h"
 #include "harness/hunt/relations.h"
 
@@ -24,7 +25,7 @@ void check_some(const std::vector<Relation>& relations, const Engine& engine, co
 }  // namespace
 
 std::vector<std::string> judge_names() {
-  std::vector<std::string> out;
+  std::vector<std::string> out{"case_file"};
   for (const Law& law : laws()) out.push_back(law.name);
   for (const auto* list : {&relations(), &promises()})
     for (const Relation& relation : *list) out.push_back(relation.name);
@@ -35,6 +36,9 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
   Examined out;
   out.skipped = unsupported(engine, one);
   if (!out.skipped.empty()) return out;
+  if (law.empty() || law == "case_file")
+    if (Verdict verdict = case_file_verdict(one, engine)) out.objections.push_back(std::move(*verdict));
+  if (law == "case_file") return out;
   const Motion motion = run(engine, one);
   if (motion.samples.empty() && motion.failure.empty()) {
     out.skipped = motion.stopped.empty() ? "it takes too long" : motion.stopped;

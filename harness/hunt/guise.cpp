@@ -126,19 +126,19 @@ std::vector<Call> calls_to_refuse(BasicWorld<Real>& world) {
   out.push_back({"create_body: negative damping", [&world] { world.create_body({.linear_damping = -1}); }});
   out.push_back({"set_damping(-1)", [&world, body] { world.set_damping(body, 0, -1); }});
   for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 0.0}) {
-    out.push_back({fmt::format("set_mass({})", bad), [&world, body, bad] { world.set_mass(body, {.mass = bad}); }});
+    out.push_back(
+        {fmt::format("set_mass({})", bad), [&world, body, bad] { world.set_mass(body, {.mass = bad}); }});
     out.push_back({fmt::format("set_mass: inertia({})", bad),
                    [&world, body, bad] { world.set_mass(body, {.inertia = bad}); }});
   }
   out.push_back({"set_mass(-1)", [&world, body] { world.set_mass(body, {.mass = -1}); }});
-  out.push_back({"move_towards in no time",
-                 [&world, body] { world.move_towards(body, {0, 0}, 0, 0); }});
+  out.push_back({"move_towards in no time", [&world, body] { world.move_towards(body, {0, 0}, 0, 0); }});
   out.push_back({"create_shape: negative radius",
                  [&world, body] { world.create_shape(body, {.geometry = Circle{-1}}); }});
   if (const std::vector<ShapeId> shapes = world.shapes(body); !shapes.empty()) {
     const ShapeId shape = shapes.front();
-    out.push_back({"set_material: friction < 0",
-                   [&world, shape] { world.set_material(shape, {.friction = -1}); }});
+    out.push_back(
+        {"set_material: friction < 0", [&world, shape] { world.set_material(shape, {.friction = -1}); }});
     out.push_back({"set_material: restitution > 1",
                    [&world, shape] { world.set_material(shape, {.restitution = 1.1}); }});
     out.push_back({"set_density(-1)", [&world, shape] { world.set_density(shape, -1); }});
@@ -281,9 +281,8 @@ std::string not_refused(BasicWorld<Real>& world) {
 template <class Real>
 std::string overrun(BasicWorld<Real>& world, double dt, int substeps) {
   const std::vector<BodyId> bodies = world.bodies();
-  const auto dynamic = std::find_if(bodies.rbegin(), bodies.rend(), [&](BodyId body) {
-    return world.type(body) == BodyType::Dynamic;
-  });
+  const auto dynamic = std::find_if(bodies.rbegin(), bodies.rend(),
+                                    [&](BodyId body) { return world.type(body) == BodyType::Dynamic; });
   if (dynamic == bodies.rend()) return {};
   const double mass = world.mass(*dynamic);
   world.set_velocity(*dynamic, {0.99999 * kLargest, 0});
@@ -293,12 +292,12 @@ std::string overrun(BasicWorld<Real>& world, double dt, int substeps) {
   return release_all(world);
 }
 
-#define PLUMB_INSTANTIATE(Real)                               \
-  template Digest digest_of(const BasicWorld<Real>&);         \
-  template void litter(BasicWorld<Real>&);                    \
-  template void look_at(const BasicWorld<Real>&);             \
-  template void label(BasicWorld<Real>&);                     \
-  template std::string not_refused(BasicWorld<Real>&);        \
+#define PLUMB_INSTANTIATE(Real)                        \
+  template Digest digest_of(const BasicWorld<Real>&);  \
+  template void litter(BasicWorld<Real>&);             \
+  template void look_at(const BasicWorld<Real>&);      \
+  template void label(BasicWorld<Real>&);              \
+  template std::string not_refused(BasicWorld<Real>&); \
   template std::string overrun(BasicWorld<Real>&, double, int);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)

@@ -94,8 +94,7 @@ class Free {
       if (body.type != BodyType::Dynamic) continue;
       out[i].velocity = (1 / body.mass) * loads.force[i] + body.gravity_scale * scene_.gravity -
                         body.linear_damping * y[i].velocity;
-      out[i].angular_velocity =
-          loads.torque[i] / inertia_[i] - body.angular_damping * y[i].angular_velocity;
+      out[i].angular_velocity = loads.torque[i] / inertia_[i] - body.angular_damping * y[i].angular_velocity;
     }
     return out;
   }
@@ -106,9 +105,7 @@ class Free {
     loads.torque[body] += arm.x * force.y - arm.y * force.x;
   }
   // Within a part between switches a force acts, or does not, as in the part's middle.
-  bool acts(double start, double duration) const {
-    return middle_ >= start && middle_ < start + duration;
-  }
+  bool acts(double start, double duration) const { return middle_ >= start && middle_ < start + duration; }
 
   void add(const LinearDrag& law, const std::vector<BodyState>& y, double, Loads& out) const {
     const std::size_t i = at(law.body);
@@ -149,8 +146,8 @@ class Free {
     const double now = length(way);
     if (now == 0) return;
     const Vec2d along = (1 / now) * way;
-    const double tension = law.stiffness * (now - law.rest_length) +
-                           law.damping * dot(b.velocity - a.velocity, along);
+    const double tension =
+        law.stiffness * (now - law.rest_length) + law.damping * dot(b.velocity - a.velocity, along);
     if (law.body_a != kWorld) push(out, at(law.body_a), a.arm, tension * along);
     if (law.body_b != kWorld) push(out, at(law.body_b), b.arm, -tension * along);
   }
@@ -184,10 +181,10 @@ bool may_meet(const Case& one, const std::vector<BodyState>& states) {
     for (std::size_t j = i + 1; j < states.size(); ++j) {
       const Body &a = one.scene.bodies[i], &b = one.scene.bodies[j];
       if (a.type != BodyType::Dynamic && b.type != BodyType::Dynamic) continue;
-      const double spin = reach[i] * std::abs(states[i].angular_velocity) +
-                          reach[j] * std::abs(states[j].angular_velocity);
-      const double way =
-          3 * one.dt * (length(states[i].velocity - states[j].velocity) + spin) + 0.01 * (reach[i] + reach[j]);
+      const double spin =
+          reach[i] * std::abs(states[i].angular_velocity) + reach[j] * std::abs(states[j].angular_velocity);
+      const double way = 3 * one.dt * (length(states[i].velocity - states[j].velocity) + spin) +
+                         0.01 * (reach[i] + reach[j]);
       for (const Shape& s : a.shapes)
         for (const Shape& t : b.shapes) {
           if (!may_touch(s.filter, t.filter)) continue;
@@ -199,13 +196,6 @@ bool may_meet(const Case& one, const std::vector<BodyState>& states) {
   return false;
 }
 
-bool is_free(const Case& one) {
-  if (!one.scene.joints.empty() || one.scene.forces.empty()) return false;
-  return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(), [](const Body& body) {
-    return body.lock_x || body.lock_y || body.fixed_rotation;
-  });
-}
-
 double bound_of(const Case& one, const Engine& engine, double fastest, double hardest, double time) {
   if (engine.kind == Engine::Kind::Precise) return kPreciseShare * largest_size(one.scene);
   // Displacement of three steps, and velocities a step late.
@@ -214,8 +204,14 @@ double bound_of(const Case& one, const Engine& engine, double fastest, double ha
 
 }  // namespace
 
+bool integrable(const Case& one) {
+  if (!one.scene.joints.empty() || one.scene.forces.empty()) return false;
+  return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(),
+                      [](const Body& body) { return body.lock_x || body.lock_y || body.fixed_rotation; });
+}
+
 Verdict integrated_relation(const Case& one, const Engine& engine, const Motion& motion) {
-  if (!motion.failure.empty() || !is_free(one)) return {};
+  if (!motion.failure.empty() || !integrable(one)) return {};
   const Free free(one);
   std::vector<BodyState> coarse = free.start(), fine = coarse;
   const std::vector<double> reach = reaches(one.scene);
@@ -223,7 +219,8 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
       if (one.scene.bodies[i].type == BodyType::Dynamic)
-        most = std::max(most, length(a[i].position - b[i].position) + reach[i] * std::abs(a[i].angle - b[i].angle));
+        most = std::max(most,
+                        length(a[i].position - b[i].position) + reach[i] * std::abs(a[i].angle - b[i].angle));
     return most;
   };
   double fastest = 0, hardest = 0;
@@ -234,15 +231,17 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     free.advance(coarse, from, to, kSteps), free.advance(fine, from, to, 2 * kSteps);
     for (std::size_t i = 0; i < fine.size(); ++i) {
       fastest = std::max(fastest, length(fine[i].velocity) + reach[i] * std::abs(fine[i].angular_velocity));
-      hardest = std::max(hardest, length(fine[i].velocity - before[i].velocity) / one.dt +
-                                      reach[i] * std::abs(fine[i].angular_velocity - before[i].angular_velocity) / one.dt);
+      hardest = std::max(
+          hardest, length(fine[i].velocity - before[i].velocity) / one.dt +
+                       reach[i] * std::abs(fine[i].angular_velocity - before[i].angular_velocity) / one.dt);
     }
     const double bound = bound_of(one, engine, fastest, hardest, to);
     if (!(distance(coarse, fine) <= kKnown * bound)) return {};
     const double off = distance(motion.samples[k].states, fine);
     if (off <= bound) continue;
     const std::vector<double> calm = growth(one, engine, motion);
-    const double most = engine.kind == Engine::Kind::Precise ? kGrown * 30e-6 * largest_size(one.scene) : 0.02 * bound;
+    const double most =
+        engine.kind == Engine::Kind::Precise ? kGrown * 30e-6 * largest_size(one.scene) : 0.02 * bound;
     if (k >= calm.size() || calm[k] > most) return {};
     return Objection{.law = "integrated",
                      .judge = "integrated",

@@ -93,9 +93,8 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
            action.kind == ActionKind::SetType;
   });
   // Precise promises that shapes do not overlap at any time.
-  const int lasting = engine.kind == Engine::Kind::Precise
-                          ? 1
-                          : std::max(3, static_cast<int>(kLasting / one.dt));
+  const int lasting =
+      engine.kind == Engine::Kind::Precise ? 1 : std::max(3, static_cast<int>(kLasting / one.dt));
   std::vector<Outline> now(parts.size());
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
     const Sample& sample = motion.samples[k];

@@ -53,12 +53,12 @@ struct Engine {
 };
 
 struct RunOptions {
-  int refine = 1;           ///< steps per step of the case
-  bool flip_sleep = false;  ///< turns sleep on if it is off, and off if it is on
+  int refine = 1;                     ///< steps per step of the case
+  bool flip_sleep = false;            ///< turns sleep on if it is off, and off if it is on
   Guise guise = Guise::Plain;         ///< of a World
   bool digests = false;               ///< fills `Motion::digests`
   std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
-  double seconds = 5;       ///< limit of processor time
+  double seconds = 5;                 ///< limit of processor time
 };
 
 /// Returns why `engine` does not support `one`; empty if it does.

@@ -29,13 +29,12 @@ Verdict compare(const Case& one, const Engine& engine, const char* name, const c
   for (const Guise guise : guises) {
     const Motion other = run(engine, part, {.guise = guise, .digests = true});
     if (!other.failure.empty()) return objection(other.samples.size(), 0, other.failure);
-    if (!other.broken_promise.empty())
-      return objection(other.samples.size() - 1, 0, other.broken_promise);
+    if (!other.broken_promise.empty()) return objection(other.samples.size() - 1, 0, other.broken_promise);
     const std::vector<double> off = apart(part, plain, other);
     const std::size_t count = std::min(plain.digests.size(), other.digests.size());
     for (std::size_t k = 0; k < count; ++k) {
-      const bool same = whole ? plain.digests[k] == other.digests[k]
-                              : plain.digests[k].visible == other.digests[k].visible;
+      const bool same =
+          whole ? plain.digests[k] == other.digests[k] : plain.digests[k].visible == other.digests[k].visible;
       if (same) continue;
       return objection(k + 1, off[k + 1],
                        fmt::format("goes on with other bits: {:.3g} m off after step {}", off[k + 1], k + 1));
@@ -68,8 +67,8 @@ Verdict refused(const Case& one, const Engine& engine, const Motion&) {
                  {Guise::Refused});
 }
 Verdict labelled(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "labels", "names, user data and hit events change nothing",
-                 {Guise::Labelled}, false);
+  return compare(one, engine, "labels", "names, user data and hit events change nothing", {Guise::Labelled},
+                 false);
 }
 Verdict overrun(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "overrun",
@@ -81,9 +80,7 @@ bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
 bool simulates(const Case& one, const Engine& engine) {
   return !one.world_only() && engine.kind != Engine::Kind::Other;
 }
-bool simulates_world(const Case& one, const Engine& engine) {
-  return !one.world_only() && engine.is_world();
-}
+bool simulates_world(const Case& one, const Engine& engine) { return !one.world_only() && engine.is_world(); }
 
 }  // namespace
 

@@ -91,25 +91,25 @@ Verdict simulation_restored(const Case& one, const Engine& engine, const Motion&
 }
 
 Verdict simulation_stages(const Case& one, const Engine& engine, const Motion&) {
-  return judged(
-      one, engine, "simulation_stages",
-      "stages that a scene does not need, profiles, threads and what is read change no bits",
-      [&]() -> std::string {
-        Accuracy accuracy = accuracy_of(one, engine);
-        Simulation plain = compile(one.scene, accuracy);
-        if (auto* realtime = std::get_if<Realtime>(&accuracy))
-          realtime->on_violation = OnViolation::Report, realtime->threads = 2;
-        Simulation full = compile(one.scene, accuracy, {.every_stage = true});
-        full.profile(true);
-        std::vector<BodyState> states(one.scene.bodies.size());
-        for (int k = 0; k < steps_of(one); ++k) {
-          plain.step(), full.step();
-          full.read(states), full.save(), full.statistics();
-          if (engine.kind == Engine::Kind::Precise) full.forces();
-          if (plain.hash() != full.hash()) return fmt::format("goes on with other bits after step {}", k + 1);
-        }
-        return {};
-      });
+  return judged(one, engine, "simulation_stages",
+                "stages that a scene does not need, profiles, threads and what is read change no bits",
+                [&]() -> std::string {
+                  Accuracy accuracy = accuracy_of(one, engine);
+                  Simulation plain = compile(one.scene, accuracy);
+                  if (auto* realtime = std::get_if<Realtime>(&accuracy))
+                    realtime->on_violation = OnViolation::Report, realtime->threads = 2;
+                  Simulation full = compile(one.scene, accuracy, {.every_stage = true});
+                  full.profile(true);
+                  std::vector<BodyState> states(one.scene.bodies.size());
+                  for (int k = 0; k < steps_of(one); ++k) {
+                    plain.step(), full.step();
+                    full.read(states), full.save(), full.statistics();
+                    if (engine.kind == Engine::Kind::Precise) full.forces();
+                    if (plain.hash() != full.hash())
+                      return fmt::format("goes on with other bits after step {}", k + 1);
+                  }
+                  return {};
+                });
 }
 
 Verdict simulation_stops(const Case& one, const Engine& engine, const Motion&) {
@@ -144,51 +144,50 @@ Verdict simulation_stops(const Case& one, const Engine& engine, const Motion&) {
 Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&) {
   const auto body = some_dynamic(one.scene);
   if (!body) return {};
-  return judged(
-      one, engine, "simulation_overrun",
-      "a step after which a number is beyond 1e12 is refused with the body's name and taken back",
-      [&]() -> std::string {
-        Scene scene = one.scene;
-        const std::string name = scene.bodies[*body].name;
-        const double dt = one.dt, mass = scene.bodies[*body].mass;
-        const int before = std::min(one.steps, 20);
-        // Beyond the largest speed within the step, by a force that is itself in range.
-        const double force = std::min(9e11, 4e7 * mass / dt);
-        scene.forces.push_back(
-            PointForce{.body = name, .force = {force, 0}, .start = (before - 0.5) * dt, .duration = 3 * dt});
-        Simulation simulation = compile(scene, realtime_of(one, engine));
-        simulation.step(before - 1);
-        const BodyState sound = simulation.state(*body);
-        BodyState fast = sound;
-        fast.velocity = {9.9999e11, 0};
-        simulation.set_state(*body, fast);
-        bool refused = false;
-        for (int i = 0; i < 2 && !refused; ++i) {
-          std::vector<BodyState> states(scene.bodies.size()), after(scene.bodies.size());
-          simulation.read(states);
-          try {
-            simulation.step();
-          } catch (const Error& error) {
-            refused = true;
-            if (error.kind() != Error::Kind::Run && error.kind() != Error::Kind::Value)
-              return fmt::format("is refused with an error of another kind: {}", error.what());
-            simulation.read(after);
-            for (std::size_t k = 0; k < states.size(); ++k)
-              if (!is_about(states[k], after[k])) return "is refused, and not taken back";
-          }
-        }
-        const Body& of = scene.bodies[*body];
-        const bool free = one.scene.joints.empty() && !of.lock_x && of.shapes.empty() &&
-                          of.linear_damping == 0 && force * dt / mass > 2e7;
-        if (!refused && free) return "goes on with a speed beyond 1e12 m/s";
-        simulation.set_state(*body, sound);
-        std::vector<BodyState> states(scene.bodies.size());
-        simulation.read(states);
-        for (const BodyState& state : states)
-          if (!(std::abs(state.position.x) <= 1e13) || !(std::abs(state.velocity.x) <= 1e13))
-            return "leaves numbers that are not finite";
-        return {};
-      });
+  return judged(one, engine, "simulation_overrun",
+                "a step after which a number is beyond 1e12 is refused with the body's name and taken back",
+                [&]() -> std::string {
+                  Scene scene = one.scene;
+                  const std::string name = scene.bodies[*body].name;
+                  const double dt = one.dt, mass = scene.bodies[*body].mass;
+                  const int before = std::min(one.steps, 20);
+                  // Beyond the largest speed within the step, by a force that is itself in range.
+                  const double force = std::min(9e11, 4e7 * mass / dt);
+                  scene.forces.push_back(PointForce{
+                      .body = name, .force = {force, 0}, .start = (before - 0.5) * dt, .duration = 3 * dt});
+                  Simulation simulation = compile(scene, realtime_of(one, engine));
+                  simulation.step(before - 1);
+                  const BodyState sound = simulation.state(*body);
+                  BodyState fast = sound;
+                  fast.velocity = {9.9999e11, 0};
+                  simulation.set_state(*body, fast);
+                  bool refused = false;
+                  for (int i = 0; i < 2 && !refused; ++i) {
+                    std::vector<BodyState> states(scene.bodies.size()), after(scene.bodies.size());
+                    simulation.read(states);
+                    try {
+                      simulation.step();
+                    } catch (const Error& error) {
+                      refused = true;
+                      if (error.kind() != Error::Kind::Run && error.kind() != Error::Kind::Value)
+                        return fmt::format("is refused with an error of another kind: {}", error.what());
+                      simulation.read(after);
+                      for (std::size_t k = 0; k < states.size(); ++k)
+                        if (!is_about(states[k], after[k])) return "is refused, and not taken back";
+                    }
+                  }
+                  const Body& of = scene.bodies[*body];
+                  const bool free = one.scene.joints.empty() && !of.lock_x && of.shapes.empty() &&
+                                    of.linear_damping == 0 && force * dt / mass > 2e7;
+                  if (!refused && free) return "goes on with a speed beyond 1e12 m/s";
+                  simulation.set_state(*body, sound);
+                  std::vector<BodyState> states(scene.bodies.size());
+                  simulation.read(states);
+                  for (const BodyState& state : states)
+                    if (!(std::abs(state.position.x) <= 1e13) || !(std::abs(state.velocity.x) <= 1e13))
+                      return "leaves numbers that are not finite";
+                  return {};
+                });
 }
 
 }  // namespace plumb::harness::hunt

@@ -19,7 +19,7 @@ constexpr double kShare = 0.1, kCalm = 0.01;
 // of the tolerance then stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
 constexpr double kTighter = 1e-11;  // for Precise, whose usual one is 1e-9
-constexpr double kShift = 64;  // m, a power of two
+constexpr double kShift = 64;       // m, a power of two
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 
@@ -196,13 +196,17 @@ std::vector<double> growth(const Case& one, const Engine& engine, const Motion& 
 }
 
 const std::vector<Relation>& relations() {
-  static const std::vector<Relation> all{
-      {"mirror", law_free, mirror},    {"turn", law_free, turn},
-      {"shift", law_free, shift},      {"relabel", plain, relabel},
-      {"units", unscaled, units},      {"sleep_switch", plain_world, sleep},
-      {"precise", plain_world, precise_relation},
-      {"jury", plain, jury_relation},  {"sampling", is_precise, sampling},
-      {"tolerance", is_precise, tolerance}, {"integrated", plain, integrated_relation}};
+  static const std::vector<Relation> all{{"mirror", law_free, mirror},
+                                         {"turn", law_free, turn},
+                                         {"shift", law_free, shift},
+                                         {"relabel", plain, relabel},
+                                         {"units", unscaled, units},
+                                         {"sleep_switch", plain_world, sleep},
+                                         {"precise", plain_world, precise_relation},
+                                         {"jury", plain, jury_relation},
+                                         {"sampling", is_precise, sampling},
+                                         {"tolerance", is_precise, tolerance},
+                                         {"integrated", plain, integrated_relation}};
   return all;
 }
 

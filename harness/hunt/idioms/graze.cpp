@@ -5,8 +5,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a disc that is thrown up against a ceiling, or swings up against it on a spring: it meets the ceiling near the top of
-// its path, between two places where it does not.
+// Builds a disc that is thrown up against a ceiling, or swings up against it on a spring: it meets the
+// ceiling near the top of its path, between two places where it does not.
 void build(Draft& draft) {
   Random& random = draft.random;
   Case& out = draft.out;
@@ -27,9 +27,10 @@ void build(Draft& draft) {
   if (swings) {
     // A force that swings is no part of gravity: the path is known in the vertical direction alone.
     const double rate = random.within(2, 20);
-    out.scene.forces.push_back(SinusoidalForce{.body = draft.name(made),
-                                               .amplitude = {draft.body(made).mass * random.within(1, 10) * s, 0},
-                                               .angular_frequency = rate});
+    out.scene.forces.push_back(
+        SinusoidalForce{.body = draft.name(made),
+                        .amplitude = {draft.body(made).mass * random.within(1, 10) * s, 0},
+                        .angular_frequency = rate});
   }
   const double until = (speed - meets) / g, top = speed / g;
   // Where it would come down again, had there been no ceiling: it has then fallen for longer.

@@ -3,7 +3,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a grid or a tree of many bodies on hinges, more than are solved at once: chain mail, a crowd of ragdolls.
+// Builds a grid or a tree of many bodies on hinges, more than are solved at once: chain mail, a crowd of
+// ragdolls.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, step = random.pick({0.3, 0.5, 1.0}) * s;
@@ -36,10 +37,8 @@ void build(Draft& draft) {
   draft.out.steps = std::max(10, static_cast<int>(1 / draft.out.dt));
 }
 
-const Register r{{.name = "mesh",
-                  .title = "many bodies on hinges, in a grid or a tree",
-                  .weight = 0.4,
-                  .build = build}};
+const Register r{
+    {.name = "mesh", .title = "many bodies on hinges, in a grid or a tree", .weight = 0.4, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

@@ -20,7 +20,8 @@ ForceLaw some_law(Draft& draft, int made, int other) {
     case 1:
       return QuadraticDrag{.body = body.name, .coefficient = random.ladder(0.05, 5) * body.mass / s};
     case 2: {  // a pulse, perhaps shorter than a step
-      const double lasts = random.chance(0.5) ? random.within(0.05, 0.9) * dt : random.within(0.05, 0.5) * time;
+      const double lasts =
+          random.chance(0.5) ? random.within(0.05, 0.9) * dt : random.within(0.05, 0.5) * time;
       return PointForce{.body = body.name,
                         .force = push * std::min(20.0, 0.3 / lasts) * direction(random.within(0, 6)),
                         .point = beside,
@@ -70,12 +71,13 @@ void build(Draft& draft) {
   draft.site.kind = Site::Kind::Air;
   const int bodies = random.whole(1, 5), first = draft.count();
   for (int i = 0; i < bodies; ++i) {
-    const int made = draft.any({3 * s * i, random.within(-2, 2) * s}, s * random.within(0.4, 1.2),
-                               random.within(-3, 3));
+    const int made =
+        draft.any({3 * s * i, random.within(-2, 2) * s}, s * random.within(0.4, 1.2), random.within(-3, 3));
     Body& body = draft.body(made);
     body.velocity = random.within(0, 5) * s * direction(random.within(0, 6));
     body.angular_velocity = random.within(-5, 5);
-    if (random.chance(0.2)) body.linear_damping = random.within(0, 1), body.angular_damping = random.within(0, 1);
+    if (random.chance(0.2))
+      body.linear_damping = random.within(0, 1), body.angular_damping = random.within(0, 1);
   }
   draft.pass_each_other(first);
   for (int i = 0; i < bodies; ++i)
