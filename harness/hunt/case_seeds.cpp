@@ -20,8 +20,9 @@ namespace {
 
 constexpr double kStep = 1.0 / 60;  // s, of the file's own scene
 constexpr int kSubsteps = 4;
-constexpr double kLongest = 10;  // s, of a variation
-constexpr rlim_t kSeconds = 10;  // of processor time, of Precise
+constexpr std::string_view kPrefix = "expected ";  // of the checks of a file's expectations
+constexpr double kLongest = 10;                    // s, of a variation
+constexpr rlim_t kSeconds = 10;                    // of processor time, of Precise
 
 // Steps at most as long as the usual one: what a file expects of that is expected of them.
 void draw_finer_steps(Draft& draft) {
@@ -108,7 +109,10 @@ std::string missed(const Case& one, const reference::Backend& backend, const sce
   if (!result.excused.empty() || result.status == Status::Skipped) return {};
   judge(result, false, {});
   for (const Check& check : result.checks)
-    if (!check.pass) return fmt::format("{}\n{}\n{}", check.name, check.value, check.tolerance);
+    if (!check.pass)
+      return fmt::format("{}\n{}\n{}",
+                         check.name.starts_with(kPrefix) ? check.name.substr(kPrefix.size()) : check.name,
+                         check.value, check.tolerance);
   if (!result.unexpected.empty()) return fmt::format("finite\n{}\n", result.unexpected.front());
   return {};
 }

@@ -1,4 +1,4 @@
-// What a world and a simulation promise of any scene, and the integration of free bodies.
+// The promises of worlds and simulations about any scene, and the integration of free bodies.
 #include "harness/hunt/promises.h"
 
 #include <gtest/gtest.h>

@@ -33,7 +33,7 @@ void build(Draft& draft) {
                         .angular_frequency = rate});
   }
   const double until = (speed - meets) / g, top = speed / g;
-  // Where it would come down again, had there been no ceiling: it has then fallen for longer.
+  // The place where it would come down again, had there been no ceiling: it has then fallen for longer.
   const int steps = out.steps = std::max(4, static_cast<int>((until + 2 * (top - until) + 0.3 * top) / dt));
   const double end = steps * dt;
   Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);
