@@ -88,6 +88,9 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
   std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
+  // Bodies that start in what does not give way may be pushed into others.
+  std::vector<bool> squeezed(one.scene.bodies.size(), false);
+  const auto gives_way = [&](std::size_t body) { return one.scene.bodies[body].type == BodyType::Dynamic; };
   const bool intruded = std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
     return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
            action.kind == ActionKind::SetType;
@@ -111,10 +114,15 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
                     2 * length(one.scene.gravity) * one.dt * one.dt});
       if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
       // For Precise no initial overlap is tolerated, because it must refuse such scenes.
-      if (k == 0 && depth > bound) given[n] = engine.kind != Engine::Kind::Precise;
+      if (k == 0 && depth > bound && engine.kind != Engine::Kind::Precise) {
+        given[n] = true;
+        if (!gives_way(a.body)) squeezed[b.body] = true;
+        if (!gives_way(b.body)) squeezed[a.body] = true;
+      }
       // A body that was put onto another may be unable to escape; it must be awake then.
       const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
-      if (depth <= bound || given[n] || (intruded && !asleep)) {
+      const bool is_squeezed = squeezed[a.body] || squeezed[b.body];
+      if (depth <= bound || given[n] || is_squeezed || (intruded && !asleep)) {
         in[n] = 0, least[n] = INFINITY;
         continue;
       }

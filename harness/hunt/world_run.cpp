@@ -234,8 +234,9 @@ class Run {
       out.present[i] = bodies_[i].has_value();
       if (out.present[i]) {
         out.states[i] = world_.state(*bodies_[i]);
-        // Origins are what a scene places; those of static bodies need not be the centres of their shapes.
-        out.states[i].position = world_.position(*bodies_[i]);
+        // A scene's static bodies are placed by origins that need not be the centres of their shapes.
+        if (case_.scene.bodies[i].type == BodyType::Static)
+          out.states[i].position = world_.position(*bodies_[i]);
         out.asleep[i] = world_.type(*bodies_[i]) == BodyType::Dynamic && !world_.awake(*bodies_[i]);
       } else {
         out.states[i] =
