@@ -128,6 +128,8 @@ class WithWidth {
   VectorWidth before_ = vector_width();
 };
 
+// Every so many steps one is short, where digests are compared.
+constexpr int kBetweenShort = 3;
 // Steps that a world is taken ahead before it is rolled back, and steps between two such excursions.
 constexpr int kAhead = 3, kBetween = 4;
 // Steps between two restores, and between two looks or series of refused calls, which cost as much as a step
@@ -161,7 +163,7 @@ class Run {
     for (int step = 0; step < case_.steps; ++step) {
       act(step);
       for (int part = 0; part < options_.refine; ++part) {
-        const double dt = case_.dt / options_.refine;
+        const double dt = step_of(step) / options_.refine;
         forces.apply(world_, dt);
         if (monitor_) monitor_->begin_step();
         world_.step(dt, case_.substeps);
@@ -194,6 +196,12 @@ class Run {
     return out;
   }
 
+  // Returns the length of a step, s. Some are a quarter when digests are compared: a world then depends on
+  // the step before, as games do that step by the time that has passed.
+  double step_of(int step) const {
+    return options_.digests && step % kBetweenShort == kBetweenShort - 1 ? 0.25 * case_.dt : case_.dt;
+  }
+
   // Puts on what a guise needs from the start.
   void prepare() {
     if (options_.guise == Guise::Threaded) world_.data().crew.set_eager(true);
@@ -208,14 +216,19 @@ class Run {
       BasicWorld<Real> other(contrary(definition()));
       litter(other);
       restore(other, save(world_));
+      if (digest_of(other).whole != digest_of(world_).whole)
+        out.broken_promise = "a world that was restored is another than the one that was saved";
       world_ = std::move(other);
     }
     if (options_.guise == Guise::RolledBack && step % kBetween == kBetween - 1) {
       // Events of the last step are not part of a state.
       const std::int64_t now = world_.step_count();
+      const std::uint64_t before = digest_of(world_).whole;
       states_->save();
       for (int i = 0; i < kAhead; ++i) world_.step(case_.dt, case_.substeps);
       states_->back_to(now);
+      if (digest_of(world_).whole != before)
+        out.broken_promise = "a world that was rolled back is another than the one that was kept";
     }
     if (options_.guise == Guise::Observed && step % kBetweenLooks == 0) look_at(world_);
     if (options_.guise == Guise::Overrun && step == case_.steps / 2) {

@@ -218,15 +218,17 @@ def main():
         for share in ROUNDS:
             in_turn(hunt_one, [(number, share * options.seconds) for number in range(1, len(bugs) + 1)])
 
-    caught = 0
+    caught = finished = 0
     for bug, other in zip(bugs, hunts):
         kinds = kinds_of(bases[bug.suite], other)
-        caught += bool(kinds)
+        spent = other.seconds >= options.seconds
+        caught, finished = caught + bool(kinds), finished + bool(kinds or spent)
         text = ", ".join(f"{judge} of a {family} ({engine}, scene {min(scenes)})" for (engine, judge, family), scenes in
                          sorted(kinds.items(), key=lambda kind: min(kind[1]))[:4])
-        print(f"{'caught' if kinds else 'MISSED'}  {bug.name}: {len(other.scenes)} scenes, {other.seconds:.0f} s" +
+        state = "caught" if kinds else "MISSED" if spent else "not yet"
+        print(f"{state:7} {bug.name}: {len(other.scenes)} scenes, {other.seconds:.0f} s" +
               (f"; {text}" if text else ""))
-    print(f"{caught} of {len(bugs)} caught")
+    print(f"{caught} of {len(bugs)} caught" + (f", {finished} hunted to the end" if finished < len(bugs) else ""))
     return 0 if 4 * caught >= 3 * len(bugs) else 1
 
 
