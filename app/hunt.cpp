@@ -49,16 +49,20 @@ void list() {
   }
 }
 
-std::vector<const hunting::Idiom*> chosen_families(const std::vector<std::string>& names) {
-  std::vector<const hunting::Idiom*> out;
+// Puts structures and case files where they belong.
+void choose(const std::vector<std::string>& names, hunting::HuntOptions& what) {
+  std::vector<const hunting::Idiom*>& out = what.families;
   for (const std::string& name : names) {
+    if (const std::vector<std::string> files = case_files(name); !files.empty()) {
+      for (const std::string& file : files) what.cases.push_back(hunting::read_seed(file));
+      continue;
+    }
     const hunting::Idiom* idiom = &hunting::find_idiom(name);
     if (idiom->role != hunting::Idiom::Role::Structure)
       throw UsageError(
           fmt::format("'{}' is no structure: it comes with others by itself; see `plumb hunt --list`", name));
     if (std::find(out.begin(), out.end(), idiom) == out.end()) out.push_back(idiom);
   }
-  return out;
 }
 
 std::vector<hunting::Engine> engines_of(const Options& options, const std::vector<std::string>& usual,
@@ -110,14 +114,14 @@ int start(const Options& options) {
     return kOk;
   }
   if (!options.replay.empty()) return replay(options);
-  hunting::HuntOptions what{.families = chosen_families(options.names),
-                            .seed = static_cast<std::uint64_t>(options.seed),
+  hunting::HuntOptions what{.seed = static_cast<std::uint64_t>(options.seed),
                             .scenes = static_cast<std::uint64_t>(options.scenes),
                             .folder = options.out,
                             .shrinks = options.shrinks};
+  choose(options.names, what);
   if (options.draw >= 0) {
     const auto index = static_cast<std::uint64_t>(options.draw);
-    print(hunting::to_json(hunting::compose(what.seed, index, what.families)) + "\n");
+    print(hunting::to_json(hunting::draw(what, index)) + "\n");
     return kOk;
   }
   std::vector<std::unique_ptr<reference::Backend>> programs;
@@ -159,8 +163,12 @@ void add_hunt(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
   auto options = std::make_shared<Options>();
-  command->add_option("families", options->names, "structures to draw from (default: all); see --list")
-      ->type_name("FAMILY");
+  command
+      ->add_option("families", options->names,
+                   "structures to draw from (default: all), see --list; or case files and folders of them, "
+                   "whose scenes "
+                   "are varied")
+      ->type_name("FAMILY|CASE");
   options->engines.add_to(*command);
   command->add_option("--seed", options->seed, "draws other scenes (default 1)")
       ->check(CLI::NonNegativeNumber)
@@ -193,6 +201,7 @@ void add_hunt(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7\n"
       "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"
+      "  plumb hunt my_case.json museum --minutes 5\n"
       "  plumb hunt --replay hunt/findings/001-energy.json\n"
       "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the "
       "scenes\n"

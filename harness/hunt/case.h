@@ -80,6 +80,8 @@ struct Case {
   std::vector<std::string> sensors{};  ///< bodies whose shapes are sensors
   std::vector<Action> actions{};       ///< in the order of their steps
   std::vector<Expectation> expectations{};
+  std::string
+      case_file{};  ///< path of the case file whose expectations hold, as long as the scene is its own
 
   /// Returns true if only a World can run it.
   bool world_only() const { return !actions.empty() || !sensors.empty(); }

@@ -96,6 +96,7 @@ Case read(const Json& json) {
   if (!(out.dt > 0) || out.substeps < 1 || out.steps < 1) refuse("dt, substeps and steps must be positive");
   out.sleeping = json.value("sleeping", false);
   out.sensors = json.value("sensors", out.sensors);
+  out.case_file = json.value("case_file", out.case_file);
   for (const Json& action : json.value("actions", Json::array())) out.actions.push_back(action_of(action));
   for (const Json& each : json.value("expectations", Json::array()))
     out.expectations.push_back(expectation_of(each));
@@ -108,6 +109,7 @@ std::string to_json(const Case& one, int indent) {
   Json out{{"plumb_hunt", 1}, {"seed", one.seed},         {"index", one.index}, {"idioms", one.idioms},
            {"dt", one.dt},    {"substeps", one.substeps}, {"steps", one.steps}, {"sleeping", one.sleeping}};
   if (!one.sensors.empty()) out["sensors"] = one.sensors;
+  if (!one.case_file.empty()) out["case_file"] = one.case_file;
   for (const Action& action : one.actions) out["actions"].push_back(to_object(action));
   for (const Expectation& each : one.expectations) out["expectations"].push_back(to_object(each));
   out["scene"] = Json::parse(plumb::to_json(one.scene, -1));

@@ -1,13 +1,34 @@
 #include "harness/hunt/examine.h"
 
+#include "harness/hunt/case_seeds.h"
+#include "harness/hunt/promises.h"
 #include "harness/hunt/relations.h"
 
 namespace plumb::harness::hunt {
 
+namespace {
+
+// Checks two of the relations per scene, in turn, because each costs a run or more; or the one called `law`.
+void check_some(const std::vector<Relation>& relations, const Engine& engine, const Case& one,
+                const std::string& law, const Motion& motion, Examined& out) {
+  std::vector<const Relation*> apply;
+  for (const Relation& each : relations)
+    if ((law.empty() || each.name == law) && each.applies(one, engine)) apply.push_back(&each);
+  const std::size_t count = apply.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool due = i == one.index % count || i == (one.index / count + one.index + 1) % count;
+    if (!due && law.empty()) continue;
+    if (Verdict verdict = apply[i]->judge(one, engine, motion)) out.objections.push_back(std::move(*verdict));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> judge_names() {
-  std::vector<std::string> out;
+  std::vector<std::string> out{"case_file"};
   for (const Law& law : laws()) out.push_back(law.name);
-  for (const Relation& relation : relations()) out.push_back(relation.name);
+  for (const auto* list : {&relations(), &promises()})
+    for (const Relation& relation : *list) out.push_back(relation.name);
   return out;
 }
 
@@ -15,6 +36,9 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
   Examined out;
   out.skipped = unsupported(engine, one);
   if (!out.skipped.empty()) return out;
+  if (law.empty() || law == "case_file")
+    if (Verdict verdict = case_file_verdict(one, engine)) out.objections.push_back(std::move(*verdict));
+  if (law == "case_file") return out;
   const Motion motion = run(engine, one);
   if (motion.samples.empty() && motion.failure.empty()) {
     out.skipped = motion.stopped.empty() ? "it takes too long" : motion.stopped;
@@ -29,16 +53,9 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
     // A run that broke off is not checked against the other laws.
     if (each.name == "finite") return out;
   }
-  // Check two of the relations per scene, in turn, because each costs a run or more. A run that broke a law
-  // is already known to be wrong.
-  const std::size_t count = relations().size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Relation& each = relations()[i];
-    const bool due = law.empty() && out.objections.empty() &&
-                     (i == one.index % count || i == (one.index / count + one.index + 1) % count);
-    if (!(due || each.name == law) || !each.applies(one, engine)) continue;
-    if (Verdict verdict = each.judge(one, engine, motion)) out.objections.push_back(std::move(*verdict));
-  }
+  // A run that broke a law is already known to be wrong. Promises hold for wrong motions as well.
+  if (!law.empty() || out.objections.empty()) check_some(relations(), engine, one, law, motion, out);
+  check_some(promises(), engine, one, law, motion, out);
   return out;
 }
 

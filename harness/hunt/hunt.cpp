@@ -51,7 +51,7 @@ class Workshop {
 
   std::string work(std::uint64_t number) const {
     const Task task = Task::of(number);
-    const Case one = compose(options_.seed, task.scene, options_.families);
+    const Case one = draw(options_, task.scene);
     if (!task.shrinks) return examined(one);
     return task.law == kCrashed ? shrunk_crash(one, task) : shrunk(one, task);
   }
@@ -125,6 +125,7 @@ class Workshop {
 std::string header_of(const HuntOptions& options) {
   Json out{{"plumb_hunt_log", 1}, {"seed", options.seed}};
   for (const Engine& engine : options.engines) out["engines"].push_back(engine.name());
+  for (const CaseSeed& seed : options.cases) out["cases"].push_back(seed.path);
   out["families"] = Json::array();
   for (const Idiom* family : options.families) out["families"].push_back(family->name);
   return out.dump();
@@ -269,6 +270,13 @@ class Hunt {
 };
 
 }  // namespace
+
+Case draw(const HuntOptions& options, std::uint64_t index) {
+  if (options.cases.empty()) return compose(options.seed, index, options.families);
+  if (options.families.empty()) return vary(options.seed, index, options.cases);
+  return index % 2 == 0 ? vary(options.seed, index / 2, options.cases)
+                        : compose(options.seed, index, options.families);
+}
 
 Hunted hunt(const HuntOptions& options, const HuntEvents& events) { return Hunt(options, events).go(); }
 

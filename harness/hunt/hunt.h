@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/hunt/case_seeds.h"
 #include "harness/hunt/finding.h"
 #include "harness/hunt/idiom.h"
 #include "harness/hunt/motion.h"
@@ -12,7 +13,8 @@
 namespace plumb::harness::hunt {
 
 struct HuntOptions {
-  std::vector<const Idiom*> families{};  ///< structures to draw from; none: all
+  std::vector<const Idiom*> families{};  ///< structures to draw from; none: all, unless there are `cases`
+  std::vector<CaseSeed> cases{};  ///< case files whose scenes are varied; with families every second scene
   std::vector<Engine> engines{};
   std::uint64_t seed = 1;
   double seconds = 60;       ///< of wall time; 0: no limit
@@ -43,6 +45,9 @@ struct HuntEvents {
   std::function<void(std::uint64_t scenes, std::uint64_t findings, double seconds)> progress{};
   std::function<void(const Finding&)> found{};
 };
+
+/// Draws case `index` of a hunt, from its families and case files.
+Case draw(const HuntOptions& options, std::uint64_t index);
 
 /// Draws scenes, runs and judges them, and shrinks the failing ones. Resumes an earlier hunt in the folder.
 /// Throws `Error` (Io), also if the folder holds a hunt of another seed, engines or families.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -86,37 +87,64 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
   std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
+  const auto gives_way = [&](std::size_t body) {
+    const Body& of = one.scene.bodies[body];
+    return of.type == BodyType::Dynamic &&
+           std::none_of(one.actions.begin(), one.actions.end(), [&](const Action& action) {
+             return action.kind == ActionKind::SetType && action.target == of.name;
+           });
+  };
   const bool intruded = std::any_of(one.actions.begin(), one.actions.end(), [](const Action& action) {
     return action.kind == ActionKind::Create || action.kind == ActionKind::Teleport ||
            action.kind == ActionKind::SetType;
   });
-  const int lasting = std::max(3, static_cast<int>(kLasting / one.dt));
+  // Precise promises that shapes do not overlap at any time.
+  const int lasting =
+      engine.kind == Engine::Kind::Precise ? 1 : std::max(3, static_cast<int>(kLasting / one.dt));
   std::vector<Outline> now(parts.size());
+  std::vector<double> depths(pairs.size(), 0), bounds;
+  for (const auto& [i, j] : pairs) {
+    const Part &a = parts[i], &b = parts[j];
+    const double least_reach = std::min(a.reach, b.reach);
+    bounds.push_back(engine.kind == Engine::Kind::Precise
+                         ? 1e-5 * least_reach
+                         : std::max({kWidthShare * std::min(a.width, b.width), kReachShare * least_reach,
+                                     2 * length(one.scene.gravity) * one.dt * one.dt}));
+  }
+  bool overlapped = false;  // something lies in another from the start
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
     const Sample& sample = motion.samples[k];
     for (std::size_t i = 0; i < parts.size(); ++i)
       now[i] = placed(parts[i].outline, sample.states[parts[i].body]);
+    // By body: those that do not give way and that it lies in. Between two of them it has nowhere to go.
+    std::map<std::size_t, std::set<std::size_t>> pressed_by;
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       const auto [i, j] = pairs[n];
       const Part &a = parts[i], &b = parts[j];
-      double depth = 0;
+      depths[n] = 0;
       if (sample.present[a.body] && sample.present[b.body] && boxes_meet(now[i], now[j], 0))
-        depth = -separation(now[i], now[j]);
-      double bound =
-          std::max({kWidthShare * std::min(a.width, b.width), kReachShare * std::min(a.reach, b.reach),
-                    2 * length(one.scene.gravity) * one.dt * one.dt});
-      if (engine.kind == Engine::Kind::Precise) bound = 1e-5 * std::min(a.reach, b.reach);
+        depths[n] = -separation(now[i], now[j]);
       // For Precise no initial overlap is tolerated, because it must refuse such scenes.
-      if (k == 0 && depth > bound) given[n] = engine.kind != Engine::Kind::Precise;
+      if (k == 0 && depths[n] > bounds[n]) given[n] = engine.kind != Engine::Kind::Precise;
+      overlapped = overlapped || given[n];
+      if (depths[n] <= bounds[n] || engine.kind == Engine::Kind::Precise) continue;
+      if (!gives_way(a.body)) pressed_by[b.body].insert(a.body);
+      if (!gives_way(b.body)) pressed_by[a.body].insert(b.body);
+    }
+    for (std::size_t n = 0; n < pairs.size(); ++n) {
+      const Part &a = parts[pairs[n].first], &b = parts[pairs[n].second];
+      const double depth = depths[n], bound = bounds[n];
       // A body that was put onto another may be unable to escape; it must be awake then.
       const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
-      if (depth <= bound || given[n] || (intruded && !asleep)) {
+      const bool is_pressed =
+          (intruded || overlapped) && (pressed_by[a.body].size() > 1 || pressed_by[b.body].size() > 1);
+      if (depth <= bound || given[n] || is_pressed || (intruded && !asleep)) {
         in[n] = 0, least[n] = INFINITY;
         continue;
       }
       ++in[n];
       // An overlap from the start or from an action may take longer, if it keeps shrinking.
-      if (in[n] == lasting / 2) least[n] = depth;
+      if (in[n] == lasting / 2 && lasting > 1) least[n] = depth;
       if (in[n] < lasting || depth < 0.7 * least[n]) {
         if (in[n] >= lasting) in[n] = 0, least[n] = INFINITY;
         continue;

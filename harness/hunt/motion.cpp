@@ -24,8 +24,8 @@ bool finite(const BodyState& s) {
          std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
 }
 
-reference::StepSettings settings_of(const Case& one, const Engine& engine, int refine) {
-  reference::StepSettings out{.dt = one.dt / refine};
+reference::StepSettings settings_of(const Case& one, const Engine& engine, const RunOptions& options = {}) {
+  reference::StepSettings out{.dt = one.dt / options.refine, .tolerance = options.tolerance};
   if (engine.kind != Engine::Kind::Precise) out.substeps = one.substeps;
   return out;
 }
@@ -35,7 +35,7 @@ Motion run_backend(const Engine& engine, const Case& one, const RunOptions& opti
   const std::size_t count = one.scene.bodies.size();
   const double begin = processor_seconds();
   try {
-    const auto simulator = engine.backend->create(one.scene, settings_of(one, engine, options.refine));
+    const auto simulator = engine.backend->create(one.scene, settings_of(one, engine, options));
     for (int step = 0; step <= one.steps; ++step) {
       if (step > 0) simulator->advance(options.refine);
       Sample sample{std::vector<BodyState>(count), std::vector<bool>(count, true),
@@ -121,9 +121,9 @@ double processor_seconds() {
 }
 
 std::string unsupported(const Engine& engine, const Case& one) {
-  if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine, 1));
+  if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine));
   if (one.world_only()) return "things are done to its bodies while it runs";
-  return engine.backend->unsupported(one.scene, settings_of(one, engine, 1));
+  return engine.backend->unsupported(one.scene, settings_of(one, engine));
 }
 
 Motion run(const Engine& engine, const Case& one, const RunOptions& options) {

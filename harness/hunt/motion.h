@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/scene/scene.h"
 #include "harness/hunt/case.h"
+#include "harness/hunt/guise.h"
 #include "reference/backend.h"
 
 namespace plumb::harness::hunt {
@@ -35,6 +37,8 @@ struct Motion {
   };
   std::vector<EventFault> event_faults{};
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
+  std::vector<Digest> digests{};             ///< of a World after each step, if asked for
+  std::string broken_promise{};              ///< of a World in a guise, in one line; empty if there is none
 };
 
 /// An engine with its kind and precision.
@@ -49,10 +53,12 @@ struct Engine {
 };
 
 struct RunOptions {
-  int refine = 1;           ///< steps per step of the case
-  int restore_at = -1;      ///< step after which a World is saved, and restored into another
-  bool flip_sleep = false;  ///< turns sleep on if it is off, and off if it is on
-  double seconds = 5;       ///< limit of processor time
+  int refine = 1;                     ///< steps per step of the case
+  bool flip_sleep = false;            ///< turns sleep on if it is off, and off if it is on
+  Guise guise = Guise::Plain;         ///< of a World
+  bool digests = false;               ///< fills `Motion::digests`
+  std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
+  double seconds = 5;                 ///< limit of processor time
 };
 
 /// Returns why `engine` does not support `one`; empty if it does.

@@ -18,7 +18,8 @@ constexpr double kShare = 0.1, kCalm = 0.01;
 // kSampled: the same, for an engine with a tolerance of 1e-9. kGrown: largest growth of perturbations; errors
 // of the tolerance then stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
-constexpr double kShift = 64;  // m, a power of two
+constexpr double kTighter = 1e-11;  // for Precise, whose usual one is 1e-9
+constexpr double kShift = 64;       // m, a power of two
 
 bool plain(const Case& one, const Engine&) { return !one.world_only(); }
 
@@ -98,23 +99,6 @@ Verdict sleep(const Case& one, const Engine& engine, const Motion& motion) {
                  5 * kShare);
 }
 
-Verdict restored(const Case& one, const Engine& engine, const Motion& motion) {
-  if (!motion.failure.empty()) return {};
-  const Motion other = run(engine, one, {.restore_at = one.steps / 2});
-  const std::vector<double> off = apart(one, motion, other);
-  for (std::size_t k = 0; k < off.size(); ++k) {
-    if (off[k] == 0) continue;
-    return Objection{.law = "restore",
-                     .judge = "restore",
-                     .what = fmt::format("is {:.3g} m off after it was saved and restored", off[k]),
-                     .right = "a world that is saved and restored goes on with the same bits",
-                     .figure = off[k],
-                     .unit = "m",
-                     .time = static_cast<double>(k) * one.dt};
-  }
-  return {};
-}
-
 // Compares with a run that is sampled only at its end. An engine that chooses its steps must also handle
 // everything between samples.
 Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
@@ -142,10 +126,30 @@ Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
                    .time = coarse.dt};
 }
 
+// Compares Precise with itself at a hundredth of its tolerance.
+Verdict tolerance(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!motion.failure.empty()) return {};
+  const Motion other = run(engine, one, {.tolerance = kTighter});
+  const std::vector<double> off = apart(one, motion, other);
+  const double bound = kSampled * largest_size(one.scene);
+  std::size_t k = 0;
+  while (k < off.size() && off[k] <= bound) ++k;
+  if (k == off.size()) return {};
+  const std::vector<double> calm = growth(one, engine, motion);
+  if (k >= calm.size() || calm[k] > kGrown * 30 * kPerturbation * largest_size(one.scene)) return {};
+  return Objection{.law = "tolerance",
+                   .judge = "tolerance",
+                   .what = fmt::format("is {:.3g} m off at a tolerance of {}", off[k], kTighter),
+                   .right = "the motion is that of a tighter tolerance",
+                   .figure = off[k],
+                   .bound = bound,
+                   .unit = "m",
+                   .time = static_cast<double>(k) * one.dt};
+}
+
 bool unscaled(const Case& one, const Engine& engine) {
   return plain(one, engine) && engine.is_world() && one.scene.forces.empty() && !one.sleeping;
 }
-bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
 bool is_precise(const Case&, const Engine& engine) { return engine.kind == Engine::Kind::Precise; }
 bool plain_world(const Case& one, const Engine& engine) { return plain(one, engine) && engine.is_world(); }
 bool law_free(const Case& one, const Engine& engine) {
@@ -190,12 +194,17 @@ std::vector<double> growth(const Case& one, const Engine& engine, const Motion& 
 }
 
 const std::vector<Relation>& relations() {
-  static const std::vector<Relation> all{
-      {"mirror", law_free, mirror},    {"turn", law_free, turn},
-      {"shift", law_free, shift},      {"relabel", plain, relabel},
-      {"units", unscaled, units},      {"sleep_switch", plain_world, sleep},
-      {"restore", is_world, restored}, {"precise", plain_world, precise_relation},
-      {"jury", plain, jury_relation},  {"sampling", is_precise, sampling}};
+  static const std::vector<Relation> all{{"mirror", law_free, mirror},
+                                         {"turn", law_free, turn},
+                                         {"shift", law_free, shift},
+                                         {"relabel", plain, relabel},
+                                         {"units", unscaled, units},
+                                         {"sleep_switch", plain_world, sleep},
+                                         {"precise", plain_world, precise_relation},
+                                         {"jury", plain, jury_relation},
+                                         {"sampling", is_precise, sampling},
+                                         {"tolerance", is_precise, tolerance},
+                                         {"integrated", plain, integrated_relation}};
   return all;
 }
 

@@ -18,6 +18,11 @@ const std::vector<Relation>& relations();
 
 Verdict precise_relation(const Case& one, const Engine& engine, const Motion& motion);
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion);
+Verdict integrated_relation(const Case& one, const Engine& engine, const Motion& motion);
+
+/// Returns true if the motion up to the first contact is integrated here: forces, and neither joints nor
+/// locks.
+bool integrable(const Case& one);
 
 /// Returns the distance of two motions at each sample, m: that of the dynamic body that is farthest off,
 /// including its rotation times its reach.

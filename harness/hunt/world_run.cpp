@@ -11,10 +11,15 @@
 
 #include "engine/core/text.h"
 #include "engine/joints/kind_of.h"
+#include "engine/math/vector_width.h"
 #include "engine/scene/error.h"
 #include "engine/world/add_scene.h"
+#include "engine/world/invariant_monitor.h"
+#include "engine/world/rollback.h"
 #include "engine/world/scene/scene_forces.h"
 #include "engine/world/snapshot.h"
+#include "engine/world/world_data.h"
+#include "harness/hunt/guise.h"
 #include "harness/hunt/processor_time.h"
 
 namespace plumb::harness::hunt {
@@ -108,6 +113,29 @@ class EventBook {
   std::map<Key, std::size_t> bodies_;
 };
 
+/// Sets the width of vector registers for as long as it lives.
+class WithWidth {
+ public:
+  explicit WithWidth(Guise guise) {
+    if (guise == Guise::Scalar) set_vector_width(VectorWidth::None);
+    if (guise == Guise::Narrow) set_vector_width(std::min(before_, VectorWidth::Bytes16));
+  }
+  ~WithWidth() { set_vector_width(before_); }
+  WithWidth(const WithWidth&) = delete;
+  WithWidth& operator=(const WithWidth&) = delete;
+
+ private:
+  VectorWidth before_ = vector_width();
+};
+
+// Every so many steps one is short, where digests are compared.
+constexpr int kBetweenShort = 3;
+// Steps that a world is taken ahead before it is rolled back, and steps between two such excursions.
+constexpr int kAhead = 3, kBetween = 4;
+// Steps between two restores, and between two looks or series of refused calls, which cost as much as a step
+// or more.
+constexpr int kBetweenRestores = 9, kBetweenLooks = 5, kBetweenRefusals = 40;
+
 template <class Real>
 class Run {
  public:
@@ -121,6 +149,7 @@ class Run {
       if (!later_.contains(one.scene.bodies[i].name)) create(i);
     for (const Joint& joint : one.scene.joints)
       if (!later_.contains(name_of(joint))) create(joint);
+    prepare();
   }
 
   Motion go() {
@@ -134,9 +163,11 @@ class Run {
     for (int step = 0; step < case_.steps; ++step) {
       act(step);
       for (int part = 0; part < options_.refine; ++part) {
-        const double dt = case_.dt / options_.refine;
+        const double dt = step_of(step) / options_.refine;
         forces.apply(world_, dt);
+        if (monitor_) monitor_->begin_step();
         world_.step(dt, case_.substeps);
+        if (monitor_) monitor_->end_step();
         if (!world_.events().quarantined.empty()) {
           const QuarantineEvent& bad = world_.events().quarantined.front();
           out.failure = fmt::format("body '{}' was quarantined at step {}: {} is {}", bad.name, step + 1,
@@ -149,11 +180,9 @@ class Run {
       }
       out.samples.push_back(sample(out));
       if (!case_.sensors.empty()) out.visits.push_back(book_.visits());
-      if (step == options_.restore_at) {
-        BasicWorld<Real> other(definition());
-        restore(other, save(world_));
-        world_ = std::move(other);
-      }
+      if (options_.digests) out.digests.push_back(digest_of(world_));
+      after(step, out);
+      if (over_ || !out.broken_promise.empty()) break;
       if (processor_seconds() - begin > options_.seconds) break;
     }
     return out;
@@ -163,7 +192,51 @@ class Run {
   WorldDefinition definition() const {
     WorldDefinition out = world_definition(case_.scene);
     out.sleeping = case_.sleeping != options_.flip_sleep;
+    if (options_.guise == Guise::Threaded) out.threads = 2;
     return out;
+  }
+
+  // Returns the length of a step, s. Some are a quarter when digests are compared: a world then depends on
+  // the step before, as games do that step by the time that has passed.
+  double step_of(int step) const {
+    return options_.digests && step % kBetweenShort == kBetweenShort - 1 ? 0.25 * case_.dt : case_.dt;
+  }
+
+  // Puts on what a guise needs from the start.
+  void prepare() {
+    if (options_.guise == Guise::Threaded) world_.data().crew.set_eager(true);
+    if (options_.guise == Guise::Observed) monitor_.emplace(world_), world_.set_profiling(true);
+    if (options_.guise == Guise::RolledBack) states_.emplace(world_, 2);
+    if (options_.guise == Guise::Labelled) label(world_);
+  }
+
+  // Does after a step what a guise is about.
+  void after(int step, Motion& out) {
+    if (options_.guise == Guise::Restored && step % kBetweenRestores == kBetweenRestores - 1) {
+      BasicWorld<Real> other(contrary(definition()));
+      litter(other);
+      restore(other, save(world_));
+      if (digest_of(other).whole != digest_of(world_).whole)
+        out.broken_promise = "a world that was restored is another than the one that was saved";
+      world_ = std::move(other);
+    }
+    if (options_.guise == Guise::RolledBack && step % kBetween == kBetween - 1) {
+      // Events of the last step are not part of a state.
+      const std::int64_t now = world_.step_count();
+      const std::uint64_t before = digest_of(world_).whole;
+      states_->save();
+      for (int i = 0; i < kAhead; ++i) world_.step(case_.dt, case_.substeps);
+      states_->back_to(now);
+      if (digest_of(world_).whole != before)
+        out.broken_promise = "a world that was rolled back is another than the one that was kept";
+    }
+    if (options_.guise == Guise::Observed && step % kBetweenLooks == 0) look_at(world_);
+    if (options_.guise == Guise::Overrun && step == case_.steps / 2) {
+      out.broken_promise = overrun(world_, case_.dt, case_.substeps);
+      over_ = true;
+    }
+    if (options_.guise == Guise::Refused && step % kBetweenRefusals == 0)
+      out.broken_promise = not_refused(world_);
   }
 
   Sample sample(const Motion& before) const {
@@ -174,6 +247,9 @@ class Run {
       out.present[i] = bodies_[i].has_value();
       if (out.present[i]) {
         out.states[i] = world_.state(*bodies_[i]);
+        // A scene's static bodies are placed by origins that need not be the centres of their shapes.
+        if (case_.scene.bodies[i].type == BodyType::Static)
+          out.states[i].position = world_.position(*bodies_[i]);
         out.asleep[i] = world_.type(*bodies_[i]) == BodyType::Dynamic && !world_.awake(*bodies_[i]);
       } else {
         out.states[i] =
@@ -300,12 +376,16 @@ class Run {
   std::optional<BodyId> frame_;
   std::set<std::string> later_;
   EventBook book_;
+  std::optional<InvariantMonitor<Real>> monitor_;
+  std::optional<Rollback<Real>> states_;
+  bool over_ = false;
 };
 
 }  // namespace
 
 template <class Real>
 Motion run_world(const Case& one, const RunOptions& options) {
+  const WithWidth width(options.guise);
   std::optional<Run<Real>> run;
   try {
     run.emplace(one, options);

@@ -113,6 +113,22 @@ TEST(Laws, ShapesThatStayInEachOtherAreSeenAndThoseThatPartAreNot) {
   EXPECT_FALSE(penetration_law(one, world(), made_up(one, sunk(0.005))));
 }
 
+// A box sleeps on a tile whose middle is 6 m off the origin of its body.
+TEST(Laws, StaticBodiesAreWhereTheirOriginsAre) {
+  Case one = falling();
+  one.scene.bodies.front().position = {-16, 0.5};
+  one.scene.bodies.front().shapes = {{.geometry = Box{2, 1}}};
+  one.scene.bodies.push_back({.name = "floor",
+                              .type = BodyType::Static,
+                              .position = {-22, -1},
+                              .shapes = {{.geometry = Box{3, 2}, .position = {6, 0}}}});
+  one.steps = 120, one.sleeping = true;
+  const Motion motion = run(world(), one);
+  EXPECT_EQ(motion.samples.back().states.back().position, (Vec2d{-22, -1}));
+  EXPECT_TRUE(motion.samples.back().asleep.front());
+  EXPECT_FALSE(sleep_law(one, world(), motion));
+}
+
 TEST(Laws, AnOpenJointIsSeen) {
   Case one = falling();
   one.scene.joints = {

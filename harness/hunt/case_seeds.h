@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/hunt/case.h"
+#include "harness/hunt/objection.h"
+
+/// Case files (docs/cases.md) as the seeds of a hunt: their scenes, and variations of them.
+namespace plumb::harness::hunt {
+
+struct CaseSeed {
+  std::string path, name;
+  Scene scene{};
+  double duration = 1;  ///< s
+};
+
+/// Throws as `case_file::read_case`.
+CaseSeed read_seed(const std::string& path);
+
+/// Draws case `index` of a hunt among `seeds`, which must not be empty: first each of them as it is, then
+/// variations: finer steps and sleep, which keep what the file expects, or other masses, materials, places,
+/// frames and disturbances, which keep the laws alone. The same arguments give the same case on every
+/// machine.
+Case vary(std::uint64_t seed, std::uint64_t index, const std::vector<CaseSeed>& seeds);
+
+/// Judges the engine by the expectations of the case's file, if its scene is the file's; nothing otherwise.
+Verdict case_file_verdict(const Case& one, const Engine& engine);
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/world/world.h"
+
+/// Ways to run a world that must not change its motion, and what they are compared by.
+namespace plumb::harness::hunt {
+
+enum class Guise : std::uint8_t {
+  Plain,
+  Restored,    ///< saved, and restored into a world of other settings with other bodies in it
+  RolledBack,  ///< steps ahead and rolls back, again and again
+  Threaded,    ///< by two threads, which share all loops
+  Scalar,      ///< without vector registers
+  Narrow,      ///< with vector registers of 16 bytes
+  Observed,    ///< read, queried, saved and monitored after each step
+  Refused,     ///< with calls between the steps that must be refused
+  Overrun,     ///< with a body that goes beyond the world's numbers after half of the steps
+  Labelled,    ///< with other names and user data, and hit events
+};
+
+/// Digests of a world after a step.
+struct Digest {
+  std::uint64_t whole = 0;    ///< of all that a snapshot has
+  std::uint64_t visible = 0;  ///< of the bodies' states, and the joints' and contacts' readings
+  std::uint64_t events = 0;   ///< of the step
+  friend bool operator==(const Digest&, const Digest&) = default;
+};
+
+template <class Real>
+Digest digest_of(const BasicWorld<Real>& world);
+
+/// Returns settings of which none is that of `definition`.
+WorldDefinition contrary(const WorldDefinition& definition);
+
+/// Puts bodies, a joint and a force into a world and steps it, so that there is something to replace.
+template <class Real>
+void litter(BasicWorld<Real>& world);
+
+/// Calls what reads a world: queries, readings, definitions, snapshots.
+template <class Real>
+void look_at(const BasicWorld<Real>& world);
+
+/// Gives bodies and shapes other names and user data, and asks for their hits.
+template <class Real>
+void label(BasicWorld<Real>& world);
+
+/// Makes calls with numbers out of range and handles of what is not there. Returns those that were not
+/// refused with the right kind of error, or that changed the world; empty if there are none.
+template <class Real>
+std::string not_refused(BasicWorld<Real>& world);
+
+/// Pushes a body beyond the world's largest speed. Returns what is wrong then, or an empty text. The world is
+/// of no use afterwards.
+template <class Real>
+std::string overrun(BasicWorld<Real>& world, double dt, int substeps);
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,58 @@
+#include <cmath>
+
+#include "harness/hunt/idiom.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+// Builds a disc that is thrown up against a ceiling, or swings up against it on a spring: it meets the
+// ceiling near the top of its path, between two places where it does not.
+void build(Draft& draft) {
+  Random& random = draft.random;
+  Case& out = draft.out;
+  const double s = draft.size, dt = out.dt;
+  draft.site.kind = Site::Kind::Air;
+  if (out.scene.gravity == Vec2d{0, 0}) out.scene.gravity = {0, -9.81};
+  const double g = -out.scene.gravity.y, radius = s * random.within(0.1, 0.5);
+  draft.friction = 0, draft.restitution = 0;
+  const bool swings = random.chance(0.5);
+  // The approach is fast enough to be told from a step's fall, and seldom much faster.
+  const double meets = random.within(6, 40) * g * dt;
+  const double fall = random.within(0.1, 2) * s, speed = std::sqrt(meets * meets + 2 * g * fall);
+  const int made = draft.disc({0, 0}, radius);
+  draft.body(made).velocity = {random.within(-3, 3) * s, speed};
+  const double at = fall + radius;
+  const double width = 20 * s + 6 * std::abs(draft.body(made).velocity.x) * speed / g;
+  const int ceiling = draft.box({0, at + s / 2}, width, s, 0, BodyType::Static);
+  if (swings) {
+    // A force that swings is no part of gravity: the path is known in the vertical direction alone.
+    const double rate = random.within(2, 20);
+    out.scene.forces.push_back(
+        SinusoidalForce{.body = draft.name(made),
+                        .amplitude = {draft.body(made).mass * random.within(1, 10) * s, 0},
+                        .angular_frequency = rate});
+  }
+  const double until = (speed - meets) / g, top = speed / g;
+  // The place where it would come down again, had there been no ceiling: it has then fallen for longer.
+  const int steps = out.steps = std::max(4, static_cast<int>((until + 2 * (top - until) + 0.3 * top) / dt));
+  const double end = steps * dt;
+  Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);
+  below.upper = fall + 0.05 * radius + meets * dt;
+  below.why = "what is thrown against a ceiling does not go through it";
+  below.needs = {draft.name(ceiling)};
+  Expectation& falls = draft.expect("falls_from_a_ceiling", made, Quantity::VelocityY);
+  const double right = -g * (end - until), slack = 0.1 * meets + 3 * g * dt;
+  falls.lower = right - slack, falls.upper = right + slack;
+  falls.from = falls.to = end;
+  falls.why = "a blow without restitution leaves no speed; then it falls";
+  falls.needs = {draft.name(ceiling), std::string(kMasses)};
+}
+
+const Register r{{.name = "graze",
+                  .title = "a disc that meets a ceiling near the top of its path",
+                  .weight = 0.5,
+                  .floor = false,
+                  .build = build}};
+
+}  // namespace
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,103 @@
+#include "harness/hunt/promises.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace plumb::harness::hunt {
+namespace {
+
+// Steps that are compared: the later ones cost as much and seldom say more.
+constexpr int kMostSteps = 150;
+
+/// Compares a World in a guise with one without it, by all of its bits or by the visible ones.
+Verdict compare(const Case& one, const Engine& engine, const char* name, const char* right,
+                const std::vector<Guise>& guises, bool whole = true) {
+  Case part = one;
+  part.steps = std::min(one.steps, kMostSteps);
+  const Motion plain = run(engine, part, {.digests = true});
+  if (!plain.failure.empty()) return {};
+  const auto objection = [&](std::size_t k, double off, std::string what) {
+    return Objection{.law = name,
+                     .judge = name,
+                     .what = std::move(what),
+                     .right = right,
+                     .figure = off,
+                     .unit = "m",
+                     .time = static_cast<double>(k) * one.dt};
+  };
+  for (const Guise guise : guises) {
+    const Motion other = run(engine, part, {.guise = guise, .digests = true});
+    if (!other.failure.empty()) return objection(other.samples.size(), 0, other.failure);
+    if (!other.broken_promise.empty()) return objection(other.samples.size() - 1, 0, other.broken_promise);
+    const std::vector<double> off = apart(part, plain, other);
+    const std::size_t count = std::min(plain.digests.size(), other.digests.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      const bool same =
+          whole ? plain.digests[k] == other.digests[k] : plain.digests[k].visible == other.digests[k].visible;
+      if (same) continue;
+      return objection(k + 1, off[k + 1],
+                       fmt::format("goes on with other bits: {:.3g} m off after step {}", off[k + 1], k + 1));
+    }
+  }
+  return {};
+}
+
+Verdict restored(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "restore", "a world that is saved and restored goes on with the same bits",
+                 {Guise::Restored});
+}
+Verdict rolled_back(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "rollback", "a world that is rolled back goes on with the same bits",
+                 {Guise::RolledBack});
+}
+Verdict threaded(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "threads", "each number of threads gives the same bits", {Guise::Threaded});
+}
+Verdict widths(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "widths", "each width of vector registers gives the same bits",
+                 {Guise::Scalar, Guise::Narrow});
+}
+Verdict observed(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "observed", "a world that is looked at goes on with the same bits",
+                 {Guise::Observed});
+}
+Verdict refused(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "refused", "calls with numbers out of range are refused and change nothing",
+                 {Guise::Refused});
+}
+Verdict labelled(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "labels", "names, user data and hit events change nothing", {Guise::Labelled},
+                 false);
+}
+Verdict overrun(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "overrun",
+                 "a body beyond the world's numbers is quarantined and reported, and the others go on",
+                 {Guise::Overrun});
+}
+
+bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
+bool simulates(const Case& one, const Engine& engine) {
+  return !one.world_only() && engine.kind != Engine::Kind::Other;
+}
+bool simulates_world(const Case& one, const Engine& engine) { return !one.world_only() && engine.is_world(); }
+
+}  // namespace
+
+const std::vector<Relation>& promises() {
+  static const std::vector<Relation> all{{"restore", is_world, restored},
+                                         {"rollback", is_world, rolled_back},
+                                         {"threads", is_world, threaded},
+                                         {"widths", is_world, widths},
+                                         {"observed", is_world, observed},
+                                         {"refused", is_world, refused},
+                                         {"labels", is_world, labelled},
+                                         {"overrun", is_world, overrun},
+                                         {"simulation_restore", simulates, simulation_restored},
+                                         {"simulation_stages", simulates, simulation_stages},
+                                         {"simulation_stop", simulates_world, simulation_stops},
+                                         {"simulation_overrun", simulates_world, simulation_overrun}};
+  return all;
+}
+
+}  // namespace plumb::harness::hunt

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/hunt/relations.h"
+
+namespace plumb::harness::hunt {
+
+/// Returns the promises that the engine's interface makes of any scene: runs in a guise that keep every bit.
+/// Judged like relations.
+const std::vector<Relation>& promises();
+
+// The promises of Simulations; those of Worlds are guises.
+Verdict simulation_restored(const Case& one, const Engine& engine, const Motion& motion);
+Verdict simulation_stages(const Case& one, const Engine& engine, const Motion& motion);
+Verdict simulation_stops(const Case& one, const Engine& engine, const Motion& motion);
+Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion& motion);
+
+}  // namespace plumb::harness::hunt
