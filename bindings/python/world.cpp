@@ -315,7 +315,12 @@ void bind_handles(py::module_& module) {
             h.world->visit([&](auto& w) { w.set_locks(h.id, x, y, rotation); });
           },
           arg("x") = false, arg("y") = false, arg("rotation") = false)
-      .def("world_point", PLUMB_SET(HeldBody, Vec2d, return w.world_point(h.id, value)), arg("local"))
+      .def(
+          "world_point",
+          [](const HeldBody& h, Vec2d local) {
+            return h.world->visit([&](auto& w) { return w.world_point(h.id, local); });
+          },
+          arg("local"), "m, in the world, of a point in the body's frame.")
       .def(
           "create_shape",
           [](const HeldBody& h, const std::variant<ShapeDefinition, ShapeGeometry>& shape) {

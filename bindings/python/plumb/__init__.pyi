@@ -1,3 +1,4 @@
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias, TypedDict
 
@@ -335,3 +336,15 @@ class Batch:
     def reset(self, which: Sequence[bool] | None = None) -> None: ...
 
 def scene_from_json(text: str) -> dict[str, Any]: ...
+
+Case: TypeAlias = str | os.PathLike[str] | Mapping[str, Any]
+
+def compare(*cases: Case, engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None,
+            size: int | None = None, dt: float | None = None, timeout: float | None = None, cost: bool = True,
+            out: str | os.PathLike[str] | None = None) -> list[dict[str, Any]]: ...
+def tune(case: Case, *, tolerance: float | None = None, cost_us: float | None = None, metric: str | None = None,
+         engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None, size: int | None = None,
+         dt: float | None = None, budget: float | None = None, duration: float | None = None) -> dict[str, Any]: ...
+def hunt(*families: str, engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None,
+         seed: int | None = None, minutes: float | None = None, scenes: int | None = None, shrinks: int | None = None,
+         jobs: int | None = None, out: str | os.PathLike[str] | None = None) -> list[dict[str, Any]]: ...

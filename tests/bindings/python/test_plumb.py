@@ -238,17 +238,40 @@ def test_a_batch_steps_each_world_with_its_own_actions():
         batch.step(actions[:3])
 
 
-def test_a_pole_falls_unless_it_is_balanced():
+def cart_pole(**arguments):
     path = pathlib.Path(__file__).resolve().parents[3] / "bindings/python/examples/cart_pole.py"
-    cart_pole = runpy.run_path(str(path))
+    return runpy.run_path(str(path))["CartPole"](**arguments)
+
+
+def test_a_pole_falls_unless_it_is_balanced():
     for gains, stands in ((np.zeros(4), False), (np.array([-1.0, -2.0, 30.0, 6.0]), True)):
-        env = cart_pole["CartPole"](worlds=8, threads=2)
+        env = cart_pole(worlds=8, threads=2)
         seen, _ = env.reset(seed=1)
         fallen = np.zeros(8, bool)
         for _ in range(250):
-            seen, _, terminated, _, _ = env.step(np.clip(-seen @ gains, -20, 20))
+            seen, _, terminated, _, _ = env.step(-seen @ gains)
             fallen |= terminated
         assert fallen.any() != stands and fallen.all() != stands
+
+
+def test_an_environment_begins_episodes_anew_and_repeats_itself_on_any_threads():
+    histories = []
+    for threads in (1, 3):
+        env, rows = cart_pole(worlds=6, threads=threads, limit=40), []
+        first, _ = env.reset(seed=3)
+        forces = np.linspace(-20, 20, 6)  # the hardest pushed fall, the others reach the limit
+        for _ in range(130):
+            rows.append(env.step(forces * (np.arange(6) % 2)))
+        histories.append([first] + [np.concatenate(row[:1] + tuple(np.reshape(r, (6, 1)) for r in row[1:4]), axis=1) for row in rows])
+    assert all((a == b).all() for a, b in zip(*histories))
+    seen = np.array(histories[0][1:])
+    rewards, terminated, truncated = seen[:, :, 4], seen[:, :, 5] > 0, seen[:, :, 6] > 0
+    ended = terminated | truncated
+    assert terminated.any() and truncated.any() and not (terminated & truncated).any()
+    # The step after an end gives no reward, ends nothing, and shows a start.
+    after = seen[1:][ended[:-1]]
+    assert (after[:, 4:] == 0).all() and abs(after[:, :4]).max() < 0.05
+    assert (rewards[1:][~ended[:-1] & ~terminated[1:]] == 1).all()
 
 
 def test_worlds_step_on_threads():
