@@ -1,4 +1,4 @@
-// plumb's world for JavaScript: exports.cpp lists the calls, plumb.d.ts the types and units. Works in browsers and in
+// plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
 import packed from "./plumb.wasm.mjs";
 
@@ -88,7 +88,7 @@ function guarded(call) {
     throw error;
   }
 }
-/// Calls the function `name` of exports.cpp, after writing `input` where it is looked for.
+/// Calls the function `name` of the engine, after writing `input` where it is looked for.
 function call(name, args = [], input = null) {
   return guarded(() => {
     if (input !== null) {
@@ -106,7 +106,7 @@ function point(numbers, at = 0) {
   return {x: numbers[at], y: numbers[at + 1]};
 }
 
-// ---- Definitions, as numbers in the order in which exports.cpp reads them -------------------------------------------
+// ---- Definitions, as numbers in the order in which buffer.cpp reads them -------------------------------------------
 
 const flag = (value) => (value ? 1 : 0);
 function wide(value = 0) {
