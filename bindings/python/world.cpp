@@ -66,7 +66,7 @@ py::dict events_of(const WorldPointer& held) {
 WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::string& solver,
                         const std::string& integrator, int iterations, bool sleeping, bool continuous,
                         bool direct_islands, bool quarantine, const std::string& friction,
-                        const std::string& restitution) {
+                        const std::string& restitution, int threads) {
   WorldDefinition d;
   d.gravity = gravity;
   d.solver = named<Solver>(kSolvers, solver, "solver");
@@ -76,6 +76,7 @@ WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::
   d.direct_islands = direct_islands, d.quarantine = quarantine;
   d.combine_friction = named<Combine>(kCombines, friction, "combine_friction");
   d.combine_restitution = named<Combine>(kCombines, restitution, "combine_restitution");
+  d.threads = threads;
   if (named<Precision>(kPrecisions, precision, "precision") == Precision::Float)
     return std::make_shared<HeldWorld>(World(d));
   return std::make_shared<HeldWorld>(DoubleWorld(d));
@@ -94,12 +95,15 @@ void bind_world(py::module_& module) {
       "`angular_velocities` are views without a copy: they show each step as it is taken. Take them anew "
       "after "
       "bodies were created, or a snapshot restored: older ones no longer follow the world.");
-  bound.def(py::init(&make_world), py::kw_only(), arg("gravity") = d.gravity, arg("precision") = "float",
+  bound
+      .def(py::init(&make_world), py::kw_only(), arg("gravity") = d.gravity, arg("precision") = "float",
            arg("solver") = "soft_steps", arg("integrator") = "velocity_verlet",
            arg("iterations") = d.iterations, arg("sleeping") = true, arg("continuous") = true,
            arg("direct_islands") = true, arg("quarantine") = true, arg("combine_friction") = "geometric_mean",
-           arg("combine_restitution") = "maximum",
-           "gravity: m/s^2; precision: 'float' or 'double', of the solver.")
+           arg("combine_restitution") = "maximum", arg("threads") = d.threads,
+           "gravity: m/s^2; precision: 'float' or 'double', of the solver; threads: share a large step, with "
+           "the same "
+           "bits for every number.")
       .def(
           "step",
           [](HeldWorld& h, double dt, int substeps, int count) {
@@ -124,6 +128,10 @@ void bind_world(py::module_& module) {
             const auto solver = named<Solver>(kSolvers, name, "solver");
             h.visit([&](auto& w) { w.set_solver(solver); });
           })
+      .def_property(
+          "threads", [](HeldWorld& h) { return h.visit([](auto& w) { return w.threads(); }); },
+          [](HeldWorld& h, int threads) { h.visit([&](auto& w) { w.set_threads(threads); }); },
+          "Threads that share a step.")
       .def_property_readonly("precision", [](HeldWorld& h) { return kPrecisions[h.world.index()]; })
       .def(
           "set_sleeping", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_sleeping(on); }); },

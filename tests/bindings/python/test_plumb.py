@@ -314,6 +314,42 @@ def test_bodies_and_shapes_are_changed_after_they_were_made():
     assert body.shapes[0].sensor
 
 
+def test_one_shape_is_asked_alone():
+    world = plumb.World(precision="double")
+    floor = world.create_body(type="static")
+    chain = floor.create_chain([(10, 0), (0, 0), (-10, 0)])
+    near = world.create_body(plumb.Circle(0.5), position=(0, 5)).shapes[0]
+    far = world.create_body(plumb.Box(1, 1), position=(0, 2)).shapes[0]
+    # From above the disc is in the way of the box; asked alone, the box is hit at 2.5 m.
+    assert far.ray_cast((0, 10), (0, -10)) == {"point": (0, 2.5), "normal": (0, 1), "fraction": 0.75}
+    assert near.ray_cast((2, 10), (0, -10)) is None
+    assert near.contains((0, 5.4)) and not near.contains((0, 5.6)) and far.contains((0.4, 2.4))
+    assert far.box == ((-0.5, 1.5), (0.5, 2.5))
+    assert chain.segments[0].chain == chain and far.chain is None
+    far.hit_events = far.pre_solve = True
+    calls, hits = [], []
+    world.on_pre_solve(lambda contact: calls.append(1) or True)
+    for _ in range(60):
+        world.step()
+        hits += world.events["hits"]
+    assert calls and hits
+
+
+def test_threads_share_a_step_with_the_same_bits():
+    hashes = set()
+    for threads in (1, 2):
+        world = plumb.World(threads=threads)
+        ground(world)
+        for i in range(400):
+            world.create_body(plumb.Box(0.4, 0.4), position=(0.45 * (i % 20), 0.3 + 0.45 * (i // 20)))
+        world.step(count=20)
+        assert world.threads == threads
+        hashes.add(world.full_hash())
+    assert len(hashes) == 1
+    with pytest.raises(plumb.InvalidValue, match="threads"):
+        world.threads = 0
+
+
 def test_the_stub_names_what_the_module_has():
     package = pathlib.Path(inspect.getfile(plumb)).parent
     stub = ast.parse((package / "__init__.pyi").read_text())
