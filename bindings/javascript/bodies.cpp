@@ -62,6 +62,11 @@ PLUMB_BODY_CALL(set_locks, plumb_body_set_locks(w, body, x != 0, y != 0, rotatio
                 int rotation)
 PLUMB_BODY_CALL(set_awake, plumb_body_set_awake(w, body, on != 0), int on)
 PLUMB_BODY_CALL(set_may_sleep, plumb_body_set_may_sleep(w, body, on != 0), int on)
+PLUMB_BODY_CALL(set_enabled, plumb_body_set_enabled(w, body, on != 0), int on)
+PLUMB_BODY_CALL(set_user_data, plumb_body_set_user_data(w, body, data), std::uint64_t data)
+/// Takes the name from the bytes.
+PLUMB_BODY_CALL(set_name, (bytes.push_back(0),
+                           plumb_body_set_name(w, body, reinterpret_cast<const char*>(bytes.data()))))
 PLUMB_BODY_CALL(release, plumb_body_release(w, body))
 PLUMB_BODY_READ(valid, int, plumb_body_valid(w, body))
 PLUMB_BODY_READ(position, double*, Writer().add(plumb_body_position(w, body)).done())
@@ -75,6 +80,9 @@ PLUMB_BODY_READ(inertia, double, plumb_body_inertia(w, body))
 PLUMB_BODY_READ(gravity_scale, double, plumb_body_gravity_scale(w, body))
 PLUMB_BODY_READ(linear_damping, double, plumb_body_linear_damping(w, body))
 PLUMB_BODY_READ(angular_damping, double, plumb_body_angular_damping(w, body))
+PLUMB_BODY_READ(enabled, int, plumb_body_enabled(w, body))
+PLUMB_BODY_READ(box, double*,
+                Writer().add(plumb_body_box(w, body).lower).add(plumb_body_box(w, body).upper).done())
 PLUMB_BODY_READ(awake, int, plumb_body_awake(w, body))
 PLUMB_BODY_READ(user_data, std::uint64_t, plumb_body_user_data(w, body))
 PLUMB_BODY_READ(name, const char*, plumb_body_name(w, body))
