@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/modules.h"
 #include "app/output.h"
 #include "app/report_error.h"
 #include "app/usage.h"
@@ -81,7 +82,10 @@ int main(int argc, char** argv) {
       "  plumb run free_fall/vacuum --engine plumb-precise --rate 10\n  plumb explain "
       "elastic_collision/oblique\n  plumb check -- python3 my_engine.py\n"
       "Each subcommand has its own --help. Exit codes: 0 ok, 1 a check failed, 2 usage or bad input,\n"
-      "3 no unit is free (work --next), 4 no measurements (reality), 130 interrupted.");
+      "3 no unit is free (work --next), 4 no measurements (reality), 130 interrupted.
+      PLUMB_SCENARIOS names modules of
+      "
+      "scenarios to load, built by plumb_add_scenarios (docs/adding-a-scenario.md).");
   Action action;
   add_list(app, action);
   add_new(app, action);
@@ -109,7 +113,10 @@ int main(int argc, char** argv) {
   add_gather(app, action);
   add_bench(app);
   add_window(app);
-  return reporting_errors([&] { return parse_and_run(app, action, argc, argv); });
+  return reporting_errors([&] {
+    load_scenario_modules();
+    return parse_and_run(app, action, argc, argv);
+  });
 }
 
 }  // namespace

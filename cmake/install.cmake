@@ -1,5 +1,6 @@
-# `cmake --install`: by component, `--component runtime` (libplumb.so), `c` (what C programs are built with) and `cpp`
-# (the library and headers for C++). Packages for find_package(plumb) and for pkg-config (plumb-c, plumb) go along.
+# `cmake --install`: by component, `--component runtime` (libplumb.so), `c` (what C programs are built with) `cpp`
+# (the library and headers for C++) and `harness` (the program plumb, and what scenarios outside the sources are built
+# with: app/CMakeLists.txt). Packages for find_package(plumb) and for pkg-config (plumb-c, plumb) go along.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -26,7 +27,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plumb)
 install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION ${package_dir} COMPONENT cpp)
 install(EXPORT plumbCTargets NAMESPACE plumb:: DESTINATION ${package_dir} COMPONENT c)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/plumbConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/plumbConfig.cmake INSTALL_DESTINATION ${package_dir})
+  ${PROJECT_BINARY_DIR}/plumbConfig.cmake INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 # Below 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
@@ -43,3 +44,23 @@ foreach(package plumb-c:c plumb:cpp)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
     COMPONENT ${component})
 endforeach()
+
+# `cpack -G TGZ` in the build folder: a tarball a component. `cpack --config CPackSourceConfig.cmake`: the sources.
+set(CPACK_PACKAGE_NAME plumb)
+set(CPACK_PACKAGE_VENDOR plumb)
+set(CPACK_PACKAGE_FILE_NAME plumb-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
+set(CPACK_COMPONENTS_ALL runtime c cpp)
+if(NOT PLUMB_LIBRARY_ONLY)
+  list(APPEND CPACK_COMPONENTS_ALL harness)
+endif()
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_GENERATOR TGZ)
+set(CPACK_SOURCE_GENERATOR TGZ)
+set(CPACK_SOURCE_PACKAGE_FILE_NAME plumb-${PROJECT_VERSION})
+set(CPACK_SOURCE_IGNORE_FILES "/build/;/[.]git/;/[.]git$;/results/;/hunt/")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+if(PROJECT_IS_TOP_LEVEL)
+  include(CPack)
+endif()

@@ -99,6 +99,10 @@ declare class Handle {
   readonly generation: number;
   equals(other: unknown): boolean;
 }
+export interface Box {
+  lower: Vec2;
+  upper: Vec2;
+}
 export class Body extends Handle {
   readonly valid: boolean;
   position: Vec2;
@@ -114,8 +118,12 @@ export class Body extends Handle {
   angularDamping: number;
   awake: boolean;
   set maySleep(on: boolean);
-  readonly userData: bigint;
-  readonly name: string;
+  get userData(): bigint;
+  set userData(data: bigint | number);
+  name: string;
+  enabled: boolean;
+  /** m, around its shapes */
+  readonly box: Box;
   readonly quarantined: boolean;
   readonly shapes: Shape[];
   setPose(position: Vec2, angle: number): void;
@@ -137,7 +145,18 @@ export class Body extends Handle {
 export class Shape extends Handle {
   readonly valid: boolean;
   readonly body: Body;
-  readonly userData: bigint;
+  get userData(): bigint;
+  set userData(data: bigint | number);
+  /** kg/m^2 */
+  density: number;
+  sensor: boolean;
+  set hitEvents(on: boolean);
+  set preSolve(on: boolean);
+  /** m */
+  readonly box: Box;
+  /** the hit of a ray with this shape alone, m */
+  rayCast(origin: Vec2, translation: Vec2): {point: Vec2; normal: Vec2; fraction: number} | null;
+  contains(point: Vec2): boolean;
   material: Material;
   set filter(filter: Filter);
   readonly overlapping: Shape[];

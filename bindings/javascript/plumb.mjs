@@ -1,4 +1,4 @@
-// plumb's world for JavaScript: exports.cpp lists the calls, plumb.d.ts the types and units. Works in browsers and in
+// plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
 import packed from "./plumb.wasm.mjs";
 
@@ -88,7 +88,7 @@ function guarded(call) {
     throw error;
   }
 }
-/// Calls the function `name` of exports.cpp, after writing `input` where it is looked for.
+/// Calls the function `name` of the engine, after writing `input` where it is looked for.
 function call(name, args = [], input = null) {
   return guarded(() => {
     if (input !== null) {
@@ -105,8 +105,11 @@ function result(place) {
 function point(numbers, at = 0) {
   return {x: numbers[at], y: numbers[at + 1]};
 }
+function box(numbers) {
+  return {lower: point(numbers), upper: point(numbers, 2)};
+}
 
-// ---- Definitions, as numbers in the order in which exports.cpp reads them -------------------------------------------
+// ---- Definitions, as numbers in the order in which buffer.cpp reads them -------------------------------------------
 
 const flag = (value) => (value ? 1 : 0);
 function wide(value = 0) {
@@ -217,7 +220,16 @@ export class Body extends Handle {
   set awake(on) { this._call("body_set_awake", flag(on)); }
   set maySleep(on) { this._call("body_set_may_sleep", flag(on)); }
   get userData() { return BigInt.asUintN(64, this._call("body_user_data")); }
+  set userData(data) { this._call("body_set_user_data", BigInt.asUintN(64, BigInt(data))); }
   get name() { return text(this._call("body_name")); }
+  set name(name) {
+    const letters = encoder.encode(name);
+    new Uint8Array(calls.memory.buffer, calls.bytes(letters.length), letters.length).set(letters);
+    this._call("body_set_name");
+  }
+  get enabled() { return this._call("body_enabled") !== 0; }
+  set enabled(on) { this._call("body_set_enabled", flag(on)); }
+  get box() { return box(result(this._call("body_box"))); }
   get quarantined() { return this._call("body_quarantined") !== 0; }
   get shapes() { return handles(Shape, this.world, result(this._call("body_shapes"))); }
 
@@ -257,6 +269,21 @@ export class Shape extends Handle {
     return new Body(this.world, n[0], n[1]);
   }
   get userData() { return BigInt.asUintN(64, this._call("shape_user_data")); }
+  set userData(data) { this._call("shape_set_user_data", BigInt.asUintN(64, BigInt(data))); }
+  get density() { return this._call("shape_density"); }
+  set density(value) { this._call("shape_set_density", value); }
+  get sensor() { return this._call("shape_sensor") !== 0; }
+  set sensor(on) { this._call("shape_set_sensor", flag(on)); }
+  set hitEvents(on) { this._call("shape_set_hit_events", flag(on)); }
+  set preSolve(on) { this._call("shape_set_pre_solve", flag(on)); }
+  get box() { return box(result(this._call("shape_box"))); }
+  rayCast(origin, translation) {
+    const hit = result(this._call("shape_ray_cast", ...pair(origin, "origin"), ...pair(translation, "translation")));
+    if (hit.length === 0) return null;
+    const at = {x: origin.x + hit[2] * translation.x, y: origin.y + hit[2] * translation.y};
+    return {point: at, normal: point(hit), fraction: hit[2]};
+  }
+  contains(at) { return this._call("shape_contains", ...pair(at, "point")) !== 0; }
   get material() {
     const [friction, restitution, rollingResistance, surfaceSpeed] = result(this._call("shape_material"));
     return {friction, restitution, rollingResistance, surfaceSpeed};

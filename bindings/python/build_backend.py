@@ -2,7 +2,8 @@
 
 `python3 -m pip install .` needs no network with it: nothing is downloaded to build. Debian's packages pybind11-dev,
 python3-dev, nlohmann-json3-dev, cmake, ninja-build and g++ must be there. PLUMB_BUILD_DIR names a configured build folder
-to use instead of a new one.
+to use instead of a new one. `--config-settings harness=yes` packs the program `plumb` as well, which plumb.compare, tune and
+hunt call: that compiles the harness, with what docs/python.md lists.
 """
 
 import base64
@@ -31,16 +32,18 @@ def metadata():
             "License: MIT\nRequires-Python: >=3.10\nRequires-Dist: numpy\n")
 
 
-def build_module(folder):
-    """The path of the built extension module."""
-    build = os.environ.get("PLUMB_BUILD_DIR")
-    if not build:
-        build = folder
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DPLUMB_LIBRARY_ONLY=ON", "-DPLUMB_PYTHON=REQUIRED", f"-DPLUMB_PYTHON_PROGRAM={sys.executable}"],
-                       check=True)
-    subprocess.run(["cmake", "--build", build, "--target", "plumb_python"], check=True)
-    return next((pathlib.Path(build) / "bindings/python").glob("_plumb*.so"))
+def build(folder, harness):
+    """Paths of the built extension module and, where it is asked for, of the program."""
+    place = os.environ.get("PLUMB_BUILD_DIR")
+    if not place:
+        place = folder
+        subprocess.run(["cmake", "-S", ROOT, "-B", place, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DPLUMB_TESTS=OFF",
+                        "-DPLUMB_BENCHES=OFF", "-DPLUMB_WINDOW=OFF", f"-DPLUMB_LIBRARY_ONLY={'OFF' if harness else 'ON'}",
+                        "-DPLUMB_PYTHON=REQUIRED", f"-DPLUMB_PYTHON_PROGRAM={sys.executable}"], check=True)
+    targets = ["plumb_python"] + (["plumb_app"] if harness else [])
+    subprocess.run(["cmake", "--build", place, "--target", *targets], check=True)
+    place = pathlib.Path(place)
+    return next((place / "bindings/python").glob("_plumb*.so")), place / "bin/plumb" if harness else None
 
 
 def wheel_file():
@@ -59,8 +62,11 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory() as folder:
         files = {f"plumb/{path.name}": path.read_bytes() for path in sorted(PACKAGE.iterdir()) if path.is_file()}
-        module = build_module(folder)
+        harness = (config_settings or {}).get("harness", "no") == "yes"
+        module, program = build(folder, harness)
         files[f"plumb/{module.name}"] = module.read_bytes()
+        if program:
+            files["plumb/bin/plumb"] = program.read_bytes()
         info = f"plumb-{VERSION}.dist-info"
         files[f"{info}/METADATA"] = metadata().encode()
         files[f"{info}/WHEEL"] = wheel_file().encode()
@@ -69,7 +75,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         name = f"plumb-{VERSION}-{tag()}.whl"
         with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
             for path, data in files.items():
-                wheel.writestr(zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
+                entry = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
+                entry.external_attr = (0o100755 if path.startswith("plumb/bin/") else 0o100644) << 16
+                wheel.writestr(entry, data, zipfile.ZIP_DEFLATED)
         return name
 
 

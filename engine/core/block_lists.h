@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <vector>
+
+#include "engine/core/mutex.h"
 
 namespace plumb {
 
@@ -80,7 +81,7 @@ class BlockLists {
   void take_chunk(List& list) {
     Chunk* chunk;
     {
-      const std::lock_guard<std::mutex> lock(taking_);
+      const MutexLock lock(taking_);
       if (used_ == chunks_.size()) chunks_.push_back(std::make_unique<Chunk>());
       chunk = chunks_[used_++].get();
     }
@@ -92,7 +93,7 @@ class BlockLists {
   std::vector<List> lists_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
   std::size_t used_ = 0;
-  std::mutex taking_;
+  Mutex taking_;
 };
 
 }  // namespace plumb

@@ -1,17 +1,61 @@
 #include "engine/core/crew.h"
 
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/mutex.h"
+
+#ifndef PLUMB_NO_THREADS
 #include <atomic>
 #include <cfenv>
 #include <exception>
-#include <mutex>
-#include <numeric>
 #include <optional>
 #include <thread>
-#include <utility>
 
 #include "engine/core/thread_pool.h"
+#endif
 
 namespace plumb {
+
+int Crew::place(int nth, int count) const {
+  switch (order_) {
+    case LoopOrder::Ascending:
+      return nth;
+    case LoopOrder::Descending:
+      return count - 1 - nth;
+    case LoopOrder::Shuffled:
+      break;
+  }
+  // Steps of a length that has no factor in common with the count reach each block once.
+  long long stride = std::max(1, count * 5 / 8);
+  while (std::gcd(stride, static_cast<long long>(count)) != 1) ++stride;
+  return static_cast<int>((stride * nth + count / 3) % count);
+}
+
+void Crew::set_threads(int threads) {
+  if (threads != threads_) renew(threads, tasks_);
+}
+
+void Crew::set_tasks(const TaskSystem& tasks) { renew(threads_, tasks); }
+
+#ifdef PLUMB_NO_THREADS
+
+// All loops are run by the one thread that there is, without sessions.
+struct Crew::Shared {};
+
+void Crew::renew(int threads, const TaskSystem& tasks) {
+  if (threads > 1) throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+  tasks_ = tasks;
+}
+bool Crew::in_session() const { return false; }
+void Crew::open(void (*body)(void*), void* data) { body(data); }
+void Crew::share(int count, void (*run)(void*, int), void* data) {
+  for (int i = 0; i < count; ++i) run(data, place(i, count));
+}
+
+#else
+
 namespace {
 
 // While this guard is alive, the thread computes as another one does: rounds, and treats numbers that are
@@ -62,7 +106,7 @@ struct Crew::Shared {
     try {
       run(data, crew->place(block, blocks));
     } catch (...) {
-      const std::lock_guard<std::mutex> lock(failing);
+      const MutexLock lock(failing);
       const int place = crew->place(block, blocks);
       if (failure != nullptr && failed_block < place) return;
       failure = std::current_exception();
@@ -122,20 +166,11 @@ struct Crew::Shared {
   void (*run)(void*, int) = nullptr;
   void* data = nullptr;
   int blocks = 0;
-  std::mutex failing;
+  Mutex failing;
   std::exception_ptr failure;
   int failed_block = 0;
   alignas(64) std::atomic<int> done{0};  ///< blocks
 };
-
-Crew::Crew() = default;
-Crew::~Crew() = default;
-
-void Crew::set_threads(int threads) {
-  if (threads != threads_) renew(threads, tasks_);
-}
-
-void Crew::set_tasks(const TaskSystem& tasks) { renew(threads_, tasks); }
 
 void Crew::renew(int threads, const TaskSystem& tasks) {
   std::unique_ptr<Shared> shared;
@@ -149,21 +184,6 @@ void Crew::renew(int threads, const TaskSystem& tasks) {
   }
   shared_ = std::move(shared);
   threads_ = threads, tasks_ = tasks;
-}
-
-int Crew::place(int nth, int count) const {
-  switch (order_) {
-    case LoopOrder::Ascending:
-      return nth;
-    case LoopOrder::Descending:
-      return count - 1 - nth;
-    case LoopOrder::Shuffled:
-      break;
-  }
-  // Steps of a length that has no factor in common with the count reach each block once.
-  long long stride = std::max(1, count * 5 / 8);
-  while (std::gcd(stride, static_cast<long long>(count)) != 1) ++stride;
-  return static_cast<int>((stride * nth + count / 3) % count);
 }
 
 bool Crew::in_session() const { return shared_ != nullptr && shared_->open; }
@@ -204,5 +224,10 @@ void Crew::share(int count, void (*run)(void*, int), void* data) {
   }
   if (s.failure != nullptr) std::rethrow_exception(std::exchange(s.failure, nullptr));
 }
+
+#endif
+
+Crew::Crew() = default;
+Crew::~Crew() = default;
 
 }  // namespace plumb

@@ -2,7 +2,8 @@
 
 #include <cstddef>
 #include <memory_resource>
-#include <mutex>
+
+#include "engine/core/mutex.h"
 
 namespace plumb {
 
@@ -14,16 +15,16 @@ class LockedPool final : public std::pmr::memory_resource {
 
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const MutexLock lock(mutex_);
     return pool_.allocate(bytes, alignment);
   }
   void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const MutexLock lock(mutex_);
     pool_.deallocate(memory, bytes, alignment);
   }
   bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::pmr::unsynchronized_pool_resource pool_;
 };
 

@@ -1,3 +1,6 @@
+#include "engine/core/mutex.h"
+
+#ifndef PLUMB_NO_THREADS
 #include "engine/core/thread_pool.h"
 
 namespace plumb {
@@ -84,3 +87,4 @@ void ThreadPool::work() {
 }
 
 }  // namespace plumb
+#endif

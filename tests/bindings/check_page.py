@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks a page of a language: check_page.py PAGE EXAMPLE
 
-The page quotes the example word for word; what stands after "It prints" is printed, to be compared with the program."""
+The page quotes the example word for word; what stands after the next "It prints" is printed, to be compared with the
+program."""
 
 import pathlib
 import re
@@ -14,7 +15,7 @@ def main():
     quoted = re.search(rf"`{name}`:\n\n```\w+\n(.*?)```\n", page, re.S)
     if not quoted or quoted.group(1) != example.read_text():
         sys.exit(f"{sys.argv[1]} does not quote {example} as it is")
-    printed = re.search(r"It prints\n\n```\n(.*?)```\n", page, re.S)
+    printed = re.search(r"It prints\n\n```\n(.*?)```\n", page[quoted.end():], re.S)
     sys.stdout.write(printed.group(1))
 
 

@@ -48,14 +48,17 @@ CMAKE
     build/drop_static >out_static
     cmp out out_static
     ;;
-  python)
+  python | python-harness)
     checkout=$(cd -- "$(dirname -- "$example")/../../.." && pwd)
     # A copy of what pip needs: it writes beside the sources.
     mkdir checkout
     cp -r "$checkout/pyproject.toml" "$checkout/CMakeLists.txt" checkout/
     mkdir -p checkout/bindings
     cp -r "$checkout/bindings/python" checkout/bindings/
-    PLUMB_BUILD_DIR=$prefix /usr/bin/python3 -m pip install --quiet --no-index --no-deps --target site ./checkout
+    settings=()
+    if [[ $language == python-harness ]]; then settings=(--config-settings harness=yes); fi
+    PLUMB_BUILD_DIR=$prefix /usr/bin/python3 -m pip install --quiet --no-index --no-deps --target site "${settings[@]}" ./checkout
+    unset PLUMB_PROGRAM
     PYTHONPATH=$work/site /usr/bin/python3 "$program" >out
     ;;
   javascript)

@@ -28,3 +28,4 @@ has() {
 has runtime 'libplumb\.so\.[0-9]*\.[0-9]*$' '!\.h$' '!\.a$' '!\.pc$' '!\.cmake$'
 has c '/libplumb\.a$' '/libplumb\.so$' '/plumb/plumb\.h$' '/plumb-c\.pc$' '!/world\.h$' '!libplumb_engine'
 has cpp 'libplumb_engine\.' '/plumb/world\.h$' '/plumb/detail/' '/plumb\.pc$' '!/plumb/plumb\.h$' '!/detail/.*world_data\.h$' '/compat/engine/world/world\.h$'
+has harness '/bin/plumb$' '/plumbScenarios\.cmake$' '/compat/scenarios/scenario\.h$' '/compat/scenarios/truth/parts\.h$' '!\.a$'

@@ -238,6 +238,8 @@ MUTATIONS = [
     Mutation("world: damping wakes nobody", "engine/world/world_bodies.h",
              "plumb::set_damping(*data_, index, linear, angular); wake(index);",
              "plumb::set_damping(*data_, index, linear, angular);", "world", ("world/waking",)),
+    Mutation("world: what is struck falls asleep by the speed it had before", "engine/world/continuous/rebound.cpp",
+             "if (!is_still(record, motion, w.extents[flight.body])) record.sleep_time = 0;", "", "world", ("world/resting",)),
     Mutation("world: a platform is a bridge between sleepers", "engine/world/state/sleeping.cpp",
              "if (contact.home != ContactHome::Parked || is_solved(w, contact)) unpark_contact(w, edge / 2);",
              "unpark_contact(w, edge / 2);", "world", ("world/waking",)),

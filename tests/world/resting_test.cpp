@@ -113,6 +113,22 @@ TEST(Sleeping, ATowerFallsAsleepAndWakesWhenItsSupportGoes) {
   EXPECT_EQ(world.counts().awake, 0);
 }
 
+// A body at rest that is struck in whichever step, also in the one in which it would fall asleep, takes the
+// impulse: momentum stays, and the light disc leaves at 2 m1/(m1 + m2) times the heavy one's speed.
+TEST(Sleeping, AHitCountsInTheVeryStepInWhichABodyWouldFallAsleep) {
+  for (int steps = 25; steps < 40; ++steps) {
+    DoubleWorld world({.gravity = {0, 0}});
+    const ShapeDefinition disc{.geometry = Circle{0.25}, .material = {.friction = 0, .restitution = 1}};
+    const double apart = 0.5 + 2 * (steps + 0.4) / 60;
+    const BodyId heavy = world.create_body(
+        {.position = {-apart, 0}, .velocity = {2, 0}, .mass = MassProperties{10, {}, 1}}, disc);
+    const BodyId light = world.create_body({.mass = MassProperties{1, {}, 0.1}}, disc);
+    run(world, 45);
+    EXPECT_NEAR(world.velocity(heavy).x, 18.0 / 11, 1e-9) << steps;
+    EXPECT_NEAR(world.velocity(light).x, 40.0 / 11, 1e-9) << steps;
+  }
+}
+
 TEST(Sleeping, AHitWakesTheWholeIslandAndNoOther) {
   World world;
   add_ground(world);

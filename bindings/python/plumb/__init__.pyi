@@ -1,3 +1,4 @@
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias, TypedDict
 
@@ -186,11 +187,19 @@ class Shape:
     surface_speed: float
     density: float
     sensor: bool
+    hit_events: bool
+    pre_solve: bool
     user_data: int
     @property
     def index(self) -> int: ...
     @property
     def body(self) -> Body: ...
+    @property
+    def box(self) -> tuple[Pair, Pair]: ...
+    @property
+    def chain(self) -> Chain | None: ...
+    def ray_cast(self, origin: Vec2, translation: Vec2) -> dict[str, Any] | None: ...
+    def contains(self, point: Vec2) -> bool: ...
     @property
     def valid(self) -> bool: ...
     @property
@@ -226,10 +235,11 @@ class World:
     """A world that advances in fixed steps. Arrays have a row for each index of a body."""
     gravity: Pair
     solver: Solver
+    threads: int
     def __init__(self, *, gravity: Vec2 = (0, -9.81), precision: Precision = "float", solver: Solver = "soft_steps",
                  integrator: Integrator = "velocity_verlet", iterations: int = 10, sleeping: bool = True,
                  continuous: bool = True, direct_islands: bool = True, quarantine: bool = True,
-                 combine_friction: Combine = "geometric_mean", combine_restitution: Combine = "maximum") -> None: ...
+                 combine_friction: Combine = "geometric_mean", combine_restitution: Combine = "maximum", threads: int = 1) -> None: ...
     def step(self, dt: float = 1 / 60, substeps: int = 4, count: int = 1) -> None: ...
     @property
     def time(self) -> float: ...
@@ -335,3 +345,15 @@ class Batch:
     def reset(self, which: Sequence[bool] | None = None) -> None: ...
 
 def scene_from_json(text: str) -> dict[str, Any]: ...
+
+Case: TypeAlias = str | os.PathLike[str] | Mapping[str, Any]
+
+def compare(*cases: Case, engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None,
+            size: int | None = None, dt: float | None = None, timeout: float | None = None, cost: bool = True,
+            out: str | os.PathLike[str] | None = None) -> list[dict[str, Any]]: ...
+def tune(case: Case, *, tolerance: float | None = None, cost_us: float | None = None, metric: str | None = None,
+         engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None, size: int | None = None,
+         dt: float | None = None, budget: float | None = None, duration: float | None = None) -> dict[str, Any]: ...
+def hunt(*families: str, engines: str | Sequence[str] | None = None, commands: Mapping[str, str] | None = None,
+         seed: int | None = None, minutes: float | None = None, scenes: int | None = None, shrinks: int | None = None,
+         jobs: int | None = None, out: str | os.PathLike[str] | None = None) -> list[dict[str, Any]]: ...

@@ -10,6 +10,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/expected_impacts.h"
 
@@ -196,6 +197,9 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
   if (flight.impacts == 0) return;
   motion.velocity = flight.velocity_at(1).template as<Real>();
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
+  // The sleep timer was updated with the velocity from before the impact.
+  BodyRecord<Real>& record = w.bodies[flight.body];
+  if (!is_still(record, motion, w.extents[flight.body])) record.sleep_time = 0;
 }
 
 #define PLUMB_FOR(Real)                                                                      \

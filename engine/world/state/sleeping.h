@@ -1,10 +1,22 @@
 #pragma once
 
+#include <cmath>
+
+#include "engine/world/state/constants.h"
 #include "engine/world/world_data.h"
 
 /// Sleeping: an island (bodies connected by contacts and joints) falls asleep when all its bodies have been
 /// at rest for long enough. It wakes as a whole.
 namespace plumb {
+
+/// Returns true if a body of this motion counts as at rest, so that its sleep timer runs. `extent` is the
+/// farthest distance of its shapes from the centre of mass, m.
+template <class Real>
+bool is_still(const BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent) {
+  const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
+  const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
+  return record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
+}
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic one wakes alone.
 /// Awake and static bodies are left as they are. If memory runs out, throws, and all of them sleep on.

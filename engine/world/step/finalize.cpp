@@ -11,6 +11,7 @@
 #include "engine/world/state/prefetch_awake_bodies.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -18,14 +19,6 @@ namespace {
 
 // Steps after which a body's rotation is recomputed from its angle, because rounding accumulates in between.
 constexpr int kRefresh = 256;
-
-template <class Real>
-void update_sleep_timer(BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent, Real dt) {
-  const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
-  const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
-  const bool is_still = record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
-  record.sleep_time = is_still ? record.sleep_time + dt : Real(0);
-}
 
 // Returns the Kahan compensation of positions (Kahan, 1965), in double only: 1e7 m from the origin, 600 steps
 // would otherwise lose 1e-6 m. In float the steps themselves are coarser than that.
@@ -104,7 +97,7 @@ template <class Real, class Found>
   move_body(w, body, record, motion, position_compensation);
   if (loads != nullptr) loads[body] = {};
   if (w.settings.sleeping) {
-    update_sleep_timer(record, motion, extent, dt);
+    record.sleep_time = is_still(record, motion, extent) ? record.sleep_time + dt : Real(0);
   } else if (record.sleep_time != 0) {
     record.sleep_time = 0;
   }

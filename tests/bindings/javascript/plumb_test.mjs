@@ -148,6 +148,32 @@ test("a character walks, chains carry, and shapes change", () => {
   near(shape.material.friction, 0.6, 1e-7);
 });
 
+test("bodies and shapes are changed after they were made, and asked alone", () => {
+  const {world} = withGround();
+  const body = world.createBody({position: {x: 0, y: 3}, shapes: [{box: {width: 1, height: 1}}]});
+  const [shape] = body.shapes;
+  body.name = "crate", body.userData = 7, shape.userData = 2n ** 63n, shape.density = 4;
+  assert.deepEqual([body.name, body.userData, shape.userData, body.mass, shape.density], ["crate", 7n, 2n ** 63n, 4, 4]);
+  assert.deepEqual(body.box, {lower: {x: -0.5, y: 2.5}, upper: {x: 0.5, y: 3.5}});
+  assert.deepEqual(shape.box, body.box);
+  assert.deepEqual(shape.rayCast({x: 0, y: 10}, {x: 0, y: -10}), {point: {x: 0, y: 3.5}, normal: {x: 0, y: 1}, fraction: 0.65});
+  assert.equal(shape.rayCast({x: 2, y: 10}, {x: 0, y: -10}), null);
+  assert.ok(shape.contains({x: 0.4, y: 3.4}) && !shape.contains({x: 0.6, y: 3}));
+  body.enabled = false;
+  for (let i = 0; i < 10; ++i) world.step();
+  assert.ok(body.position.y === 3 && !body.enabled);
+  body.enabled = true;
+  shape.hitEvents = true;
+  let hits = 0;
+  for (let i = 0; i < 60; ++i) {
+    world.step();
+    hits += world.events.hits.length;
+  }
+  assert.equal(hits, 1);
+  shape.sensor = true;
+  assert.ok(shape.sensor);
+});
+
 test("worlds give their memory back", () => {
   for (let i = 0; i < 3000; ++i) {
     const {world} = withGround();
@@ -164,7 +190,7 @@ test("the package is small, and its types name what it exports", () => {
   const types = readFileSync(path.join(folder, "plumb.d.ts"), "utf8");
   for (const [name, Type] of Object.entries({World, Body, Shape, Chain, Joint})) {
     const block = types.match(new RegExp(`class ${name}(?: extends \\w+)? \\{([^]*?)\\n\\}`))[1];
-    const declared = new Set([...block.matchAll(/^ {2}(?:readonly |set )?(\w+)[(:?]/gm)].map((match) => match[1]));
+    const declared = new Set([...block.matchAll(/^ {2}(?:readonly |[gs]et )?(\w+)[(:?]/gm)].map((match) => match[1]));
     declared.delete("constructor");
     const real = Object.getOwnPropertyNames(Type.prototype).filter((each) => each !== "constructor" && !each.startsWith("_"));
     assert.deepEqual([...declared].sort(), real.sort(), name);

@@ -238,17 +238,40 @@ def test_a_batch_steps_each_world_with_its_own_actions():
         batch.step(actions[:3])
 
 
-def test_a_pole_falls_unless_it_is_balanced():
+def cart_pole(**arguments):
     path = pathlib.Path(__file__).resolve().parents[3] / "bindings/python/examples/cart_pole.py"
-    cart_pole = runpy.run_path(str(path))
+    return runpy.run_path(str(path))["CartPole"](**arguments)
+
+
+def test_a_pole_falls_unless_it_is_balanced():
     for gains, stands in ((np.zeros(4), False), (np.array([-1.0, -2.0, 30.0, 6.0]), True)):
-        env = cart_pole["CartPole"](worlds=8, threads=2)
+        env = cart_pole(worlds=8, threads=2)
         seen, _ = env.reset(seed=1)
         fallen = np.zeros(8, bool)
         for _ in range(250):
-            seen, _, terminated, _, _ = env.step(np.clip(-seen @ gains, -20, 20))
+            seen, _, terminated, _, _ = env.step(-seen @ gains)
             fallen |= terminated
         assert fallen.any() != stands and fallen.all() != stands
+
+
+def test_an_environment_begins_episodes_anew_and_repeats_itself_on_any_threads():
+    histories = []
+    for threads in (1, 3):
+        env, rows = cart_pole(worlds=6, threads=threads, limit=40), []
+        first, _ = env.reset(seed=3)
+        forces = np.linspace(-20, 20, 6)  # the hardest pushed fall, the others reach the limit
+        for _ in range(130):
+            rows.append(env.step(forces * (np.arange(6) % 2)))
+        histories.append([first] + [np.concatenate(row[:1] + tuple(np.reshape(r, (6, 1)) for r in row[1:4]), axis=1) for row in rows])
+    assert all((a == b).all() for a, b in zip(*histories))
+    seen = np.array(histories[0][1:])
+    rewards, terminated, truncated = seen[:, :, 4], seen[:, :, 5] > 0, seen[:, :, 6] > 0
+    ended = terminated | truncated
+    assert terminated.any() and truncated.any() and not (terminated & truncated).any()
+    # The step after an end gives no reward, ends nothing, and shows a start.
+    after = seen[1:][ended[:-1]]
+    assert (after[:, 4:] == 0).all() and abs(after[:, :4]).max() < 0.05
+    assert (rewards[1:][~ended[:-1] & ~terminated[1:]] == 1).all()
 
 
 def test_worlds_step_on_threads():
@@ -289,6 +312,42 @@ def test_bodies_and_shapes_are_changed_after_they_were_made():
     assert body.position[1] < 3
     body.shapes[0].sensor = True
     assert body.shapes[0].sensor
+
+
+def test_one_shape_is_asked_alone():
+    world = plumb.World(precision="double")
+    floor = world.create_body(type="static")
+    chain = floor.create_chain([(10, 0), (0, 0), (-10, 0)])
+    near = world.create_body(plumb.Circle(0.5), position=(0, 5)).shapes[0]
+    far = world.create_body(plumb.Box(1, 1), position=(0, 2)).shapes[0]
+    # From above the disc is in the way of the box; asked alone, the box is hit at 2.5 m.
+    assert far.ray_cast((0, 10), (0, -10)) == {"point": (0, 2.5), "normal": (0, 1), "fraction": 0.75}
+    assert near.ray_cast((2, 10), (0, -10)) is None
+    assert near.contains((0, 5.4)) and not near.contains((0, 5.6)) and far.contains((0.4, 2.4))
+    assert far.box == ((-0.5, 1.5), (0.5, 2.5))
+    assert chain.segments[0].chain == chain and far.chain is None
+    far.hit_events = far.pre_solve = True
+    calls, hits = [], []
+    world.on_pre_solve(lambda contact: calls.append(1) or True)
+    for _ in range(60):
+        world.step()
+        hits += world.events["hits"]
+    assert calls and hits
+
+
+def test_threads_share_a_step_with_the_same_bits():
+    hashes = set()
+    for threads in (1, 2):
+        world = plumb.World(threads=threads)
+        ground(world)
+        for i in range(400):
+            world.create_body(plumb.Box(0.4, 0.4), position=(0.45 * (i % 20), 0.3 + 0.45 * (i // 20)))
+        world.step(count=20)
+        assert world.threads == threads
+        hashes.add(world.full_hash())
+    assert len(hashes) == 1
+    with pytest.raises(plumb.InvalidValue, match="threads"):
+        world.threads = 0
 
 
 def test_the_stub_names_what_the_module_has():

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bindings/c/include/plumb/plumb.h"
+
+/// Functions called from JavaScript (plumb.mjs), over the C interface. Structures pass as numbers through one
+/// buffer, in the order of the structure's members: no layout of memory is known on the other side. Results
+/// of several numbers lie in the same buffer.
+namespace plumb::javascript {
+
+extern std::vector<double> numbers;
+extern std::vector<unsigned char> bytes;
+
+/// Reads the buffer from its start.
+class Reader {
+ public:
+  double number() { return numbers[at_++]; }
+  bool flag() { return number() != 0; }
+  int integer() { return static_cast<int>(number()); }
+  std::uint32_t bits() { return static_cast<std::uint32_t>(number()); }
+  std::uint64_t wide() {
+    const std::uint64_t low = bits();
+    return low | std::uint64_t{bits()} << 32;
+  }
+  plumb_vec2 point() {
+    const double x = number();
+    return {x, number()};
+  }
+  std::vector<plumb_vec2> points() {
+    std::vector<plumb_vec2> all(bits());
+    for (plumb_vec2& each : all) each = point();
+    return all;
+  }
+
+ private:
+  std::size_t at_ = 0;
+};
+
+/// Writes the buffer from its start.
+class Writer {
+ public:
+  Writer() { numbers.clear(); }
+  Writer& add(double value) {
+    numbers.push_back(value);
+    return *this;
+  }
+  Writer& add(plumb_vec2 v) { return add(v.x).add(v.y); }
+  template <class Handle>
+  Writer& id(Handle handle) {
+    return add(handle.index).add(handle.generation);
+  }
+  double* done() const { return numbers.data(); }
+};
+
+plumb_material material(Reader& r);
+plumb_filter filter(Reader& r);
+/// Reads a geometry; `points` holds the points that it names.
+plumb_geometry geometry(Reader& r, std::vector<plumb_vec2>& points);
+plumb_query_filter query(Reader& r);
+
+/// A shape's definition and the points that it names.
+struct ShapeInput {
+  plumb_shape_definition definition = plumb_default_shape();
+  std::vector<plumb_vec2> points;
+};
+void read(Reader& r, ShapeInput& shape);
+
+}  // namespace plumb::javascript
+
+#define PLUMB_EXPORT(name) __attribute__((export_name(name)))
+#define PLUMB_IMPORT(name) __attribute__((import_module("plumb"), import_name(name)))
+/// Parameters of a function of a world and a handle.
+#define PLUMB_HANDLE plumb_world *w, std::uint32_t index, std::uint32_t generation

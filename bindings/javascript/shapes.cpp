@@ -1,0 +1,96 @@
+#include "bindings/javascript/buffer.h"
+
+using namespace plumb::javascript;
+
+extern "C" {
+
+PLUMB_EXPORT("shape_create")
+double* js_shape_create(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  Reader r;
+  ShapeInput input;
+  read(r, input);
+  return Writer().id(plumb_shape_create(w, {index, generation}, &input.definition)).done();
+}
+PLUMB_EXPORT("chain_create")
+double* js_chain_create(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  Reader r;
+  plumb_chain_definition d = plumb_default_chain();
+  d.closed = r.flag();
+  d.material = material(r), d.filter = filter(r);
+  const std::vector<plumb_vec2> points = r.points();
+  d.points = points.data(), d.point_count = points.size();
+  return Writer().id(plumb_chain_create(w, {index, generation}, &d)).done();
+}
+PLUMB_EXPORT("shape_destroy") void js_shape_destroy(PLUMB_HANDLE) {
+  plumb_shape_destroy(w, {index, generation});
+}
+PLUMB_EXPORT("shape_valid") int js_shape_valid(PLUMB_HANDLE) {
+  return plumb_shape_valid(w, {index, generation});
+}
+PLUMB_EXPORT("shape_body") double* js_shape_body(PLUMB_HANDLE) {
+  return Writer().id(plumb_shape_body(w, {index, generation})).done();
+}
+PLUMB_EXPORT("shape_user_data") std::uint64_t js_shape_user_data(PLUMB_HANDLE) {
+  return plumb_shape_user_data(w, {index, generation});
+}
+PLUMB_EXPORT("shape_material") double* js_shape_material(PLUMB_HANDLE) {
+  const plumb_material m = plumb_shape_material(w, {index, generation});
+  return Writer().add(m.friction).add(m.restitution).add(m.rolling_resistance).add(m.surface_speed).done();
+}
+PLUMB_EXPORT("shape_set_material") void js_shape_set_material(PLUMB_HANDLE) {
+  Reader r;
+  plumb_shape_set_material(w, {index, generation}, material(r));
+}
+PLUMB_EXPORT("shape_set_filter") void js_shape_set_filter(PLUMB_HANDLE) {
+  Reader r;
+  plumb_shape_set_filter(w, {index, generation}, filter(r));
+}
+PLUMB_EXPORT("shape_overlapping") double* js_shape_overlapping(PLUMB_HANDLE) {
+  std::vector<plumb_shape> all(plumb_shape_overlapping(w, {index, generation}, nullptr, 0));
+  plumb_shape_overlapping(w, {index, generation}, all.data(), all.size());
+  Writer out;
+  for (const plumb_shape shape : all) out.id(shape);
+  return out.done();
+}
+PLUMB_EXPORT("shape_set_user_data") void js_shape_set_user_data(PLUMB_HANDLE, std::uint64_t data) {
+  plumb_shape_set_user_data(w, {index, generation}, data);
+}
+PLUMB_EXPORT("shape_density") double js_shape_density(PLUMB_HANDLE) {
+  return plumb_shape_density(w, {index, generation});
+}
+PLUMB_EXPORT("shape_set_density") void js_shape_set_density(PLUMB_HANDLE, double density) {
+  plumb_shape_set_density(w, {index, generation}, density);
+}
+PLUMB_EXPORT("shape_sensor") int js_shape_sensor(PLUMB_HANDLE) {
+  return plumb_shape_sensor(w, {index, generation});
+}
+PLUMB_EXPORT("shape_set_sensor") void js_shape_set_sensor(PLUMB_HANDLE, int on) {
+  plumb_shape_set_sensor(w, {index, generation}, on != 0);
+}
+PLUMB_EXPORT("shape_set_hit_events") void js_shape_set_hit_events(PLUMB_HANDLE, int on) {
+  plumb_shape_set_hit_events(w, {index, generation}, on != 0);
+}
+PLUMB_EXPORT("shape_set_pre_solve") void js_shape_set_pre_solve(PLUMB_HANDLE, int on) {
+  plumb_shape_set_pre_solve(w, {index, generation}, on != 0);
+}
+PLUMB_EXPORT("shape_box") double* js_shape_box(PLUMB_HANDLE) {
+  const plumb_box_bounds box = plumb_shape_box(w, {index, generation});
+  return Writer().add(box.lower).add(box.upper).done();
+}
+/// Writes the normal and the fraction of a hit of this shape alone, and nothing for none.
+PLUMB_EXPORT("shape_ray_cast")
+double* js_shape_ray_cast(PLUMB_HANDLE, double x, double y, double way_x, double way_y) {
+  double fraction = 0;
+  plumb_vec2 normal{};
+  Writer out;
+  if (plumb_shape_ray_cast(w, {index, generation}, {x, y}, {way_x, way_y}, &fraction, &normal))
+    out.add(normal).add(fraction);
+  return out.done();
+}
+PLUMB_EXPORT("shape_contains") int js_shape_contains(PLUMB_HANDLE, double x, double y) {
+  return plumb_shape_contains(w, {index, generation}, {x, y});
+}
+PLUMB_EXPORT("chain_destroy") void js_chain_destroy(PLUMB_HANDLE) {
+  plumb_chain_destroy(w, {index, generation});
+}
+}

@@ -1,0 +1,148 @@
+#include "bindings/javascript/buffer.h"
+
+using namespace plumb::javascript;
+
+namespace {
+
+void write(Writer& w, const plumb_contact& c) {
+  w.id(c.shape_a).id(c.shape_b).add(c.normal).add(c.count);
+  for (int i = 0; i < 2; ++i) w.add(c.points[i]).add(c.separations[i]).add(c.impulses[i]);
+  w.add(c.approach);
+}
+
+}  // namespace
+
+extern "C" {
+
+/// Calls the hook of a world with the contact in the buffer.
+PLUMB_IMPORT("pre_solve") int js_pre_solve(void* world);
+
+PLUMB_EXPORT("world_create") plumb_world* js_world_create() {
+  Reader r;
+  plumb_world_definition d = plumb_default_world();
+  d.precision = static_cast<plumb_precision>(r.integer());
+  d.gravity = r.point();
+  d.combine_friction = static_cast<plumb_combine>(r.integer());
+  d.combine_restitution = static_cast<plumb_combine>(r.integer());
+  d.sleeping = r.flag(), d.continuous = r.flag();
+  d.solver = static_cast<plumb_solver>(r.integer());
+  d.integrator = static_cast<plumb_integrator>(r.integer());
+  d.iterations = r.integer();
+  d.direct_islands = r.flag(), d.quarantine = r.flag();
+  return plumb_world_create(&d);
+}
+PLUMB_EXPORT("world_destroy") void js_world_destroy(plumb_world* w) { plumb_world_destroy(w); }
+PLUMB_EXPORT("world_step") void js_world_step(plumb_world* w, double dt, int substeps, int count) {
+  for (int i = 0; i < count; ++i) plumb_world_step(w, dt, substeps);
+}
+PLUMB_EXPORT("world_time") double js_world_time(plumb_world* w) { return plumb_world_time(w); }
+PLUMB_EXPORT("world_set_gravity") void js_set_gravity(plumb_world* w, double x, double y) {
+  plumb_world_set_gravity(w, {x, y});
+}
+PLUMB_EXPORT("world_gravity") double* js_gravity(plumb_world* w) {
+  return Writer().add(plumb_world_gravity(w)).done();
+}
+PLUMB_EXPORT("world_set_sleeping") void js_set_sleeping(plumb_world* w, int on) {
+  plumb_world_set_sleeping(w, on != 0);
+}
+PLUMB_EXPORT("world_set_continuous") void js_set_continuous(plumb_world* w, int on) {
+  plumb_world_set_continuous(w, on != 0);
+}
+PLUMB_EXPORT("world_set_solver") void js_set_solver(plumb_world* w, int solver) {
+  plumb_world_set_solver(w, static_cast<plumb_solver>(solver));
+}
+PLUMB_EXPORT("world_set_profiling") void js_set_profiling(plumb_world* w, int on) {
+  plumb_world_set_profiling(w, on != 0);
+}
+PLUMB_EXPORT("world_profile") double* js_profile(plumb_world* w) {
+  const plumb_profile p = plumb_world_profile(w);
+  return Writer()
+      .add(p.broad_phase)
+      .add(p.narrow_phase)
+      .add(p.solver)
+      .add(p.finalize)
+      .add(p.continuous)
+      .add(p.events)
+      .add(p.sleep)
+      .add(static_cast<double>(p.steps))
+      .done();
+}
+PLUMB_EXPORT("world_counts") double* js_counts(plumb_world* w) {
+  const plumb_counts c = plumb_world_counts(w);
+  return Writer()
+      .add(c.bodies)
+      .add(c.awake)
+      .add(c.shapes)
+      .add(c.contacts)
+      .add(c.touching)
+      .add(c.joints)
+      .done();
+}
+
+// Arrays of all bodies. Each has its own memory, which stays until the next call of the same function.
+PLUMB_EXPORT("world_poses") const plumb_pose* js_poses(plumb_world* w) {
+  static std::vector<plumb_pose> all;
+  static_assert(sizeof(plumb_pose) == 3 * sizeof(double));
+  all.resize(plumb_world_bodies(w, nullptr, 0));
+  plumb_world_poses(w, all.data(), all.size());
+  return all.data();
+}
+PLUMB_EXPORT("world_velocities") const plumb_velocity* js_velocities(plumb_world* w) {
+  static std::vector<plumb_velocity> all;
+  static_assert(sizeof(plumb_velocity) == 3 * sizeof(double));
+  all.resize(plumb_world_bodies(w, nullptr, 0));
+  plumb_world_velocities(w, all.data(), all.size());
+  return all.data();
+}
+PLUMB_EXPORT("world_bodies") const plumb_body* js_bodies(plumb_world* w) {
+  static std::vector<plumb_body> all;
+  all.resize(plumb_world_bodies(w, nullptr, 0));
+  plumb_world_bodies(w, all.data(), all.size());
+  return all.data();
+}
+PLUMB_EXPORT("body_count") std::size_t js_body_count(plumb_world* w) {
+  return plumb_world_bodies(w, nullptr, 0);
+}
+
+PLUMB_EXPORT("world_contacts") double* js_contacts(plumb_world* w) {
+  std::vector<plumb_contact> all(plumb_world_contacts(w, nullptr, 0));
+  plumb_world_contacts(w, all.data(), all.size());
+  Writer writer;
+  for (const plumb_contact& contact : all) write(writer, contact);
+  return writer.done();
+}
+/// Writes the lengths of the nine lists, and then the lists.
+PLUMB_EXPORT("world_events") double* js_events(plumb_world* w) {
+  const plumb_events e = plumb_world_events(w);
+  Writer out;
+  for (const std::size_t count :
+       {e.begin_count, e.end_count, e.hit_count, e.sensor_begin_count, e.sensor_end_count, e.broken_count,
+        e.fell_asleep_count, e.woke_count, e.quarantined_count})
+    out.add(static_cast<double>(count));
+  const auto touches = [&](const plumb_touch_event* all, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) out.id(all[i].shape_a).id(all[i].shape_b);
+  };
+  const auto sensed = [&](const plumb_sensor_event* all, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) out.id(all[i].sensor).id(all[i].visitor);
+  };
+  touches(e.begin, e.begin_count), touches(e.end, e.end_count);
+  for (std::size_t i = 0; i < e.hit_count; ++i) {
+    const plumb_hit_event& hit = e.hits[i];
+    out.id(hit.shape_a).id(hit.shape_b).add(hit.point).add(hit.normal).add(hit.speed);
+  }
+  sensed(e.sensor_begin, e.sensor_begin_count), sensed(e.sensor_end, e.sensor_end_count);
+  for (std::size_t i = 0; i < e.broken_count; ++i) out.id(e.broken[i]);
+  for (std::size_t i = 0; i < e.fell_asleep_count; ++i) out.id(e.fell_asleep[i]);
+  for (std::size_t i = 0; i < e.woke_count; ++i) out.id(e.woke[i]);
+  for (std::size_t i = 0; i < e.quarantined_count; ++i) out.id(e.quarantined[i].body);
+  return out.done();
+}
+PLUMB_EXPORT("world_on_pre_solve") void js_on_pre_solve(plumb_world* w, int on) {
+  const auto call = [](const plumb_contact* contact, void* world) {
+    Writer writer;
+    write(writer, *contact);
+    return js_pre_solve(world) != 0;
+  };
+  plumb_world_on_pre_solve(w, on != 0 ? +call : nullptr, w);
+}
+}

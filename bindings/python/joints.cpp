@@ -1,0 +1,39 @@
+#include "bindings/python/handles.h"
+
+namespace plumb::python {
+namespace {
+
+using py::arg;
+
+}  // namespace
+
+void bind_joints(py::module_& module) {
+  py::class_<HeldJoint> joint(module, "Joint", "A joint of two bodies.");
+  joint.def_property_readonly("valid", PLUMB_READ(HeldJoint, w.valid(h.id)))
+      .def_property_readonly("kind", PLUMB_READ(HeldJoint, JointKind(w.kind(h.id))))
+      .def_property_readonly("bodies",
+                             [](const HeldJoint& h) {
+                               const auto [a, b] = h.world->visit([&](auto& w) { return w.bodies(h.id); });
+                               return py::make_tuple(HeldBody{h.world, a}, HeldBody{h.world, b});
+                             })
+      .def(
+          "change",
+          [](const HeldJoint& h, const JointKind& kind) {
+            h.world->visit([&](auto& w) { w.change(h.id, kind); });
+          },
+          arg("kind"), "Sets new speeds, limits and targets, and wakes the bodies.")
+      .def(
+          "read",
+          [](const HeldJoint& h) {
+            const JointReading r = h.world->visit([&](auto& w) { return w.read(h.id); });
+            return py::dict(arg("force") = r.force, arg("torque") = r.torque,
+                            arg("linear_error") = r.linear_error, arg("angular_error") = r.angular_error,
+                            arg("angle") = r.angle, arg("translation") = r.translation,
+                            arg("length") = r.length);
+          },
+          "Measurements: force (N), torque (N m), errors (m, rad), angle (rad), translation and length (m).")
+      .def("destroy", [](const HeldJoint& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+  bind_common(joint, "Joint");
+}
+
+}  // namespace plumb::python

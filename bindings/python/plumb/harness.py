@@ -1,0 +1,126 @@
+"""compare, tune and hunt: the harness of the program `plumb`, called from Python.
+
+The program is the one that PLUMB_PROGRAM names, that the package brought along (a wheel built with the setting
+`harness=yes`), or the first `plumb` on the search path.
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+
+from ._errors import Error, FileError
+
+# Exit codes of the program: what it was asked for is in its output with both of these.
+_ANSWERED = (0, 1)
+
+
+def program():
+    """Path of the program `plumb`. Raises FileError where there is none."""
+    name = os.environ.get("PLUMB_PROGRAM") or _brought() or shutil.which("plumb")
+    if not name:
+        raise FileError("The program plumb was not found: install it, build the wheel with harness=yes, or set PLUMB_PROGRAM.")
+    return name
+
+
+def _brought():
+    path = pathlib.Path(__file__).with_name("bin") / "plumb"
+    return str(path) if path.exists() else None
+
+
+def compare(*cases, engines=None, commands=None, size=None, dt=None, timeout=None, cost=True, out=None):
+    """Runs cases on engines, holds each run against the truth, and measures what a step costs.
+
+    cases: names of scenarios, variants or sizes; paths of case files or folders of them; case files as dicts
+    (docs/cases.md); none: all scenarios. engines: names, None: those that are linked in. commands: programs that speak
+    docs/protocol.md, a dict of name and command line. dt: step, s. timeout: s a run may take. out: a folder to which
+    the results and a report are added.
+
+    Returns the results as dicts, one a case and engine, with `label`, `engine`, `status`, `metrics`, `checks`, `cost`
+    (ns) and `unexpected`, the names of checks that missed and should not have. Raises Error where the program refuses.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        options = ["--out", os.fspath(out)] if out else ["--out", folder, "--no-report"]
+        options += [] if cost else ["--no-cost"]
+        options += _common(engines, commands) + _given(size=size, dt=dt, timeout=timeout)
+        text = _run(["compare", *_named(cases, folder), *options, "--format", "json"])
+        return [json.loads(line) for line in text.splitlines()]
+
+
+def tune(case, *, tolerance=None, cost_us=None, metric=None, engines=None, commands=None, size=None, dt=None,
+         budget=None, duration=None):
+    """Finds the cheapest settings that reach an accuracy, or the most accurate within a cost, on every engine.
+
+    case: a scenario's name, the path of a scene or case file, or either as a dict. tolerance: largest error, in the
+    metric's unit; cost_us: instead, the largest cost of a step of the game, us. metric: position_error (m) unless
+    given. dt: step of the game, s; budget: s that the search may take; duration: s that a file's scene runs.
+
+    Returns a dict with `answers`, cheapest first: each has `engine`, the settings and what they reach (`reaches`), or
+    the `problem` of an engine that cannot. Raises Error where the program refuses.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        options = _common(engines, commands) + _given(tolerance=tolerance, cost_us=cost_us, metric=metric, size=size,
+                                                      dt=dt, budget=budget, duration=duration)
+        return json.loads(_run(["tune", *_named([case], folder), *options, "--format", "json"]))
+
+
+def hunt(*families, engines=None, commands=None, seed=None, minutes=None, scenes=None, shrinks=None, jobs=None, out=None):
+    """Runs random scenes and judges them without an answer sheet: by laws, symmetries and the other engines.
+
+    families: structures to draw scenes from (`plumb hunt --list`), none: all. minutes: how long; scenes: how many at
+    most; out: folder for the findings, so that a later hunt goes on.
+
+    Returns the kinds of findings as dicts: `kind`, `judge`, `engines`, `what`, `right`, and `finding`, the smallest
+    one with its scene as a dict that `Simulation` and `World.add_scene` take. Raises Error where the program refuses.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        place = pathlib.Path(out or folder)
+        options = _common(engines, commands) + _given(seed=seed, minutes=minutes, scenes=scenes, shrinks=shrinks, jobs=jobs)
+        found = json.loads(_run(["hunt", *families, *options, "--out", os.fspath(place), "--format", "json"]))
+        for kind in found:
+            kind["finding"] = json.loads((place / kind["file"]).read_text())
+        return found
+
+
+def _given(**options):
+    given = [(f"--{name.replace('_', '-')}", value) for name, value in options.items() if value is not None]
+    return [part for name, value in given for part in (name, repr(value) if isinstance(value, float) else str(value))]
+
+
+def _common(engines, commands):
+    options = []
+    if engines is not None:
+        options += ["--engine", engines if isinstance(engines, str) else ",".join(engines)]
+    for name, command in (commands or {}).items():
+        options += ["--engine-command", f"{name}={command}"]
+    return options
+
+
+def _named(cases, folder):
+    """Names for the command line; dicts become files of `folder`."""
+    names = []
+    for number, case in enumerate(cases):
+        if isinstance(case, (str, os.PathLike)):
+            names.append(os.fspath(case))
+            continue
+        path = pathlib.Path(folder) / f"{number}" / f"{case.get('name') or 'case'}.json".replace("/", "_")
+        path.parent.mkdir()
+        path.write_text(json.dumps(case))
+        names.append(str(path))
+    return names
+
+
+def _run(arguments):
+    name = program()
+    try:
+        run = subprocess.run([name, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    except OSError as error:
+        raise FileError(f"The program {name} does not start: {error.strerror}.") from error
+    if run.returncode == 128 + signal.SIGINT:
+        raise KeyboardInterrupt
+    if run.returncode not in _ANSWERED:
+        raise Error(run.stderr.strip() or f"{name} ended with code {run.returncode}")
+    return run.stdout

@@ -1,0 +1,87 @@
+#include "bindings/python/handles.h"
+#include "engine/world/queries.h"
+
+namespace plumb::python {
+namespace {
+
+using py::arg;
+
+}  // namespace
+
+void bind_shapes(py::module_& module) {
+  py::class_<HeldShape> shape(module, "Shape", "A shape of a body.");
+  shape.def_property_readonly("body", PLUMB_READ(HeldShape, (HeldBody{h.world, w.body(h.id)})))
+      .def_property_readonly("valid", PLUMB_READ(HeldShape, w.valid(h.id)))
+      .def_property_readonly("definition", PLUMB_READ(HeldShape, w.definition(h.id)),
+                             "As at present; a box is a polygon.")
+      .def_property("user_data", PLUMB_READ(HeldShape, w.user_data(h.id)),
+                    PLUMB_SET(HeldShape, std::uint64_t, w.set_user_data(h.id, value)))
+      .def_property("density", PLUMB_READ(HeldShape, w.density(h.id)),
+                    PLUMB_SET(HeldShape, double, w.set_density(h.id, value)), "kg/m^2")
+      .def_property("sensor", PLUMB_READ(HeldShape, w.sensor(h.id)),
+                    PLUMB_SET(HeldShape, bool, w.set_sensor(h.id, value)))
+      .def_property("hit_events", PLUMB_READ(HeldShape, w.hit_events(h.id)),
+                    PLUMB_SET(HeldShape, bool, w.set_hit_events(h.id, value)),
+                    "Hard impacts on it are reported.")
+      .def_property("pre_solve", PLUMB_READ(HeldShape, w.pre_solve(h.id)),
+                    PLUMB_SET(HeldShape, bool, w.set_pre_solve(h.id, value)), "Its contacts call the hook.")
+      .def_property_readonly(
+          "box",
+          [](const HeldShape& h) {
+            const Aabb<double> box = h.world->visit([&](auto& w) { return w.box(h.id); });
+            return py::make_tuple(box.lower, box.upper);
+          },
+          "lower and upper corner, m")
+      .def_property_readonly(
+          "chain",
+          [](const HeldShape& h) -> py::object {
+            const ChainId id = h.world->visit([&](auto& w) { return w.chain(h.id); });
+            if (!h.world->visit([&](auto& w) { return w.valid(id); })) return py::none();
+            return py::cast(HeldChain{h.world, id});
+          },
+          "The chain of a segment, or None.")
+      .def(
+          "ray_cast",
+          [](const HeldShape& h, Vec2d origin, Vec2d translation) -> py::object {
+            const auto hit = h.world->visit([&](auto& w) { return ray_cast(w, h.id, origin, translation); });
+            if (!hit) return py::none();
+            return py::dict(arg("point") = hit->point, arg("normal") = hit->normal,
+                            arg("fraction") = hit->fraction);
+          },
+          arg("origin"), arg("translation"),
+          "The hit of a ray (m) with this shape alone, a dict of point, normal and fraction, or None.")
+      .def(
+          "contains",
+          [](const HeldShape& h, Vec2d point) {
+            return h.world->visit([&](auto& w) { return contains(w, h.id, point); });
+          },
+          arg("point"), "True for a point of the world, m, in this shape.")
+      .def_property_readonly("overlapping", PLUMB_READ(HeldShape, handles(h.world, w.overlapping(h.id))),
+                             "Shapes in a sensor in the last step.")
+      .def_property("friction", PLUMB_READ(HeldShape, w.material(h.id).friction),
+                    PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.friction = value;
+                              w.set_material(h.id, m)))
+      .def_property("restitution", PLUMB_READ(HeldShape, w.material(h.id).restitution),
+                    PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.restitution = value;
+                              w.set_material(h.id, m)))
+      .def_property("surface_speed", PLUMB_READ(HeldShape, w.material(h.id).surface_speed),
+                    PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.surface_speed = value;
+                              w.set_material(h.id, m)),
+                    "m/s")
+      .def(
+          "set_filter",
+          [](const HeldShape& h, std::uint32_t category, std::uint32_t mask, std::int32_t group) {
+            h.world->visit([&](auto& w) { w.set_filter(h.id, {category, mask, group}); });
+          },
+          arg("category") = 1u, arg("mask") = 0xFFFFFFFFu, arg("group") = 0)
+      .def("destroy", [](const HeldShape& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+  bind_common(shape, "Shape");
+
+  py::class_<HeldChain> chain(module, "Chain", "A chain of segments of a body.");
+  chain.def_property_readonly("valid", PLUMB_READ(HeldChain, w.valid(h.id)))
+      .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))))
+      .def("destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+  bind_common(chain, "Chain");
+}
+
+}  // namespace plumb::python

@@ -1,0 +1,46 @@
+# Writes the ctest entries of a module of scenarios: see plumbScenarios.cmake. What the program lists with the module and
+# not without it is the module's.
+cmake_policy(VERSION 3.25)
+
+function(list_cases out)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PLUMB_SCENARIOS=${ARGN} ${PROGRAM} list --format json
+    OUTPUT_VARIABLE text ERROR_VARIABLE problem RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${problem}")
+  endif()
+  set(cases "")
+  string(JSON scenarios LENGTH "${text}")
+  math(EXPR last "${scenarios} - 1")
+  foreach(i RANGE ${last})
+    string(JSON name GET "${text}" ${i} name)
+    if(NOT "${name}" IN_LIST known)
+      list(APPEND names ${name})
+      string(JSON count LENGTH "${text}" ${i} cases)
+      math(EXPR last_case "${count} - 1")
+      foreach(k RANGE ${last_case})
+        string(JSON label GET "${text}" ${i} cases ${k} label)
+        # Brackets mean something to CMake's lists.
+        string(REPLACE "[" "<" label "${label}")
+        string(REPLACE "]" ">" label "${label}")
+        list(APPEND cases ${label})
+      endforeach()
+    endif()
+  endforeach()
+  set(${out} ${cases} PARENT_SCOPE)
+  set(known ${names} PARENT_SCOPE)
+endfunction()
+
+list_cases(unused)
+list_cases(cases ${MODULE})
+if(NOT cases)
+  message(FATAL_ERROR "${TARGET} registers no scenario")
+endif()
+set(text "")
+foreach(case IN LISTS cases)
+  string(REPLACE "<" "[" case "${case}")
+  string(REPLACE ">" "]" case "${case}")
+  string(APPEND text "add_test([==[${TARGET}/${case}]==] \"${PROGRAM}\" compare [==[${case}]==] --engine ${ENGINES} --no-cost "
+    "--no-report --out \"${TESTS}.results\")\n"
+    "set_tests_properties([==[${TARGET}/${case}]==] PROPERTIES ENVIRONMENT \"PLUMB_SCENARIOS=${MODULE}\" LABELS \"${LABEL}\")\n")
+endforeach()
+file(WRITE ${TESTS} "${text}")
