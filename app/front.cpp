@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "app/commands.h"
@@ -28,8 +29,17 @@ int start(const Options& options) {
     return kOk;
   }
   const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
-  for (const std::vector<harness::Result>& scene : sweep::by_label(rows))
-    print(sweep::front_table(scene, metric, style) + "\n");
+  // Costs of different machines are not comparable: each kind has fronts of its own.
+  std::vector<harness::Result> all = options.machine.empty() ? sweep::read_all_costs(options.folder) : rows;
+  for (const std::vector<harness::Result>& scene : sweep::by_label(all)) {
+    const std::vector<std::string> machines = sweep::machines_of(scene);
+    if (machines.size() < 2) print(sweep::front_table(scene, metric, style) + "\n");
+    for (std::size_t i = 0; i < machines.size() && machines.size() > 1; ++i) {
+      std::vector<harness::Result> one = scene;
+      sweep::keep_costs_of_one_machine(one, machines[i]);
+      print(fmt::format("on {}:\n{}\n", machines[i], sweep::front_table(one, metric, style)));
+    }
+  }
   print(sweep::dominance_table(sweep::dominance(rows, metric), style));
   return kOk;
 }
@@ -46,8 +56,10 @@ void add_front(CLI::App& app, Action& chosen) {
   add_metric(*command, options->metric,
              "that the fronts are of (default: position_error, or what the scene has)");
   command
-      ->add_option("--machine", options->machine,
-                   "kind of machine whose costs are taken (default: in each scene that with the most)")
+      ->add_option(
+          "--machine", options->machine,
+          "kind of machine whose costs are taken (default: fronts of each; for dominance and data, in each "
+          "scene the kind with the most)")
       ->type_name("NAME");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));

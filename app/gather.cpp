@@ -73,8 +73,8 @@ std::string missing_text(const std::string& folder, const cluster::Survey& surve
          Ink::Red);
   if (!survey.noisy.empty())
     line(fmt::format(
-             "others used the machine during: {}; where times matter, `plumb work {} --unit K --again` "
-             "measures again",
+             "others used the machine during: {}; `plumb plan {} --next` has them measured again, elsewhere "
+             "if there are other machines, twice at most",
              cluster::ranges(survey.noisy), folder),
          Ink::Yellow);
   return out;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,13 +13,18 @@
 #include "app/compare_results.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
+#include "app/plan.h"
 #include "app/selection.h"
 #include "app/source.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
+#include "harness/cluster/next_round.h"
+#include "harness/cluster/work.h"
 #include "harness/cluster/work_folder.h"
+#include "harness/packed_file.h"
 #include "harness/stress/settings.h"
 #include "harness/stress/stress.h"
+#include "harness/sweep/sweep.h"
 #include "harness/text_file.h"
 #include "harness/thresholds/threshold.h"
 
@@ -33,13 +38,6 @@ namespace fs = std::filesystem;
 // `stress`, a search of `thresholds`, a scene of `hunt` on an engine.
 constexpr double kRun = 0.3, kRunAlone = 0.1, kCell = 1, kSearch = 20, kScene = 0.2;
 constexpr double kBudget = 540, kMinutes = 10;  // the commands' own defaults
-
-struct Options {
-  std::string folder, unit_seconds;
-  std::vector<std::string> earlier;
-  int seeds = 8;
-  bool by_engine = false;
-};
 
 /// A command line of which units are made.
 struct Given {
@@ -61,13 +59,14 @@ struct Piece {
   bool measured = false;
 };
 
-constexpr const char* kCommands = "compare, sweep, stress, thresholds or hunt";
+constexpr const char* kCommands = "compare, sweep, stress, thresholds, hunt or reality";
 
 // Reads a command line with the command's own options, so that a plan takes what the command takes.
 Given parse(std::vector<std::string> words) {
   CLI::App app("plumb", "plumb");
   Action ignored;
-  for (const auto add : {add_compare, add_sweep, add_stress, add_thresholds, add_hunt}) add(app, ignored);
+  for (const auto add : {add_compare, add_sweep, add_stress, add_thresholds, add_hunt, add_reality})
+    add(app, ignored);
   if (words.empty()) throw UsageError(fmt::format("plan takes a command after the folder: {}", kCommands));
   const std::string command = words.front();
   CLI::App* parsed = nullptr;
@@ -91,7 +90,7 @@ Given parse(std::vector<std::string> words) {
           option->get_items_expected_max() == 0 ? std::vector<std::string>{} : option->results();
     }
   }
-  for (const char* name : {"list", "draw", "replay"})
+  for (const char* name : {"list", "draw", "replay", "explore", "from"})
     if (out.has(name)) throw UsageError(fmt::format("--{} runs nothing that a plan could be made of", name));
   for (const char* name : {"out", "format"})
     if (out.has(name))
@@ -124,7 +123,9 @@ class Earlier {
  private:
   void read(const fs::path& folder) {
     for (const char* name : {"results.jsonl", "stress.jsonl", "thresholds.jsonl"}) {
-      std::ifstream file(folder / name);
+      const std::string path = (folder / name).string();
+      if (!harness::is_packed_or_plain(path)) continue;
+      std::istringstream file(harness::read_packed_or_plain(path));
       for (std::string line; std::getline(file, line);) {
         try {
           add(nlohmann::json::parse(line));
@@ -161,7 +162,7 @@ class Earlier {
 // Splits one command line.
 class Splitter {
  public:
-  Splitter(const Options& options, const Given& given, const std::string& folder)
+  Splitter(const PlanOptions& options, const Given& given, const std::string& folder)
       : options_(options), given_(given), folder_(folder), earlier_(options.earlier) {
     EngineOptions wanted;
     if (given.has("engine")) wanted.names = given.options.at("engine");
@@ -173,17 +174,14 @@ class Splitter {
 
   std::vector<cluster::Unit> units() {
     if (given_.command == "hunt") return hunts();
-    const bool apart = given_.command == "stress" || given_.command == "thresholds" || options_.by_engine;
+    if (given_.command == "reality") return {whole()};
+    if (given_.command == "sweep") return sweeps();
+    const bool apart = given_.command != "compare" || options_.by_engine;
     std::vector<Piece> pieces;
     const std::vector<std::string> names = all_names();
     for (const std::string& engine : apart ? engine_names() : std::vector<std::string>{""})
       for (const std::string& name : names) pieces.push_back(piece(name, engine));
-    if (given_.command == "sweep") share_budget(pieces);
     return grouped(pieces);
-  }
-
-  bool measures_cost() const {
-    return given_.command == "sweep" || (given_.command == "compare" && !given_.has("no-cost"));
   }
 
  private:
@@ -265,18 +263,12 @@ class Splitter {
     return given_.has("no-cost") ? kRunAlone : kRun;
   }
 
-  // A sweep takes the time that it is given: each scene, and with --by-engine each engine, has its share.
-  void share_budget(std::vector<Piece>& pieces) const {
-    const double budget =
-        given_.has("budget") ? parse_positive("--budget", given_.value("budget", "")) : kBudget;
-    for (Piece& one : pieces) one.seconds = budget / static_cast<double>(pieces.size());
-  }
-
   // Options that all units share.
   std::vector<std::string> shared(const std::string& engine) const {
     std::vector<std::string> out;
     for (const auto& [name, values] : given_.options) {
       if (name == "size" || name == "budget" || name == "seed") continue;
+      if (name == "jobs" && given_.command == "sweep") continue;
       if (name == "engine" && !engine.empty()) continue;
       if (name == "engine") {
         std::string joined;
@@ -292,19 +284,75 @@ class Splitter {
     }
     if (!engine.empty()) out.insert(out.end(), {"--engine", engine});
     // A unit takes a core, unless costs are measured: then it has the machine to itself.
-    if (!measures_cost() && given_.command != "compare" && !given_.has("jobs"))
+    if (given_.command != "compare" && given_.command != "sweep" && given_.command != "reality" &&
+        !given_.has("jobs"))
       out.insert(out.end(), {"--jobs", "1"});
     if (given_.command == "compare") out.emplace_back("--no-report");
     return out;
   }
 
-  std::vector<cluster::Unit> grouped(const std::vector<Piece>& pieces) const {
-    const double enough =
+  double unit_seconds() const {
+    const double out =
         options_.unit_seconds.empty() ? 60 : parse_number("--unit-seconds", options_.unit_seconds);
-    if (enough < 0) throw UsageError("--unit-seconds is negative: give a number from 0");
+    if (out < 0) throw UsageError("--unit-seconds is negative: give a number from 0");
+    return out;
+  }
+
+  // A sweep goes in rounds: each engine's fronts are searched on a core anywhere, then the costs of all
+  // engines take turns on one machine. Each scene has its share of the time, and each engine of a scene's
+  // search.
+  std::vector<cluster::Unit> sweeps() {
+    const std::vector<std::string> names = all_names(), engines = engine_names();
+    const double budget =
+        given_.has("budget") ? parse_positive("--budget", given_.value("budget", "")) : kBudget;
+    const double each = budget / static_cast<double>(names.size());
+    const auto scenes =
+        std::min(names.size(), static_cast<std::size_t>(std::max(1.0, unit_seconds() / each)));
+    std::vector<cluster::Unit> out;
+    for (std::size_t i = 0; i < names.size(); i += scenes) {
+      const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(i + scenes, names.size()));
+      std::vector<std::string> start{"sweep"};
+      start.insert(start.end(), names.begin() + static_cast<std::ptrdiff_t>(i), end);
+      const double seconds = each * static_cast<double>(start.size() - 1);
+      const double search = harness::sweep::kExploring * seconds *
+                            std::min<double>(options_.at_once, static_cast<double>(engines.size())) /
+                            static_cast<double>(engines.size());
+      const auto with = [&](const std::string& engine, double time) {
+        std::vector<std::string> words = start;
+        for (const std::string& word : shared(engine)) words.push_back(word);
+        words.insert(words.end(), {"--budget", fmt::format("{:g}", time)});
+        return words;
+      };
+      const double measuring = (1 - harness::sweep::kExploring) * seconds;
+      for (const std::string& engine : engines) {
+        cluster::Unit unit{.number = 0,
+                           .arguments = with(engine, seconds),
+                           .seconds = search,
+                           .then = with("", measuring),
+                           .then_seconds = measuring};
+        unit.arguments.insert(unit.arguments.end(), {"--explore", fmt::format("{:g}", search)});
+        out.push_back(std::move(unit));
+      }
+    }
+    return out;
+  }
+
+  // Held against measurements, all engines are on one page, whose laws are fitted once.
+  cluster::Unit whole() const {
+    cluster::Unit unit{.number = 0, .arguments = {"reality"}, .seconds = kSearch, .measured = false};
+    for (const std::string& word : shared("")) unit.arguments.push_back(word);
+    return unit;
+  }
+
+  std::vector<cluster::Unit> grouped(const std::vector<Piece>& pieces) const {
+    const double enough = unit_seconds();
     std::vector<cluster::Unit> out;
     for (std::size_t i = 0; i < pieces.size();) {
-      cluster::Unit unit{.number = 0, .arguments = {given_.command}, .seconds = 0, .measured = true};
+      cluster::Unit unit{.number = 0,
+                         .arguments = {given_.command},
+                         .seconds = 0,
+                         .measured = true,
+                         .cost = given_.command == "compare" && !given_.has("no-cost")};
       const std::string& engine = pieces[i].engine;
       do {
         unit.arguments.push_back(pieces[i].name);
@@ -313,10 +361,6 @@ class Splitter {
       } while (++i < pieces.size() && pieces[i].engine == engine &&
                unit.seconds + pieces[i].seconds <= enough);
       for (const std::string& word : shared(engine)) unit.arguments.push_back(word);
-      if (given_.command == "sweep") {
-        unit.arguments.emplace_back("--budget");
-        unit.arguments.push_back(fmt::format("{:g}", unit.seconds));
-      }
       out.push_back(std::move(unit));
     }
     return out;
@@ -340,7 +384,7 @@ class Splitter {
     return out;
   }
 
-  const Options& options_;
+  const PlanOptions& options_;
   const Given& given_;
   std::string folder_;
   Earlier earlier_;
@@ -348,36 +392,62 @@ class Splitter {
   std::vector<const reference::Backend*> engines_;
 };
 
-int start(const Options& options, const std::vector<std::string>& words) {
-  const Given given = parse(words);
-  const std::string folder = fs::absolute(options.folder).lexically_normal().string();
-  Splitter splitter(options, given, folder);
-  cluster::Plan plan{.program = cluster::this_program(),
-                     .directory = fs::current_path().string(),
-                     .commands = {words},
-                     .measures_cost = splitter.measures_cost(),
-                     .units = splitter.units()};
+void tell(const std::string& folder) {
+  print(fmt::format(
+      "`plumb submit {0} --on local` does them here, `--on slurm` and `--on parallel` elsewhere\n", folder));
+}
+
+int start(const PlanOptions& options, const std::vector<std::string>& words) {
+  cluster::Plan plan = plan_of(options, words);
   const std::size_t wanted = plan.units.size();
   double seconds = 0, longest = 0;
   for (const cluster::Unit& unit : plan.units) {
     seconds += unit.seconds;
     longest = std::max(longest, unit.seconds);
   }
-  const int added = cluster::add_to_plan(folder, std::move(plan));
+  const int added =
+      cluster::add_to_plan(fs::absolute(options.folder).lexically_normal().string(), std::move(plan));
   print(fmt::format("{} units, about {:.3g} s in all, {:.2g} s the longest", wanted, seconds, longest));
   if (added != static_cast<int>(wanted)) print(fmt::format("; {} of them are new", added));
-  print(fmt::format(
-      "\n`plumb submit {0} --on local` does them here, `--on slurm` and `--on parallel` elsewhere\n",
-      options.folder));
+  print("\n");
+  tell(options.folder);
+  return kOk;
+}
+
+// Adds what the results so far call for.
+int start_next(const std::string& given) {
+  const std::string folder = fs::absolute(given).lexically_normal().string();
+  cluster::Plan plan = cluster::read_plan(folder);
+  cluster::require_same_program(given, plan, cluster::this_program());
+  const cluster::Survey survey = cluster::survey(folder, plan, cluster::WorkOptions{}.expiry);
+  cluster::NextRound next = cluster::next_round(folder, plan, survey);
+  plan.units = std::move(next.units);
+  if (cluster::add_to_plan(folder, std::move(plan)) == 0) {
+    notice("the results so far call for no more units");
+    return kNothingFree;
+  }
+  print(fmt::format("{} units go on from what is done, {} are measured again, as others used the machine\n",
+                    next.further, next.again));
+  tell(given);
   return kOk;
 }
 
 }  // namespace
 
+cluster::Plan plan_of(const PlanOptions& options, const std::vector<std::string>& words) {
+  const Given given = parse(words);
+  const std::string folder = fs::absolute(options.folder).lexically_normal().string();
+  return {.program = cluster::this_program(),
+          .directory = fs::current_path().string(),
+          .commands = {words},
+          .units = Splitter(options, given, folder).units()};
+}
+
 void add_plan(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "plan", "split a comparison, sweep, stress map, search or hunt into units for many machines");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
+  auto next = std::make_shared<bool>(false);
   command->add_option("folder", options->folder, "folder of work; one that is there gets what it lacks")
       ->required()
       ->check(problem_with_path)
@@ -394,18 +464,27 @@ void add_plan(CLI::App& app, Action& chosen) {
                    "folder of results or of work whose times the estimates are from; may be repeated")
       ->allow_extra_args(false)
       ->type_name("DIR");
+  command->add_flag("--by-engine", options->by_engine,
+                    "split compare by engine too: no agreement, and costs of one kind of machine alone");
   command->add_flag(
-      "--by-engine", options->by_engine,
-      "split compare and sweep by engine too: no agreement, and costs of one kind of machine alone");
+      "--next", *next,
+      "instead of a command: what the results so far call for, the costs of a sweep whose fronts "
+      "are found, and units that were disturbed");
   command->prefix_command();
   command->footer(
       "Examples:\n  plumb plan work compare\n  plumb plan work --unit-seconds 30 stress --cell-seconds 60\n"
-      "  plumb plan work --seeds 100 hunt --minutes 30\n"
+      "  plumb plan work --seeds 100 hunt --minutes 30\n  plumb plan work --next\n"
       "After the folder and plan's own options comes a command as it would be given to plumb: compare, "
       "sweep,\n"
-      "stress, thresholds or hunt. See docs/cluster.md. Exit codes: 0 planned, 2 usage.");
-  command->callback([&chosen, options, command] {
-    chosen = [options, words = command->remaining()] { return start(*options, words); };
+      "stress, thresholds, hunt or reality. See docs/cluster.md. Exit codes: 0 planned, 2 usage, 3 --next: "
+      "no more "
+      "is called for.");
+  command->callback([&chosen, options, next, command] {
+    chosen = [options, next, words = command->remaining()] {
+      if (*next && !words.empty())
+        throw UsageError("--next takes no command: it goes on with those of the folder");
+      return *next ? start_next(options->folder) : start(*options, words);
+    };
   });
 }
 

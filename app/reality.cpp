@@ -31,20 +31,31 @@ struct Options {
   bool published = false;
 };
 
-void write_files(const std::string& folder, const reality::Findings& findings) {
+void make_folder(const std::string& folder) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code)
     throw Error(Error::Kind::Io, fmt::format("'{}'", folder), "", "", "cannot be made: " + code.message());
+}
+
+void write_files(const std::string& folder, const reality::Findings& findings) {
+  make_folder(folder);
   const std::filesystem::path path(folder);
   harness::write_whole((path / "reality.html").string(), reality::page_of(findings));
   harness::write_whole((path / "ellipse.svg").string(), reality::ellipse_picture(findings));
   harness::write_whole((path / "engines.svg").string(), reality::engine_picture(findings));
+  harness::write_whole((path / "reality.json").string(), reality::to_json(findings));
 }
 
-int run_published(const std::vector<const reference::Backend*>& engines, const std::string& format) {
+int run_published(const std::vector<const reference::Backend*>& engines, const Options& options) {
+  const std::string& format = options.format;
   harness::catch_interrupts();
   const std::vector<reality::PublishedFinding> findings = reality::examine_published(engines);
+  if (!options.out.empty() && !harness::interrupted()) {
+    make_folder(options.out);
+    harness::write_whole((std::filesystem::path(options.out) / "published.json").string(),
+                         reality::published_json(findings));
+  }
   print(format == "json"  ? reality::published_json(findings)
         : format == "csv" ? reality::published_csv(findings)
                           : reality::published_text(findings));
@@ -55,7 +66,7 @@ int run_published(const std::vector<const reference::Backend*>& engines, const s
 int start(const Options& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
-  if (options.published) return run_published(engines, options.format);
+  if (options.published) return run_published(engines, options);
   if (const std::string missing = reality::missing_file(options.data); !missing.empty()) {
     notice(fmt::format(
         "there is no '{}' in '{}': the measurements are not part of plumb; docs/reality.md says where "
@@ -97,7 +108,10 @@ void add_reality(CLI::App& app, Action& chosen) {
       ->check(problem_with_path)
       ->type_name("DIR");
   options->engines.add_to(*command);
-  command->add_option("--out", options->out, "folder for the page reality.html and two plots (default: none)")
+  command
+      ->add_option(
+          "--out", options->out,
+          "folder for the page reality.html, two plots and reality.json, or published.json (default: none)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json or csv")

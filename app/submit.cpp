@@ -1,28 +1,25 @@
+#include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/local_work.h"
 #include "app/output.h"
-#include "app/progress_line.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/cluster/gather.h"
 #include "harness/cluster/jobs.h"
 #include "harness/cluster/work.h"
-#include "harness/interrupt.h"
 #include "harness/text_file.h"
 
 namespace plumb::app {
@@ -36,28 +33,6 @@ struct Options {
   int nodes = 0, jobs = 0, memory = 4096;
   bool dry_run = false;
 };
-
-// Replaces this process by plumb, with `words`.
-[[noreturn]] void become(std::vector<std::string> words) {
-  words.insert(words.begin(), "plumb");
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execv("/proc/self/exe", pointers.data());
-  _exit(127);
-}
-
-pid_t start_worker(const std::vector<std::string>& words) {
-  const pid_t child = fork();
-  if (child < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    // Each unit's line would come between the progress; failures are on stderr.
-    if (const int nothing = open("/dev/null", O_WRONLY); nothing >= 0) dup2(nothing, STDOUT_FILENO);
-    become(words);
-  }
-  return child;
-}
 
 // Runs `bash script`; returns its exit code.
 int run_script(const std::string& script) {
@@ -74,28 +49,26 @@ int run_script(const std::string& script) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kInterrupted;
 }
 
-// Does the units on this machine, `jobs` at a time, and gathers them.
-int run_here(const std::string& folder, const cluster::Plan& plan, const Options& options, int jobs) {
-  std::vector<pid_t> workers;
-  harness::catch_interrupts();
-  for (int i = 0; i < jobs; ++i) workers.push_back(start_worker({"work", folder, "--all"}));
-  ProgressLine progress;
-  bool passed_on = false;
-  while (!workers.empty()) {
-    std::erase_if(workers, [](pid_t worker) { return waitpid(worker, nullptr, WNOHANG) == worker; });
-    if (harness::interrupted() && !passed_on) {
-      for (const pid_t worker : workers) kill(worker, SIGTERM);
-      passed_on = true;
-    }
-    progress.show({cluster::numbers_in(folder, "done").size(), plan.units.size(), "units"});
-    usleep(200'000);
-  }
-  progress.clear();
-  if (harness::interrupted()) {
+// Does the units on this machine, and gathers them.
+int run_here(const std::string& folder, const Options& options, const LocalWork& work) {
+  if (!do_here(work)) {
     notice(fmt::format("interrupted; `plumb submit {} --on local` goes on", options.folder));
     return kInterrupted;
   }
-  become({"gather", folder, "--out", options.out});
+  flush();
+  execl("/proc/self/exe", "plumb", "gather", folder.c_str(), "--out", options.out.c_str(),
+        static_cast<char*>(nullptr));
+  throw Error(Error::Kind::Io, "the program", "", "", std::strerror(errno));
+}
+
+// Returns the hosts on which these units were disturbed, if others have done units too.
+std::string hosts_to_avoid(const cluster::Plan& plan, const cluster::Survey& survey,
+                           const std::vector<int>& units) {
+  std::set<std::string> avoided, known;
+  for (const int unit : units) avoided.insert(plan.unit(unit).avoid.begin(), plan.unit(unit).avoid.end());
+  for (const auto& [kind, use] : survey.machines) known.insert(use.hosts.begin(), use.hosts.end());
+  if (std::includes(avoided.begin(), avoided.end(), known.begin(), known.end())) return "";
+  return fmt::format("{}", fmt::join(avoided, ","));
 }
 
 // Makes a folder of its own for a submission.
@@ -134,7 +107,7 @@ std::string write_scripts(const cluster::Plan& plan, const std::vector<int>& uni
   write("units.txt", list);
   if (options.on == "parallel") {
     if (!options.hosts.empty()) job.hosts = write("hosts.txt", hosts_text(options.hosts));
-    return write("parallel.sh", cluster::parallel_script(plan, job));
+    return write("parallel.sh", cluster::parallel_script(plan, units, job));
   }
   write("array.sh", cluster::array_script(plan, units, job));
   write("gather.sh", cluster::gather_script(plan, job));
@@ -147,17 +120,18 @@ int start(Options options) {
   cluster::require_same_program(options.folder, plan, cluster::this_program());
   options.out =
       options.out.empty() ? folder + "/results" : fs::absolute(options.out).lexically_normal().string();
-  const std::vector<int> units = cluster::survey(folder, plan, cluster::WorkOptions{}.expiry).missing();
+  const cluster::Survey survey = cluster::survey(folder, plan, cluster::WorkOptions{}.expiry);
+  const std::vector<int> units = survey.missing();
   if (options.on == "local") {
-    // Costs that are measured side by side disturb each other.
-    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    const int jobs = options.jobs > 0 ? options.jobs : plan.measures_cost ? 1 : cores;
+    LocalWork work{.folder = folder, .jobs = cores()};
+    if (options.jobs > 0) work.jobs = work.measuring = options.jobs;
     if (options.dry_run) {
-      print(fmt::format("{} x: plumb work {} --all\nplumb gather {} --out {}\n", jobs, folder, folder,
+      print(fmt::format("{} x: plumb work {} --all\nplumb plan {} --next\nplumb gather {} --out {}\n",
+                        plan.measures_cost(units) ? work.measuring : work.jobs, folder, folder, folder,
                         options.out));
       return kOk;
     }
-    return run_here(folder, plan, options, jobs);
+    return run_here(folder, options, work);
   }
   if (units.empty()) {
     print(fmt::format("all units are done; `plumb gather {}` merges them\n", options.folder));
@@ -169,7 +143,8 @@ int start(Options options) {
                           .at_once = options.nodes,
                           .memory = options.memory,
                           .partition = options.partition,
-                          .hosts = {}};
+                          .hosts = {},
+                          .exclude = hosts_to_avoid(plan, survey, units)};
   const std::string script = write_scripts(plan, units, options, job);
   print(fmt::format("{} units in {}; `bash {}` submits them\n", units.size(), job.place, script));
   return options.dry_run ? kOk : run_script(script);

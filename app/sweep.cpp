@@ -1,9 +1,9 @@
 #include "harness/sweep/sweep.h"
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,25 +11,33 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/local_work.h"
 #include "app/output.h"
+#include "app/plan.h"
 #include "app/progress_line.h"
 #include "app/selection.h"
 #include "app/source.h"
 #include "app/usage.h"
+#include "engine/scene/error.h"
+#include "harness/cluster/gather.h"
+#include "harness/cluster/work.h"
 #include "harness/interrupt.h"
 #include "harness/sweep/front_tables.h"
+#include "harness/sweep/rows.h"
 
 namespace plumb::app {
 namespace {
 
+namespace cluster = harness::cluster;
 namespace sweep = harness::sweep;
 
 struct Options {
   std::vector<std::string> names;
   EngineOptions engines;
-  std::string budget, duration, out = "sweep", format = "console";
+  std::string budget, duration, explore, out = "sweep", format = "console";
+  std::vector<std::string> from;
   int size = 0;
-  int jobs = 0;
+  int jobs = 1;
 };
 
 // Throws if two scenes have the same label, because a sweep's folder identifies scenes by label.
@@ -40,6 +48,61 @@ void require_different(const std::vector<scenarios::Instance>& instances) {
       throw UsageError(
           fmt::format("'{}' is named twice: give each scene once, and files' scenes names of their own",
                       instance.label()));
+}
+
+// Prints the fronts of a folder of results, and which engine dominates.
+void show(const std::vector<harness::Result>& rows, const Options& options) {
+  if (options.format != "console") return print(sweep::trade_data(rows, nullptr, options.format));
+  const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
+  print(sweep::dominance_table(sweep::dominance(rows), style));
+  print(
+      fmt::format("\nresults are in {0}/results.jsonl; `plumb front {0}` prints this again, `plumb report "
+                  "{0}` draws it\n",
+                  options.out));
+}
+
+// Plans the sweep in a folder of work in its results, does the units here, and gathers them, as `plumb plan`,
+// `submit --on local` and `gather` do.
+int sweep_on_cores(const Options& options) {
+  const std::string folder = std::filesystem::absolute(options.out + "/work").lexically_normal().string();
+  std::vector<std::string> words{"sweep"};
+  words.insert(words.end(), options.names.begin(), options.names.end());
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
+  };
+  for (const std::string& name : options.engines.names) add("--engine", name);
+  for (const std::string& command : options.engines.commands) add("--engine-command", command);
+  add("--size", options.size > 0 ? std::to_string(options.size) : "");
+  add("--duration", options.duration);
+  add("--budget", options.budget);
+  if (!std::filesystem::exists(folder + "/plan.json")) {
+    cluster::add_to_plan(
+        folder,
+        plan_of({.folder = folder, .unit_seconds = {}, .earlier = {}, .at_once = options.jobs}, words));
+  } else if (const cluster::Plan plan = cluster::read_plan(folder); plan.commands.front() != words) {
+    throw Error(Error::Kind::Value, fmt::format("folder '{}'", options.out), "", "",
+                fmt::format("is of another sweep, `plumb {}`; name another folder with --out",
+                            fmt::join(plan.commands.front(), " ")));
+  } else {
+    cluster::require_same_program(folder, plan, cluster::this_program());
+  }
+  // The time is given: what was disturbed is not measured again.
+  if (!do_here({.folder = folder, .jobs = options.jobs, .repeats = false})) {
+    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
+    return kInterrupted;
+  }
+  const cluster::Gathered gathered =
+      cluster::gather(folder, cluster::read_plan(folder), options.out, cluster::WorkOptions{}.expiry);
+  for (const auto& [kind, numbers] : gathered.survey.failed)
+    notice(fmt::format("units {} failed: {}; `plumb status {}` says more", cluster::ranges(numbers), kind,
+                       folder));
+  if (gathered.lines.empty()) return kCheckFailed;
+  const std::vector<harness::Result> rows = sweep::read_rows(options.out);
+  if (options.format == "console")
+    for (const std::vector<harness::Result>& scene : sweep::by_label(rows))
+      print(sweep::front_table(scene, nullptr, harness::Style::of_file(STDOUT_FILENO)) + "\n");
+  show(rows, options);
+  return gathered.survey.failed.empty() ? kOk : kCheckFailed;
 }
 
 int start(const Options& options) {
@@ -61,8 +124,13 @@ int start(const Options& options) {
   what.engines = chosen_engines(options.engines, programs);
   what.folder = options.out;
   if (!options.budget.empty()) what.budget = parse_positive("--budget", options.budget);
-  what.jobs =
-      options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (!options.explore.empty()) what.only_explore = parse_positive("--explore", options.explore);
+  what.from = options.from;
+  if (options.jobs > 1) {
+    if (what.only_explore > 0 || !what.from.empty())
+      throw UsageError("--jobs goes with a whole sweep, not with --explore or --from");
+    return sweep_on_cores(options);
+  }
 
   ProgressLine progress;
   harness::catch_interrupts();
@@ -85,15 +153,7 @@ int start(const Options& options) {
         "the budget of {:g} s left out the costs of {} settings; a larger --budget in a new folder "
         "measures them",
         what.budget, swept.dropped));
-  if (options.format == "console") {
-    print(sweep::dominance_table(sweep::dominance(swept.rows), style));
-    print(
-        fmt::format("\nresults are in {0}/results.jsonl; `plumb front {0}` prints this again, `plumb report "
-                    "{0}` draws it\n",
-                    options.out));
-  } else {
-    print(sweep::trade_data(swept.rows, nullptr, options.format));
-  }
+  if (what.only_explore == 0) show(swept.rows, options);
   return kOk;
 }
 
@@ -113,9 +173,17 @@ void add_sweep(CLI::App& app, Action& chosen) {
   command->add_option("--budget", options->budget, "s that the whole may take (default 540)")->type_name("T");
   command
       ->add_option("--jobs", options->jobs,
-                   "runs at a time; costs are measured one at a time (default: one a core)")
+                   "searches at a time, as units of a folder of work in DIR (see `plumb plan`); costs are "
+                   "measured one at a time (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+  command
+      ->add_option("--explore", options->explore,
+                   "s for finding the fronts, of which no cost is measured: that is for a sweep --from it")
+      ->type_name("T");
+  command->add_option("--from", options->from, "folder of a sweep whose runs are taken over; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("DIR");
   command
       ->add_option("--out", options->out,
                    "folder for the results; a sweep that is there goes on (default sweep)")

@@ -33,12 +33,17 @@ std::string write_to(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-std::string read_text(const std::string& path, const std::string& advice) {
+std::ifstream open_text(const std::string& path, const std::string& advice) {
   std::error_code code;
   const std::string then = advice.empty() ? "" : "; " + advice;
   if (std::filesystem::is_directory(path, code)) fail(named(path), "is a directory" + then);
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(named(path), fmt::format("cannot be read: {}{}", std::strerror(errno), then));
+  return file;
+}
+
+std::string read_text(const std::string& path, const std::string& advice) {
+  std::ifstream file = open_text(path, advice);
   return read_text(file, named(path));
 }
 

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <fstream>
 #include <istream>
 #include <string>
 
 namespace plumb::harness {
+
+/// Opens a file to be read piece by piece, however large. Throws `Error` (Io) as `read_text` does.
+std::ifstream open_text(const std::string& path, const std::string& advice = "");
 
 /// Reads a whole file. Throws `Error` (Io) if it does not exist, is a folder or has more than 1 GiB; `advice`
 /// is appended to the message for the first two.

@@ -17,7 +17,9 @@
 
 #include "engine/scene/error.h"
 #include "harness/cluster/claim.h"
+#include "harness/cluster/next_round.h"
 #include "harness/hunt/kinds.h"
+#include "harness/packed_file.h"
 #include "harness/stress/cell.h"
 #include "harness/sweep/rows.h"
 #include "harness/text_file.h"
@@ -109,7 +111,7 @@ constexpr Format kFormats[] = {{"results.jsonl", entry_of_result},
 
 // Calls `take` for each whole line; returns true if the last was cut short.
 bool for_each_line(const fs::path& path, const std::function<void(const std::string&)>& take) {
-  const std::string text = read_text(path.string());
+  const std::string text = read_packed_or_plain(path.string());
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     if (end > begin) take(text.substr(begin, end - begin));
@@ -141,8 +143,7 @@ class Merger {
 
   void add(const Done& done) {
     const fs::path path = fs::path(path_in(folder_, "done", done.number)) / format_.file;
-    std::error_code code;
-    if (!fs::exists(path, code)) return;
+    if (!is_packed_or_plain(path.string())) return;
     std::string environment;
     const auto take = [&](const std::string& line) {
       if (is_environment(line)) {
@@ -207,8 +208,7 @@ void gather_hunts(const std::string& folder, const fs::path& out, Gathered& gath
   std::vector<hunt::Found> findings;
   for (const Done& done : gathered.survey.done) {
     const fs::path path = fs::path(path_in(folder, "done", done.number)) / "hunt.jsonl";
-    std::error_code code;
-    if (!fs::exists(path, code)) continue;
+    if (!is_packed_or_plain(path.string())) continue;
     gathered.hunted = true;
     const std::uint64_t before = gathered.hunt.scenes;
     const auto take = [&](const std::string& line) {
@@ -235,6 +235,12 @@ void gather_hunts(const std::string& folder, const fs::path& out, Gathered& gath
   fs::remove_all(out / "findings", ignored);
   fs::rename(fresh, out / "findings", ignored);
   write_whole((out / "kinds.json").string(), hunt::kinds_json(gathered.hunt) + "\n");
+}
+
+// Copies what is no list of runs: pages and pictures.
+void copy_files(const std::string& folder, const Done& done, const fs::path& out) {
+  for (const auto& [name, bytes] : done.bytes)
+    write_whole((out / name).string(), read_text(path_in(folder, "done", done.number) + "/" + name));
 }
 
 // Reports a unit whose files are not as long as when it was completed.
@@ -286,7 +292,6 @@ Survey survey(const std::string& folder, const Plan& plan, double expiry) {
       }
       const Done& one = out.done.back();
       if (const std::string why = shortened(folder, one); !why.empty()) out.damaged[unit.number] = why;
-      if (one.noisy()) out.noisy.push_back(unit.number);
       use_machine(one, out);
       out.seconds_done += one.seconds;
       estimated += unit.seconds;
@@ -304,6 +309,8 @@ Survey survey(const std::string& folder, const Plan& plan, double expiry) {
       out.free.push_back(unit.number);
     }
   }
+  for (const auto& [number, best] : least_disturbed(plan, out))
+    if (plan.unit(number).cost && best->noisy()) out.noisy.push_back(number);
   out.seconds_left = estimated > 0 ? left * out.seconds_done / estimated : left;
   const auto open = static_cast<double>(plan.units.size() - out.done.size());
   if (!out.done.empty()) out.seconds_left += open * calibrating / static_cast<double>(out.done.size());
@@ -324,12 +331,17 @@ Gathered gather(const std::string& folder, const Plan& plan, const std::string& 
   });
   remove_dead_claims(folder, expiry);
   Gathered gathered{.survey = survey(folder, plan, expiry)};
+  // Of a unit that was measured again, the least disturbed attempt counts.
+  std::vector<const Done*> counted;
+  for (const auto& [number, best] : least_disturbed(plan, gathered.survey)) counted.push_back(best);
   for (const Format& format : kFormats) {
     Merger merger(format, folder, out, gathered);
-    for (const Done& done : gathered.survey.done) merger.add(done);
+    for (const Done* done : counted) merger.add(*done);
     merger.finish();
   }
   gather_hunts(folder, out, gathered);
+  for (const Done* done : counted)
+    if (plan.unit(done->number).arguments.front() == "reality") copy_files(folder, *done, out);
   write_whole((fs::path(out) / "gathered.json").string(), to_json(plan, gathered));
   return gathered;
 }

@@ -21,6 +21,19 @@ std::string partition_line(const JobOptions& options) {
   return options.partition.empty() ? "" : fmt::format("#SBATCH --partition={}\n", options.partition);
 }
 
+// Goes on with what the results call for.
+std::string further_text(const Plan& plan, const JobOptions& options, const std::string& how) {
+  return fmt::format(
+      R"(# What the results call for: the costs of a sweep, units that were disturbed. Exit code 3: nothing.
+if {program} plan {folder} --next; then
+  exec {program} submit {folder} --out {out} {how}
+fi
+)",
+      fmt::arg("program", quoted_for_shell(plan.program.path)),
+      fmt::arg("folder", quoted_for_shell(options.folder)), fmt::arg("out", quoted_for_shell(options.out)),
+      fmt::arg("how", how));
+}
+
 double longest_task(const Plan& plan, const std::vector<int>& units) {
   const auto each = static_cast<std::size_t>(units_a_task(units.size()));
   double longest = 0;
@@ -67,7 +80,7 @@ std::string array_script(const Plan& plan, const std::vector<int>& units, const 
 #SBATCH --time={time}
 #   that is 3 times the {longest:.1f} s estimated for the longest task, and two minutes
 #SBATCH --mem={memory}M
-{alone}{partition}#SBATCH --requeue
+{alone}{partition}{exclude}#SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output={log}
 set -u
@@ -87,7 +100,12 @@ exit $failed
       fmt::arg("folder", options.folder), fmt::arg("tasks", tasks), fmt::arg("throttle", throttle),
       fmt::arg("time", clock_text(time_limit(plan, units))), fmt::arg("longest", longest_task(plan, units)),
       fmt::arg("memory", options.memory),
-      fmt::arg("alone", plan.measures_cost
+      fmt::arg("exclude", options.exclude.empty()
+                              ? ""
+                              : fmt::format("#SBATCH --exclude={}\n#   there the units were "
+                                            "disturbed before\n",
+                                            options.exclude)),
+      fmt::arg("alone", plan.measures_cost(units)
                             ? "#SBATCH --exclusive\n#   costs are measured: no other job on the node\n"
                             : "#SBATCH --cpus-per-task=1\n"),
       fmt::arg("partition", partition_line(options)), fmt::arg("log", options.place + "/log/%A_%a.txt"),
@@ -97,6 +115,9 @@ exit $failed
 }
 
 std::string gather_script(const Plan& plan, const JobOptions& options) {
+  std::string how = fmt::format("--on slurm --memory {}", options.memory);
+  if (options.at_once > 0) how += fmt::format(" --nodes {}", options.at_once);
+  if (!options.partition.empty()) how += " --partition " + quoted_for_shell(options.partition);
   return fmt::format(
       R"(#!/bin/bash
 # Merges what is done; run it again whenever more is. It says what is missing.
@@ -105,9 +126,10 @@ std::string gather_script(const Plan& plan, const JobOptions& options) {
 #SBATCH --mem={memory}M
 {partition}#SBATCH --output={place}/log/gather.txt
 {program} gather {folder} --out {out}
-)",
-      fmt::arg("memory", options.memory), fmt::arg("partition", partition_line(options)),
-      fmt::arg("place", options.place), fmt::arg("program", quoted_for_shell(plan.program.path)),
+{further})",
+      fmt::arg("further", further_text(plan, options, how)), fmt::arg("memory", options.memory),
+      fmt::arg("partition", partition_line(options)), fmt::arg("place", options.place),
+      fmt::arg("program", quoted_for_shell(plan.program.path)),
       fmt::arg("folder", quoted_for_shell(options.folder)), fmt::arg("out", quoted_for_shell(options.out)));
 }
 
@@ -124,11 +146,13 @@ echo "array ${{job%%;*}}, gathering ${{after%%;*}}; squeue shows them, scancel $
       fmt::arg("place", quoted_for_shell(options.place)));
 }
 
-std::string parallel_script(const Plan& plan, const JobOptions& options) {
+std::string parallel_script(const Plan& plan, const std::vector<int>& units, const JobOptions& options) {
   const std::string hosts = options.hosts.empty() ? ""
                                                   : fmt::format("  --sshloginfile {} --filter-hosts \\\n",
                                                                 quoted_for_shell(options.hosts));
-  const std::string jobs = plan.measures_cost ? "1" : "100%";
+  const std::string jobs = plan.measures_cost(units) ? "1" : "100%";
+  const std::string how =
+      options.hosts.empty() ? "--on parallel" : "--on parallel --hosts " + quoted_for_shell(options.hosts);
   return fmt::format(
       R"(#!/bin/bash
 # Units of {folder} by GNU parallel. Edit it as you like; run again, it goes on where it was:
@@ -137,10 +161,10 @@ std::string parallel_script(const Plan& plan, const JobOptions& options) {
 parallel --joblog {place}/log/joblog --resume-failed --retries 3 --jobs {jobs} \
 {hosts}  --workdir {directory} \
   {program} work {folder_quoted} --unit {{}} :::: {place}/units.txt
-{program} gather {folder_quoted} --out {out}
+{further}{program} gather {folder_quoted} --out {out}
 )",
-      fmt::arg("folder", options.folder),
-      fmt::arg("why", plan.measures_cost ? "; one, as costs are measured" : ""),
+      fmt::arg("folder", options.folder), fmt::arg("further", further_text(plan, options, how)),
+      fmt::arg("why", plan.measures_cost(units) ? "; one, as costs are measured" : ""),
       fmt::arg("place", quoted_for_shell(options.place)), fmt::arg("jobs", jobs), fmt::arg("hosts", hosts),
       fmt::arg("directory", quoted_for_shell(plan.directory)),
       fmt::arg("program", quoted_for_shell(plan.program.path)),

@@ -20,6 +20,7 @@ struct JobOptions {
   int memory = 4096;      ///< megabytes of a unit
   std::string partition;  ///< of Slurm; empty: its default
   std::string hosts;      ///< file for --sshloginfile; empty: this machine
+  std::string exclude;    ///< Slurm's nodes that disturbed these units, parted by commas
 };
 
 /// Number of units that a task of the array does one after the other, so that there are at most `kMostTasks`.
@@ -32,7 +33,7 @@ int time_limit(const Plan& plan, const std::vector<int>& units);
 std::string array_script(const Plan& plan, const std::vector<int>& units, const JobOptions& options);
 std::string gather_script(const Plan& plan, const JobOptions& options);
 std::string slurm_script(const JobOptions& options);
-std::string parallel_script(const Plan& plan, const JobOptions& options);
+std::string parallel_script(const Plan& plan, const std::vector<int>& units, const JobOptions& options);
 
 /// Puts `text` between single quotes for a shell, where it needs them.
 std::string quoted_for_shell(const std::string& text);

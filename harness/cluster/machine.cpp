@@ -73,10 +73,14 @@ Calibration calibrate(double seconds) {
   return {times.front(), times[times.size() / 2], static_cast<int>(times.size())};
 }
 
+double noise_of(const Calibration& before, const Calibration& after) {
+  const auto ratio = [](double a, double b) { return std::max(a, b) / std::max(std::min(a, b), 1e-9); };
+  return std::max({ratio(before.median_ms, before.fastest_ms), ratio(after.median_ms, after.fastest_ms),
+                   ratio(before.median_ms, after.median_ms)});
+}
+
 bool is_noisy(const Calibration& before, const Calibration& after) {
-  const auto far = [](double a, double b) { return std::max(a, b) > kNoise * std::min(a, b); };
-  return far(before.median_ms, before.fastest_ms) || far(after.median_ms, after.fastest_ms) ||
-         far(before.median_ms, after.median_ms);
+  return noise_of(before, after) > kNoise;
 }
 
 std::string to_json(const Machine& machine) {

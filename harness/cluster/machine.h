@@ -24,6 +24,10 @@ struct Calibration {
 /// Repeats the piece for `seconds`, at least three times.
 Calibration calibrate(double seconds);
 
+/// Returns how far apart the times are: the largest ratio of the median to the fastest, before and after, and
+/// of the medians. 1 on a machine that nothing disturbs.
+double noise_of(const Calibration& before, const Calibration& after);
+
 /// Returns true if others used the machine at the time: a median a quarter above the fastest, or that differs
 /// by a quarter from before to after. The quarter is the spread from which a cost is called noisy.
 bool is_noisy(const Calibration& before, const Calibration& after);

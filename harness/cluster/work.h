@@ -12,7 +12,7 @@ namespace plumb::harness::cluster {
 
 struct WorkOptions {
   std::string kind;        ///< of the machine; empty: its processor's name
-  double calibration = 1;  ///< s, half of it before the unit and half after
+  double calibration = 1;  ///< s, half of it before a unit that measures costs and half after
   double expiry = 300;     ///< s without renewal after which a claim is a dead one's
   int attempts = kAttempts;
   bool again = false;  ///< also a unit that is done: its results are replaced when the new are complete
@@ -31,7 +31,8 @@ enum class Worked {
 Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
                bool force);
 
-/// Chooses units one after the other, the longest first; then those whose claims may be dead ones'.
+/// Chooses units one after the other, the longest first; then those whose claims may be dead ones'. One that
+/// is better done on another host is left to others while any are at work.
 class Queue {
  public:
   Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);
@@ -49,6 +50,7 @@ class Queue {
   std::string folder_;
   const Plan& plan_;
   WorkOptions options_;
+  std::string host_;
   std::vector<const Unit*> open_;
   std::mt19937 random_{std::random_device{}()};
 };

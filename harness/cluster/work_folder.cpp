@@ -42,10 +42,21 @@ Json program_json(const Program& program) {
 }
 
 Json unit_json(const Unit& unit) {
-  return {{"unit", unit.number},
-          {"arguments", unit.arguments},
-          {"seconds", unit.seconds},
-          {"measured", unit.measured}};
+  Json out{{"unit", unit.number},
+           {"arguments", unit.arguments},
+           {"seconds", unit.seconds},
+           {"measured", unit.measured},
+           {"cost", unit.cost}};
+  if (unit.repeats > 0) {
+    out["repeats"] = unit.repeats;
+    out["attempt"] = unit.attempt;
+    out["avoid"] = unit.avoid;
+  }
+  if (!unit.then.empty()) {
+    out["then"] = unit.then;
+    out["then_seconds"] = unit.then_seconds;
+  }
+  return out;
 }
 
 /// Locks a folder for as long as it lives, where its file system has locks.
@@ -80,7 +91,16 @@ std::vector<Unit> units_in(const std::string& path) {
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const Json json = Json::parse(text.substr(begin, end - begin));
-    out.push_back({json.at("unit"), json.at("arguments"), json.at("seconds"), json.at("measured")});
+    out.push_back({.number = json.at("unit"),
+                   .arguments = json.at("arguments"),
+                   .seconds = json.at("seconds"),
+                   .measured = json.at("measured"),
+                   .cost = json.at("cost"),
+                   .repeats = json.value("repeats", 0),
+                   .attempt = json.value("attempt", 0),
+                   .avoid = json.value("avoid", std::vector<std::string>{}),
+                   .then = json.value("then", std::vector<std::string>{}),
+                   .then_seconds = json.value("then_seconds", 0.0)});
     if (out.back().number != static_cast<int>(out.size()))
       throw Error(Error::Kind::Value, fmt::format("file '{}'", path), "unit",
                   std::to_string(out.back().number), "is not the number of its line",
@@ -96,6 +116,10 @@ const Unit& Plan::unit(int number) const {
     throw Error(Error::Kind::Value, "a unit", "", std::to_string(number),
                 fmt::format("is not in the plan: its units are 1 to {}", units.size()));
   return units[static_cast<std::size_t>(number - 1)];
+}
+
+bool Plan::measures_cost(const std::vector<int>& numbers) const {
+  return std::any_of(numbers.begin(), numbers.end(), [&](int number) { return unit(number).cost; });
 }
 
 Program this_program() {
@@ -136,8 +160,7 @@ Plan read_plan(const std::string& folder) {
     Plan out{.program = {program.at("path"), program.at("hash"), program.at("version"), program.at("commit"),
                          program.at("engines").get<std::map<std::string, std::string>>()},
              .directory = json.at("directory"),
-             .commands = json.at("commands"),
-             .measures_cost = json.at("measures_cost")};
+             .commands = json.at("commands")};
     out.units = units_in((fs::path(folder) / "units.jsonl").string());
     return out;
   } catch (const nlohmann::json::exception& error) {
@@ -155,18 +178,17 @@ int add_to_plan(const std::string& folder, Plan plan) {
     Plan before = read_plan(folder);
     require_same_program(folder, before, plan.program);
     units = std::move(before.units);
-    plan.measures_cost = plan.measures_cost || before.measures_cost;
     for (auto& command : plan.commands)
       if (std::find(before.commands.begin(), before.commands.end(), command) == before.commands.end())
         before.commands.push_back(std::move(command));
     plan.commands = std::move(before.commands);
     plan.directory = before.directory;
   }
-  std::set<std::vector<std::string>> there;
-  for (const Unit& unit : units) there.insert(unit.arguments);
+  std::set<std::pair<std::vector<std::string>, int>> there;
+  for (const Unit& unit : units) there.emplace(unit.arguments, unit.attempt);
   const std::size_t before = units.size();
   for (Unit& unit : plan.units) {
-    if (!there.insert(unit.arguments).second) continue;
+    if (!there.emplace(unit.arguments, unit.attempt).second) continue;
     unit.number = static_cast<int>(units.size()) + 1;
     units.push_back(std::move(unit));
   }
@@ -177,7 +199,6 @@ int add_to_plan(const std::string& folder, Plan plan) {
                           {"program", program_json(plan.program)},
                           {"directory", plan.directory},
                           {"commands", plan.commands},
-                          {"measures_cost", plan.measures_cost},
                           {"made", time_text()}},
                          2) +
                         "\n");

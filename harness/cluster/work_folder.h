@@ -25,6 +25,13 @@ struct Unit {
   std::vector<std::string> arguments;  ///< without the program and --out; "{folder}" is the folder of work
   double seconds = 0;                  ///< estimated wall time
   bool measured = false;               ///< the estimate is from earlier results
+  bool cost = false;                   ///< it measures costs, and wants a machine to itself
+  int repeats = 0;  ///< a unit that it measures again, because others disturbed that; 0: none
+  int attempt = 0;  ///< how often it has been measured before, of one that repeats
+  std::vector<std::string> avoid{};  ///< hosts on which it was disturbed
+  /// Arguments of the unit that goes on from this one and all others with the same, in the next round.
+  std::vector<std::string> then{};
+  double then_seconds = 0;  ///< estimated wall time of that
 };
 
 /// Program that a plan was made with, and that its units must be done with.
@@ -37,10 +44,10 @@ struct Plan {
   Program program;
   std::string directory;  ///< in which it was made; commands of engines are relative to it
   std::vector<std::vector<std::string>> commands;
-  bool measures_cost = false;  ///< units want a machine to themselves
   std::vector<Unit> units{};
 
-  const Unit& unit(int number) const;  ///< throws `Error` (Value)
+  const Unit& unit(int number) const;                         ///< throws `Error` (Value)
+  bool measures_cost(const std::vector<int>& numbers) const;  ///< one of these does
 };
 
 /// Facts about a complete unit, beside its results.
@@ -53,6 +60,7 @@ struct Done {
   std::string began{}, ended{};                   ///< UTC, by the machine's own clock
   std::map<std::string, std::uintmax_t> bytes{};  ///< size of each file of results
   bool noisy() const { return is_noisy(before, after); }
+  double noise() const { return noise_of(before, after); }
 };
 
 /// How attempts at a unit failed.
@@ -72,7 +80,8 @@ void require_same_program(const std::string& folder, const Plan& plan, const Pro
 /// Reads plan.json and units.jsonl. Throws `Error` (Io, Syntax).
 Plan read_plan(const std::string& folder);
 
-/// Adds the units that are not there yet, numbered on from those that are. Creates the folder, or adds to
+/// Adds the units that are not there yet (same arguments, and same attempt of one that repeats), numbered on
+/// from those that are. Creates the folder, or adds to
 /// that of the same program. Returns the number of units that were added. Throws `Error`.
 int add_to_plan(const std::string& folder, Plan plan);
 

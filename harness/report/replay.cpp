@@ -186,6 +186,22 @@ class Replays {
 
 }  // namespace
 
+std::vector<Result> rows_to_replay(const std::string& folder_or_file) {
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  std::vector<Result> out;
+  sweep::for_each_row(folder_or_file, [&](Result row) {
+    if (!row.ran()) return;
+    const auto [place, fresh] = places.try_emplace({row.label, row.engine}, out.size());
+    if (fresh) {
+      out.push_back(std::move(row));
+    } else if (Result& best = out[place->second];
+               octaves_off(row) < octaves_off(best) || sweep::key_of(row) == sweep::key_of(best)) {
+      best = std::move(row);
+    }
+  });
+  return out;
+}
+
 std::map<std::string, std::string> replays_of(std::span<const Result> rows,
                                               std::span<const reference::Backend* const> engines,
                                               const std::string& folder, double seconds) {

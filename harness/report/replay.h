@@ -10,6 +10,10 @@
 
 namespace plumb::harness::report {
 
+/// Reads from a file or folder of results the runs that `replays_of` chooses of all. They are few: each
+/// replay is a process forked from this one, which takes long where a million runs are in memory.
+std::vector<Result> rows_to_replay(const std::string& folder_or_file);
+
 /// Repeats for each scene and engine the run in `rows` with the step nearest to 1/60 s. Each has a process of
 /// its own and at most `seconds`. Returns JSON by `sweep::key_of`: times, poses, and the errors and energy
 /// drifts since the time before (docs/formats.md). Replays are cached in `folder`/replays.jsonl and reused

@@ -1,6 +1,7 @@
 #include "harness/report/report.h"
 
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -34,15 +35,19 @@ bool write_report(const std::string& folder_or_file, const std::string& out,
   std::error_code code;
   const bool is_folder = std::filesystem::is_directory(folder_or_file, code);
   const Extremes extremes = is_folder ? read_extremes(folder_or_file) : Extremes{};
+  std::map<std::string, std::string> replays;
   std::vector<Result> rows;
-  if (extremes.empty() || sweep::holds_rows(folder_or_file)) rows = sweep::read_rows(folder_or_file);
+  if (extremes.empty() || sweep::holds_rows(folder_or_file)) {
+    replays = replays_of(rows_to_replay(folder_or_file), engines, folder_of(folder_or_file).string());
+    if (interrupted()) return false;
+    rows = sweep::read_rows(folder_or_file);
+  }
   if (rows.empty() && extremes.empty())
     throw Error(
         Error::Kind::Value, fmt::format("'{}'", folder_or_file), "", "",
         "has no results: `plumb compare --out DIR`, `plumb sweep --out DIR` or `plumb stress --out DIR` "
         "writes some");
   const std::string title = std::filesystem::weakly_canonical(folder_or_file).filename().string();
-  const auto replays = replays_of(rows, engines, folder_of(folder_or_file).string());
   if (interrupted()) return false;
   const std::string data = report_data(title, rows, read_environments(folder_or_file), replays, extremes);
   write_whole(out, report_page(title, data));

@@ -1,5 +1,6 @@
 #include "harness/sweep/record.h"
 
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/environment.h"
+#include "harness/packed_file.h"
 #include "harness/sweep/rows.h"
 
 namespace plumb::harness::sweep {
@@ -98,6 +100,28 @@ void Record::read(const std::string& line) {
       trial->samples.push_back(sample_from(json));
   } else if (kind == "done") {
     instance.done = true;
+  }
+}
+
+void Record::take_over(const std::string& folder, const std::set<std::string>& labels) {
+  const std::string path = folder + "/sweep.jsonl";
+  std::istringstream lines(read_packed_or_plain(path));
+  int number = 0;
+  try {
+    for (std::string line; std::getline(lines, line);) {
+      const Json json = Json::parse(line);
+      if (++number == 1) {
+        Json build = start_json({}, "");
+        for (const char* name : {"engines", "settings", "cpu"}) build.erase(name);
+        require_same(path, json, build);
+      }
+      if (json.at("kind") != "run" || !labels.contains(json.at("label").get<std::string>())) continue;
+      Trial trial{result_from_json(json.at("result").dump()), sample_from(json.at("rough")), {}};
+      const std::string label = json.at("label");
+      if (of(label).find(key_of(trial.result)) == nullptr) ran(label, trial);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,11 @@ class Record {
   Record(const std::string& folder, const std::vector<std::string>& engines, const std::string& settings);
 
   InstanceRecord& of(const std::string& label) { return instances_[label]; }
+
+  /// Takes over the runs of another sweep in `folder` on these instances, except those that are known. Its
+  /// rough costs guide the search; measured costs are not taken over. Throws `Error` (Io; Syntax; Value if it
+  /// is of another build).
+  void take_over(const std::string& folder, const std::set<std::string>& labels);
 
   void ran(const std::string& label, const Trial& trial);
   void explored(const std::string& label, const std::vector<std::string>& chosen);

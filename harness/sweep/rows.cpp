@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +18,34 @@ std::string file_of(const std::string& folder_or_file) {
   std::error_code code;
   const std::filesystem::path path(folder_or_file);
   return std::filesystem::is_directory(path, code) ? (path / "results.jsonl").string() : folder_or_file;
+}
+
+using Kinds = std::vector<std::pair<std::string, int>>;  // kind of machine, costs; in order of appearance
+
+void add(Kinds& kinds, const std::string& machine, int count) {
+  const auto known =
+      std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == machine; });
+  if (known == kinds.end()) {
+    kinds.emplace_back(machine, count);
+  } else {
+    known->second += count;
+  }
+}
+
+std::map<std::string, Kinds> costs_by_machine(std::span<const Result> rows) {
+  std::map<std::string, Kinds> out;  // by scene
+  for (const Result& row : rows)
+    if (row.cost && !row.machine.empty()) add(out[row.label], row.machine, 1);
+  return out;
+}
+
+// Returns the kinds with the most costs first, of those with as many the first.
+std::vector<std::string> most_first(Kinds kinds) {
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> out;
+  for (auto& [kind, count] : kinds) out.push_back(std::move(kind));
+  return out;
 }
 
 void require_machine(const std::vector<Result>& rows, const std::string& machine) {
@@ -76,46 +104,51 @@ std::vector<Result> latest(std::vector<Result> rows) {
 }
 
 void keep_costs_of_one_machine(std::vector<Result>& rows, const std::string& machine) {
-  std::map<std::string, std::vector<std::pair<std::string, int>>> machines;  // by scene: kind, costs
-  for (const Result& row : rows) {
-    if (!row.cost || row.machine.empty()) continue;
-    auto& kinds = machines[row.label];
-    const auto known =
-        std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == row.machine; });
-    if (known == kinds.end()) {
-      kinds.emplace_back(row.machine, 1);
-    } else {
-      ++known->second;
-    }
-  }
+  std::map<std::string, std::string> most;  // by scene
+  if (machine.empty())
+    for (const auto& [label, kinds] : costs_by_machine(rows)) most[label] = most_first(kinds).front();
   if (!machine.empty()) require_machine(rows, machine);
   for (Result& row : rows) {
     if (!row.cost || row.machine.empty() || row.machine == machine) continue;
-    const auto& kinds = machines[row.label];
-    const auto most = std::max_element(kinds.begin(), kinds.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (machine.empty() && most->first == row.machine) continue;
+    if (machine.empty() && most[row.label] == row.machine) continue;
     row.cost.reset();
     row.cost_left_out = true;
   }
 }
 
-std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine) {
+std::vector<std::string> machines_of(std::span<const Result> rows) {
+  Kinds all;
+  for (const auto& [label, kinds] : costs_by_machine(rows))
+    for (const auto& [kind, count] : kinds) add(all, kind, count);
+  return most_first(all);
+}
+
+void for_each_row(const std::string& folder_or_file, const std::function<void(Result)>& take) {
   const std::string path = file_of(folder_or_file);
-  std::istringstream file(read_text(path, "`plumb compare` and `plumb sweep` write such files"));
-  std::vector<Result> rows;
+  std::ifstream file = open_text(path, "`plumb compare` and `plumb sweep` write such files");
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.empty()) continue;
+    Result row;
     try {
-      rows.push_back(result_from_json(line));
+      row = result_from_json(line);
     } catch (const Error& error) {
       if (file.eof()) break;  // no line end: the writer was stopped within the line
       throw Error(Error::Kind::Syntax, fmt::format("file '{}', line {}", path, number), "", "", error.what());
     }
+    take(std::move(row));
   }
-  rows = latest(std::move(rows));
+}
+
+std::vector<Result> read_all_costs(const std::string& folder_or_file) {
+  std::vector<Result> rows;
+  for_each_row(folder_or_file, [&](Result row) { rows.push_back(std::move(row)); });
+  return latest(std::move(rows));
+}
+
+std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine) {
+  std::vector<Result> rows = read_all_costs(folder_or_file);
   keep_costs_of_one_machine(rows, machine);
   return rows;
 }

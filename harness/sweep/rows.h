@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,8 +27,19 @@ std::vector<Result> latest(std::vector<Result> rows);
 /// kept. Marks the others with `cost_left_out`. Throws `Error` (Name) if no cost is of `machine`.
 void keep_costs_of_one_machine(std::vector<Result>& rows, const std::string& machine = "");
 
-/// Reads the latest rows of a file of results, or of `results.jsonl` in a folder, with the costs of one kind
-/// of machine a scene. Ignores a truncated last line. Throws `Error` (Io, Syntax) that names file and line.
+/// Returns the kinds of machine that costs of these rows were measured on, those with the most costs first.
+std::vector<std::string> machines_of(std::span<const Result> rows);
+
+/// Calls `take` with each row of a file of results, or of `results.jsonl` in a folder, in order: however many
+/// there are, one at a time is in memory. Ignores a truncated last line. Throws `Error` (Io, Syntax) that
+/// names file and line.
+void for_each_row(const std::string& folder_or_file, const std::function<void(Result)>& take);
+
+/// Reads the latest rows of a file of results, or of `results.jsonl` in a folder. Ignores a truncated last
+/// line. Throws `Error` (Io, Syntax) that names file and line.
+std::vector<Result> read_all_costs(const std::string& folder_or_file);
+
+/// Reads the same, with the costs of one kind of machine a scene.
 std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine = "");
 
 /// Returns true if there is a file that `read_rows` would read.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -25,10 +26,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Fraction of an instance's time for finding the fronts; the rest is for measuring costs.
-constexpr double kExploring = 0.55;
 // Largest fraction of an instance's time for one run.
 constexpr double kDearest = 0.04;
+constexpr std::size_t kAtOnce = 2;  // runs from one look at the fronts to the next
 constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
 // Overhead of a repetition besides stepping: starting and ending a process, and its page faults.
@@ -67,6 +67,7 @@ class InstanceSweep {
 
  private:
   void set_up();
+  double exploring_time();
   std::vector<RunRequest> next_runs();
   bool run(const std::vector<RunRequest>& requests);
   void tell_all();
@@ -165,8 +166,7 @@ std::vector<RunRequest> InstanceSweep::next_runs() {
   std::vector<RunRequest> out;
   const double duration = instance_.build().duration;
   const double dearest = kDearest * seconds_ * 1e9 / duration;  // ns a simulated second
-  for (std::size_t looked = 0;
-       looked < entrants_.size() && out.size() < 2 * static_cast<std::size_t>(options_.jobs); ++looked) {
+  for (std::size_t looked = 0; looked < entrants_.size() && out.size() < kAtOnce; ++looked) {
     Entrant& entrant = entrants_[turn_++ % entrants_.size()];
     if (entrant.finished) continue;
     std::optional<Space::Place> place;
@@ -183,7 +183,7 @@ std::vector<RunRequest> InstanceSweep::next_runs() {
 bool InstanceSweep::run(const std::vector<RunRequest>& requests) {
   bool interrupted = false;
   const double seconds = std::min(options_.seconds_a_run, std::max(1.0, 5 * kDearest * seconds_));
-  run_isolated_all(requests, options_.jobs, seconds, [&](std::size_t, IsolatedRun run) {
+  run_isolated_all(requests, 1, seconds, [&](std::size_t, IsolatedRun run) {
     interrupted = interrupted || run.interrupted;
     if (run.interrupted) return;
     if (!cases_.has_truth())
@@ -194,6 +194,22 @@ bool InstanceSweep::run(const std::vector<RunRequest>& requests) {
   return !interrupted;
 }
 
+// Returns the time for exploring, in s. Engines whose runs were taken over have had theirs.
+double InstanceSweep::exploring_time() {
+  if (options_.only_explore > 0)
+    return options_.only_explore / static_cast<double>(options_.instances.size());
+  if (options_.from.empty()) return kExploring * seconds_;
+  std::size_t missing = 0;
+  for (Entrant& entrant : entrants_) {
+    entrant.finished = std::any_of(known_.trials.begin(), known_.trials.end(), [&](const Trial& trial) {
+      return trial.result.engine == entrant.backend->name();
+    });
+    missing += entrant.finished ? 0 : 1;
+  }
+  return kExploring * seconds_ * static_cast<double>(missing) /
+         static_cast<double>(std::max<std::size_t>(1, entrants_.size()));
+}
+
 bool InstanceSweep::explore(const std::function<void(double, const std::string&)>& progress) {
   if (known_.explored) return true;
   const Clock::time_point start = Clock::now();
@@ -201,7 +217,8 @@ bool InstanceSweep::explore(const std::function<void(double, const std::string&)
   const auto open = [&] {
     return std::any_of(entrants_.begin(), entrants_.end(), [](const Entrant& e) { return !e.finished; });
   };
-  while (open() && seconds_since(start) < kExploring * seconds_) {
+  const double limit = exploring_time();
+  while (open() && seconds_since(start) < limit) {
     if (interrupted()) return false;
     tell_all();
     const std::vector<RunRequest> requests = next_runs();
@@ -211,6 +228,10 @@ bool InstanceSweep::explore(const std::function<void(double, const std::string&)
     if (!run(requests)) return false;
   }
   explored_ = seconds_since(start);
+  if (options_.only_explore > 0) {
+    record_.explored(label_, {});
+    return true;
+  }
   record_.explored(label_, choose(std::max((1 - kExploring) * seconds_, seconds_ - explored_)));
   return true;
 }
@@ -335,6 +356,12 @@ std::string settings_of(const SweepOptions& options) {
   return out;
 }
 
+std::set<std::string> labels_of(const std::vector<scenarios::Instance>& instances) {
+  std::set<std::string> out;
+  for (const scenarios::Instance& instance : instances) out.insert(instance.label());
+  return out;
+}
+
 std::vector<std::string> names_of(const std::vector<const reference::Backend*>& engines) {
   std::vector<std::string> names;
   for (const reference::Backend* backend : engines) names.emplace_back(backend->name());
@@ -346,7 +373,9 @@ std::vector<std::string> names_of(const std::vector<const reference::Backend*>& 
 Swept sweep(const SweepOptions& options, const SweepEvents& events) {
   const std::vector<std::string> engines = names_of(options.engines);
   Record record(options.folder, engines, settings_of(options));
-  Journal results(options.folder + "/results.jsonl");
+  for (const std::string& folder : options.from) record.take_over(folder, labels_of(options.instances));
+  std::optional<Journal> results;
+  if (options.only_explore == 0) results.emplace(options.folder + "/results.jsonl");
   Swept out;
   const auto count = [&](bool done) {
     return std::count_if(options.instances.begin(), options.instances.end(),
@@ -366,14 +395,15 @@ Swept sweep(const SweepOptions& options, const SweepEvents& events) {
         const double all = (static_cast<double>(before) + share) * each;
         if (events.progress) events.progress({static_cast<std::size_t>(1000 * all), 1000, what});
       };
-      out.interrupted = !part.explore(progress) || !part.measure(progress);
+      out.interrupted = !part.explore(progress) || (options.only_explore == 0 && !part.measure(progress));
       if (out.interrupted) return out;
       out.dropped += part.dropped();
       left = std::max(left - seconds_since(start), 0.1 * seconds);
       ++before;
     }
+    if (!results) continue;
     const std::vector<Result> rows = rows_of(record.of(label), engines);
-    append_rows(results, rows);
+    append_rows(*results, rows);
     if (events.finished) events.finished(rows);
     out.rows.insert(out.rows.end(), rows.begin(), rows.end());
   }

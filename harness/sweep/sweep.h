@@ -13,12 +13,19 @@
 
 namespace plumb::harness::sweep {
 
+/// Fraction of a sweep's time for finding the fronts; the rest is for measuring costs.
+inline constexpr double kExploring = 0.55;
+
 struct SweepOptions {
   std::vector<scenarios::Instance> instances;
   std::vector<const reference::Backend*> engines;
-  std::string folder;            ///< folder of results.jsonl and sweep.jsonl
-  double budget = 540;           ///< s of wall time for all instances
-  int jobs = 1;                  ///< runs at a time; costs are measured one at a time
+  std::string folder;   ///< folder of results.jsonl and sweep.jsonl
+  double budget = 540;  ///< s of wall time for all instances
+  /// s for finding the fronts of all instances, of which no cost is measured then and no result written: that
+  /// is for the sweep that goes on `from` this folder. 0: fronts and costs.
+  double only_explore = 0;
+  std::vector<std::string>
+      from{};                    ///< folders of sweeps whose runs are taken over, by the same build of plumb
   int repetitions = 9;           ///< of every cost
   double seconds_a_run = 20;     ///< time limit of a run
   std::size_t most_points = 48;  ///< per engine and instance

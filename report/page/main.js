@@ -7,14 +7,16 @@ const sceneBoxes = new Map();
 
 function counted() {
   const counts = new Map();
-  let missed = 0, unexpected = 0;
-  for (const scene of data.scenes)
-    for (const row of scene.rows) {
-      counts.set(row.status, (counts.get(row.status) ?? 0) + 1);
-      missed += isMissed(row);
-      unexpected += row.unexpected.length > 0;
-    }
-  const elsewhere = data.scenes.reduce((sum, scene) => sum + scene.rows.filter((row) => row.cost_left_out).length, 0);
+  let missed = 0, unexpected = 0, elsewhere = 0;
+  for (const {runs} of data.scenes) {
+    for (const [status, count] of Object.entries(runs.statuses)) counts.set(status, (counts.get(status) ?? 0) + count);
+    missed += runs.missed;
+    unexpected += runs.unexpected;
+    elsewhere += runs.left_out;
+  }
+  const all = data.scenes.reduce((sum, scene) => sum + scene.runs.all, 0), here = data.scenes.reduce((sum, scene) => sum + scene.rows.length, 0);
+  const sampled = here < all ? `Of these ${all}, ${here} are drawn and listed here: fronts, series and kinds of failure, evenly spread; ` +
+    "results.jsonl beside this page has all, and what is counted here counts all." : "";
   const leftOut = elsewhere ? `The costs of ${elsewhere} are left out: measured on another kind of machine than the scene's others.` : "";
   const {endurances, thresholds} = data.extremes;
   const total = (key) => endurances.filter((row) => row.setting !== "any setting").reduce((sum, row) => sum + row[key], 0);
@@ -23,7 +25,7 @@ function counted() {
   if (data.scenes.length === 0) return found.join(" ");
   const parts = [...counts].map(([status, count]) => `${count} ${status}`);
   return `${data.scenes.length} scenes, ${data.engines.length} engines; runs: ${parts.join(", ")}. ` +
-    [`${missed} missed a check; ${unexpected} not as expected.`, leftOut, ...found].filter(Boolean).join(" ");
+    [`${missed} missed a check; ${unexpected} not as expected.`, sampled, leftOut, ...found].filter(Boolean).join(" ");
 }
 
 // The largest position error of each engine in each scene: a dot a scene, a bar at the median.
@@ -120,9 +122,11 @@ function standingTable() {
 
 function exceptionTable() {
   const rows = data.standings.flatMap((row) => row.exceptions.map((point) => ({...point, label: row.label, rival: row.rival, unit: row.unit})));
+  const all = data.standings.reduce((sum, row) => sum + row.worse, 0);
   const box = document.getElementById("exceptions");
   box.querySelector("summary").textContent = rows.length === 0 ? "No rival's point is worse for plumb" :
-    `${rows.length === 1 ? "The point of a rival" : `The ${rows.length} points of rivals`} that plumb does not dominate`;
+    `${all === 1 ? "The point of a rival" : `The ${all} points of rivals`} that plumb does not dominate` +
+    (rows.length < all ? `; the ${rows.length} worst are here` : "");
   if (rows.length === 0) return;
   box.querySelector("div").append(table([
     {name: "scene", text: (row) => row.label},
@@ -140,9 +144,9 @@ function sceneList() {
   const section = document.getElementById("scenes");
   for (const scene of data.scenes) {
     const content = make("div");
-    const bad = scene.rows.filter((row) => !["ok", "skipped"].includes(row.status)).length;
-    const missed = scene.rows.filter(isMissed).length;
-    const notes = [`${scene.rows.length} runs`];
+    const {all, statuses, missed} = scene.runs;
+    const bad = Object.entries(statuses).reduce((sum, [status, count]) => sum + (["ok", "skipped"].includes(status) ? 0 : count), 0);
+    const notes = [`${all} runs`];
     if (bad) notes.push(`${bad} failed`);
     if (missed) notes.push(`${missed} with a check missed`);
     const box = make("details", {class: "scene", "data-label": scene.label},

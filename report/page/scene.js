@@ -1,7 +1,7 @@
 // One scene's part of the report, made when it is opened.
 
-const statusText = (row) => (row.reason ? `${row.status}: ${row.reason}` : row.status);
-const isMissed = (row) => row.missed.length > 0;
+// Settings that runs share are there once, and without the step, which the run has.
+const settingsOf = (row) => ({dt: String(row.dt), ...data.settings[row.settings]});
 
 function rowText(row, metric, unit) {
   const lines = [`${words(metric)}: ${withUnit(row.metrics[metric], unit)}`];
@@ -100,9 +100,9 @@ function convergence(scene) {
 function checks(scene) {
   const missed = scene.rows.flatMap((row) => row.missed.map((check) => ({...check, engine: row.engine, asked: row.asked,
     unexpected: row.unexpected.length > 0})));
-  const total = scene.rows.reduce((sum, row) => sum + row.checks, 0);
+  const {checks: total, held} = scene.runs, left = total - held - missed.length;
   const box = make("div", {"data-part": "checks"}, make("h3", {text: "Checks"}),
-    make("p", {text: `${total - missed.length} of ${total} held${missed.length ? "; not these:" : "."}`}));
+    make("p", {text: `${held} of ${total} held${missed.length ? `; not these${left ? `, and ${left} of runs that are not listed here` : ""}:` : "."}`}));
   if (missed.length === 0) return box;
   box.append(make("div", {class: "scroll"}, table([
     {name: "engine", text: (row) => row.engine},
@@ -126,10 +126,11 @@ function runs(scene, metrics) {
     {name: "a step", number: true, text: (row) => duration(row.cost?.step), value: (row) => row.cost?.step},
     {name: "a simulated s", number: true, text: (row) => duration(row.cost?.second), value: (row) => row.cost?.second},
     {name: "set up", number: true, text: (row) => duration(row.cost?.setup), value: (row) => row.cost?.setup},
-    {name: "effective settings", wide: true, text: (row) => Object.entries(row.settings).map(([k, v]) => `${words(k)} ${v}`).join(", ")},
+    {name: "effective settings", wide: true, text: (row) => Object.entries(settingsOf(row)).map(([k, v]) => `${words(k)} ${v}`).join(", ")},
     {name: "version", text: (row) => `${row.version} ${row.precision}`},
   ];
-  const details = make("details", {"data-part": "runs"}, make("summary", {text: `All ${scene.rows.length} runs with settings`}));
+  const details = make("details", {"data-part": "runs"}, make("summary", {text: scene.rows.length < scene.runs.all ?
+    `${scene.rows.length} of ${scene.runs.all} runs with settings` : `All ${scene.rows.length} runs with settings`}));
   details.addEventListener("toggle", () => {
     if (details.open && details.children.length === 1) details.append(make("div", {class: "scroll"}, table(columns, scene.rows)));
   });
@@ -138,15 +139,12 @@ function runs(scene, metrics) {
 
 // Engines that did not run to the end, with the reason.
 function failures(scene) {
-  const byText = new Map();
-  for (const row of scene.rows) {
-    if (row.status !== "ok") byText.set(`${row.engine}: ${statusText(row)}`, [row, (byText.get(`${row.engine}: ${statusText(row)}`)?.[1] ?? 0) + 1]);
-    for (const sentence of row.unexpected) byText.set(`${row.engine}: ${sentence}`, [{status: "failed"}, 1]);
-  }
-  if (byText.size === 0) return null;
-  return make("div", {"data-part": "failures"}, make("h3", {text: "Skipped and failed"}), make("ul", {},
-    ...[...byText].map(([text, [row, count]]) => make("li", {class: row.status === "skipped" ? "note" : "bad",
-      text: count > 1 ? `${text} (${count} runs)` : text}))));
+  const {failures: kinds, failure_kinds: count} = scene.runs;
+  if (kinds.length === 0) return null;
+  const items = kinds.map(({text, status, runs}) => make("li", {class: status === "skipped" ? "note" : "bad",
+    text: runs > 1 ? `${text} (${runs} runs)` : text}));
+  if (kinds.length < count) items.push(make("li", {class: "note", text: `${count - kinds.length} more kinds, of fewer runs each`}));
+  return make("div", {"data-part": "failures"}, make("h3", {text: "Skipped and failed"}), make("ul", {}, ...items));
 }
 
 function fillScene(box, scene, data, look) {

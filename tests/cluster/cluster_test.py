@@ -4,6 +4,7 @@
     cluster_test.py PROGRAM CHECKOUT TEST    one test, see those below; exit 77 where what it needs is not installed
 """
 
+import ctypes
 import json
 import os
 import pathlib
@@ -57,8 +58,44 @@ def local(folder, *words):
     return rows_of(folder)
 
 
+def unpacked(path):
+    """Text of a unit's file, which zstd may have compressed."""
+    path = pathlib.Path(path)
+    if path.exists():
+        return path.read_text()
+    packed = path.with_name(path.name + ".zst").read_bytes()
+    zstd = ctypes.CDLL("libzstd.so.1")
+    zstd.ZSTD_decompress.restype = zstd.ZSTD_getFrameContentSize.restype = ctypes.c_ulonglong
+    size = zstd.ZSTD_getFrameContentSize(packed, ctypes.c_size_t(len(packed)))
+    out = ctypes.create_string_buffer(size)
+    assert zstd.ZSTD_decompress(out, ctypes.c_size_t(size), packed, ctypes.c_size_t(len(packed))) == size
+    return out.raw[:size].decode()
+
+
+def make_plain(work, number):
+    """Replaces a unit's compressed results by plain ones, as a plumb without zstd leaves them."""
+    unit = pathlib.Path(work) / "done" / f"{number:05}"
+    text = unpacked(unit / "results.jsonl")
+    (unit / "results.jsonl.zst").unlink(missing_ok=True)
+    (unit / "results.jsonl").write_text(text)
+    facts = json.loads((unit / "unit.json").read_text())
+    facts["bytes"].pop("results.jsonl.zst", None)
+    facts["bytes"]["results.jsonl"] = (unit / "results.jsonl").stat().st_size
+    (unit / "unit.json").write_text(json.dumps(facts))
+    return unit / "results.jsonl"
+
+
 def entries(folder):
     return sorted(path.name for path in pathlib.Path(folder).iterdir())
+
+
+def units_of(work):
+    return [json.loads(line) for line in (pathlib.Path(work) / "units.jsonl").read_text().splitlines()]
+
+
+def rows_of_nothing(work):
+    """Files of results that units have left."""
+    return [path for path in (pathlib.Path(work) / "done").rglob("results.jsonl*")]
 
 
 def state(work):
@@ -98,7 +135,16 @@ def every_command_can_be_planned(tmp):
             ("sweep", ["sweep", "free_fall/vacuum", "--engine", "plumb,box2d", "--budget", "4"], "results.jsonl")):
         plumb("plan", tmp / name, *words)
         plumb("work", tmp / name, "--all", *QUICK)
-        plumb("gather", tmp / name, "--out", tmp / f"{name}-out")
+        if name == "sweep":
+            # The costs of all engines take turns in a unit that goes on from the search of each.
+            assert not rows_of_nothing(tmp / name), "no result before costs are measured"
+            assert "1 units go on" in plumb("plan", tmp / name, "--next").stdout
+            assert not [unit for unit in units_of(tmp / name)[:-1] if unit["cost"]] and units_of(tmp / name)[-1]["cost"]
+            plumb("work", tmp / name, "--all", *QUICK)
+            # On a busy machine it may be measured again, but the search is not gone on from twice.
+            assert "go on" not in plumb("plan", tmp / name, "--next", code=None).stdout.replace("0 units go on", "")
+            plumb("work", tmp / name, "--all", *QUICK)
+        plumb("gather", tmp / name, "--out", tmp / f"{name}-out", code=0)
         assert rows_of(tmp / f"{name}-out", file), name
     # A map is the same cells, in another order.
     plumb("stress", "mass_ratio_stack", "--quick", "--engine", "plumb-float,box2d", "--out", tmp / "here")
@@ -110,6 +156,10 @@ def every_command_can_be_planned(tmp):
     plumb("work", tmp / "hunt", "--all", *QUICK)
     plumb("gather", tmp / "hunt", "--out", tmp / "hunted")
     assert json.loads((tmp / "hunted/gathered.json").read_text())["hunt"]["scenes"] == 4
+    plumb("plan", tmp / "reality", "reality", "--published", "--engine", "plumb")
+    plumb("work", tmp / "reality", "--all", *QUICK)
+    plumb("gather", tmp / "reality", "--out", tmp / "real")
+    assert json.loads((tmp / "real/published.json").read_text())
     scene = tmp / "mine.json"
     scene.write_text(plumb("scene", "free_fall/vacuum").stdout)
     plumb("plan", tmp / "file", "sweep", scene, "--engine", "plumb", "--budget", "2", "--duration", "1")
@@ -117,11 +167,125 @@ def every_command_can_be_planned(tmp):
     plumb("work", tmp / "file", "--unit", 1, *QUICK)
 
 
+def a_sweep_of_several_cores_goes_on_where_it_was(tmp):
+    command = ["sweep", "free_fall/drag", "elastic_collision/oblique", "--engine", "plumb,box2d", "--budget", "12", "--jobs", "2",
+               "--out", tmp / "out"]
+    work = tmp / "out/work"
+    running = start(*command)
+    for _ in range(600):
+        if (work / "done").exists() and entries(work / "done"):
+            break
+        time.sleep(0.02)
+    running.kill()
+    running.wait()
+    kept = {name: (work / "done" / name / "unit.json").read_text() for name in entries(work / "done")}
+    assert kept
+    text = plumb(*command).stdout
+    for part in ("free_fall/drag", "elastic_collision/oblique", "overall", "front of"):
+        assert part in text, text
+    for name, facts in kept.items():
+        assert (work / "done" / name / "unit.json").read_text() == facts, "what was done is not done again"
+    rows = [json.loads(line) for line in (tmp / "out/results.jsonl").read_text().splitlines()]
+    assert {row["engine"] for row in rows if row["cost"]} == {"plumb", "box2d"}
+    keys = [json.dumps([row["label"], row["engine"], row["asked"]]) for row in rows]
+    assert len(keys) == len(set(keys))
+    # Each row is the row of a sweep in one process.
+    plumb("sweep", *command[1:-4], "--out", tmp / "one")
+    one = {json.dumps([row["label"], row["engine"], row["asked"]]): row for row in
+           map(json.loads, (tmp / "one/results.jsonl").read_text().splitlines())}
+    both = [(row, one[key]) for key, row in zip(keys, rows) if key in one]
+    # How many settings each had time for depends on the machine.
+    assert both and all(row["metrics"] == other["metrics"] for row, other in both), len(both)
+    before = (tmp / "out/results.jsonl").read_text()
+    plumb(*command)
+    assert (tmp / "out/results.jsonl").read_text() == before
+    assert "is of another sweep" in plumb("sweep", "free_fall/vacuum", "--jobs", 2, "--out", tmp / "out", code=2).stderr
+    plumb("sweep", "free_fall/vacuum", "--jobs", 2, "--explore", 1, "--out", tmp / "new", code=2)
+
+
+def disturb(work, number, factor):
+    """Makes the calibrations of a unit those of a machine that others used by `factor` after it."""
+    path = pathlib.Path(work) / "done" / f"{number:05}" / "unit.json"
+    facts = json.loads(path.read_text())
+    facts["before"] = {"fastest_ms": 2.0, "median_ms": 2.0, "repetitions": 3}
+    facts["after"] = {"fastest_ms": 2.0 * factor, "median_ms": 2.0 * factor, "repetitions": 3}
+    path.write_text(json.dumps(facts))
+
+
+def disturbed_units_are_measured_again(tmp):
+    work = tmp / "work"
+    plumb("plan", work, "--unit-seconds", "0", "compare", "free_fall/vacuum", "free_fall/drag", "--engine", "plumb-float")
+    plumb("work", work, "--all", *QUICK)
+    for number, factor in ((1, 1.5), (2, 1.0)):
+        disturb(work, number, factor)
+    text = plumb("status", work).stdout
+    assert "others used the machine during: 1; " in text, text
+    assert "1 are measured again" in plumb("plan", work, "--next").stdout
+    again = units_of(work)[-1]
+    host = json.loads((work / "done/00001/unit.json").read_text())["machine"]["host"]
+    assert len(units_of(work)) == 3 and again["repeats"] == 1 and again["avoid"] == [host], again
+    plumb("plan", work, "--next", code=3)  # it is planned already
+    # Another is at work, perhaps on another host, to which it is left.
+    (work / "claims/00099").write_text("{}\n")
+    plumb("work", work, "--next", *QUICK, code=3)
+    (work / "claims/00099").unlink()
+    plumb("work", work, "--all", *QUICK)
+    disturb(work, 3, 1.3)
+    plumb("plan", work, "--next")
+    plumb("work", work, "--all", *QUICK)
+    disturb(work, 4, 1.4)
+    plumb("plan", work, "--next", code=3)  # three times are enough
+    plumb("gather", work, "--out", tmp / "out", "--no-report")
+
+    def gathered(label):
+        return [json.loads(line)["cost"]["each_ns_per_step"] for line in (tmp / "out/results.jsonl").read_text().splitlines()
+                if json.loads(line)["label"] == label]
+
+    def measured(number):
+        return [json.loads(line)["cost"]["each_ns_per_step"] for line in
+                unpacked(work / "done" / f"{number:05}" / "results.jsonl").splitlines()]
+    assert gathered("free_fall/vacuum") == measured(3), "the least disturbed of three"
+    assert json.loads((tmp / "out/gathered.json").read_text())["noisy"] == [1]
+    disturb(work, 4, 1.0)
+    plumb("gather", work, "--out", tmp / "out", "--no-report")
+    assert gathered("free_fall/vacuum") == measured(4) and gathered("free_fall/drag") == measured(2)
+    assert json.loads((tmp / "out/gathered.json").read_text())["noisy"] == []
+    # Without costs nothing is disturbed.
+    plumb("plan", tmp / "errors", *SMALL)
+    plumb("work", tmp / "errors", "--all", *QUICK)
+    disturb(tmp / "errors", 1, 2.0)
+    plumb("plan", tmp / "errors", "--next", code=3)
+
+
+def units_are_compressed(tmp):
+    work = tmp / "work"
+    plumb("plan", work, *SMALL)
+    plumb("work", work, "--all", *QUICK)
+    packed = work / "done/00001/results.jsonl.zst"
+    if not packed.exists():
+        assert (work / "done/00001/results.jsonl").exists()
+        sys.exit(SKIPPED)  # built without zstd
+    text = unpacked(work / "done/00001/results.jsonl")
+    assert len(text) > 4 * packed.stat().st_size, (len(text), packed.stat().st_size)
+    plumb("gather", work, "--out", tmp / "out", "--no-report")
+    assert rows_of(tmp / "out") == local(tmp / "local", *SMALL)
+    whole = packed.read_bytes()
+    for broken in (whole[:-40], whole[:len(whole) // 2] + bytes([whole[len(whole) // 2] ^ 0xff]) + whole[len(whole) // 2 + 1:], b""):
+        packed.write_bytes(broken)
+        run = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1)
+        assert "damaged: 1 (" in run.stdout, run.stdout
+    plumb("work", work, "--unit", 1, "--again", *QUICK)
+    plumb("gather", work, "--out", tmp / "out", "--no-report")
+    assert rows_of(tmp / "out") == rows_of(tmp / "local")
+
+
 def what_cannot_be_planned_is_refused(tmp):
     for words in (["list"], ["compare", "fre_fall"], ["compare", "--colour"], ["stress", "--list"], [],
                   ["compare", "free_fall", "--out", "x"]):
         run = plumb("plan", tmp / "work", *words, code=2)
         assert run.stderr.startswith("plumb: ") and run.stderr.count("\n") == 1, run.stderr
+    plumb("plan", tmp / "work", "--next", code=2)
+    plumb("plan", tmp / "work", "--next", *SMALL, code=2)
     for option in ("--unit-seconds=nan", "--unit-seconds=-1", "--seeds=0", "--earlier=nowhere"):
         plumb("plan", tmp / "work", option, *SMALL, code=2)
     assert not (tmp / "work/plan.json").exists()
@@ -232,7 +396,7 @@ def what_is_done_twice_counts_once(tmp):
     count = len(rows_of(tmp / "out"))
     assert f"{count} runs done twice, counted once" in text and "differ" not in text, text
     # A machine that computes something else is told.
-    path = work / "done/00001/results.jsonl"
+    path = make_plain(work, 1)
     path.write_text(re.sub(r'("position_error":)[-0-9.e]+', r"\1 0.5", path.read_text(), count=1))
     text = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1).stdout
     assert "1 differ" in text, text
@@ -299,6 +463,7 @@ def costs_of_different_machines_do_not_meet(tmp):
     assert "2 units on old" in text and "1 unit on new" in text, text
     front = plumb("front", tmp / "out").stdout
     assert "the costs of 1 runs are left out: measured on another kind of machine" in front, front
+    assert front.index("on old:") < front.index("on new:"), "fronts of each kind, that with the most costs first"
     assert {row.split(",")[1] for row in plumb("front", tmp / "out", "--format", "csv").stdout.splitlines()[1:]} == {
         "plumb", "plumb-float"}, "the front of the kind of machine with the most costs"
     assert {row.split(",")[1] for row in plumb("front", tmp / "out", "--format", "csv", "--machine",
@@ -318,7 +483,7 @@ def damaged_units_are_said_and_done_again(tmp):
     work = tmp / "work"
     plumb("plan", work, "--unit-seconds", "0", *SMALL)
     plumb("work", work, "--all", *QUICK)
-    path = work / "done/00001/results.jsonl"
+    path = make_plain(work, 1)
     whole = path.read_bytes()
     path.write_bytes(whole[:-40])
     run = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1)

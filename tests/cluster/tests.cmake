@@ -14,6 +14,9 @@ foreach(test IN ITEMS
     costs_of_different_machines_do_not_meet
     damaged_units_are_said_and_done_again
     local_submission_does_all_and_gathers
+    a_sweep_of_several_cores_goes_on_where_it_was
+    disturbed_units_are_measured_again
+    units_are_compressed
     gnu_parallel_goes_on_where_it_was
     slurm_scripts_are_read_by_a_shell
     the_walk_through_runs)
@@ -23,3 +26,9 @@ foreach(test IN ITEMS
 endforeach()
 add_test(NAME cluster/simulate_self_test COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/simulate.py --self-test)
 set_tests_properties(cluster/simulate_self_test PROPERTIES LABELS unit)
+# Slurm and ssh hosts of its own, where the packages are there and the user is root: two minutes each.
+foreach(scheduler IN ITEMS slurm parallel)
+  add_test(NAME cluster/units_killed_under_${scheduler} COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/real_schedulers.py
+    $<TARGET_FILE:plumb_app> ${scheduler} free_fall elastic_collision atwood vertical_stack)
+  set_tests_properties(cluster/units_killed_under_${scheduler} PROPERTIES LABELS long SKIP_RETURN_CODE 77 TIMEOUT 600)
+endforeach()

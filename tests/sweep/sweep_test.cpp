@@ -61,7 +61,6 @@ struct Fixture {
                        .engines = {&linear, &square, &dead},
                        .folder = folder.path(),
                        .budget = 4,
-                       .jobs = 2,
                        .repetitions = 3,
                        .ladder = {.rungs = 5}};
 };
@@ -146,6 +145,64 @@ TEST(Sweep, AnotherSweepsFolderIsRefused) {
   sweep(fixture.options);
   fixture.options.engines.pop_back();
   EXPECT_THROW(sweep(fixture.options), Error);
+}
+
+// As on many machines: each engine's front is searched alone, and the costs of all take turns afterwards.
+TEST(Sweep, GoesOnFromTheSearchesOfOthers) {
+  Fixture fixture;
+  std::vector<std::string> folders;
+  for (const reference::Backend* engine : fixture.options.engines) {
+    SweepOptions alone = fixture.options;
+    alone.engines = {engine};
+    alone.folder = fixture.folder.path(std::string(engine->name()));
+    alone.budget = alone.only_explore = 20;  // more than it takes
+    EXPECT_TRUE(sweep(alone).rows.empty());
+    EXPECT_FALSE(std::filesystem::exists(alone.folder + "/results.jsonl"));
+    for (const std::string& line : fixture.folder.lines(std::string(engine->name()) + "/sweep.jsonl"))
+      EXPECT_NE(nlohmann::json::parse(line)["kind"], "cost");
+    EXPECT_TRUE(sweep(alone).rows.empty()) << "explored before";
+    folders.push_back(alone.folder);
+  }
+  fixture.options.budget = 20;
+  fixture.options.from = folders;
+  const Swept swept = sweep(fixture.options);
+  int costed = 0;
+  for (const Result& row : swept.rows) {
+    if (row.engine == "dead") {
+      EXPECT_EQ(row.status, Status::Crashed);
+      continue;
+    }
+    ++costed;
+    ASSERT_TRUE(row.cost) << key_of(row);
+    EXPECT_EQ(row.cost->each_ns_per_step.size(), 3u);
+  }
+  EXPECT_EQ(costed, 2 * 2 * 5) << "all five steps of the ladder, as in one sweep";
+  // A scene that is not swept here, and another build's runs, are not taken over.
+  fixture.options.folder = fixture.folder.path("first");
+  fixture.options.instances.pop_back();
+  for (const Result& row : sweep(fixture.options).rows) EXPECT_EQ(row.label, "first");
+  std::string start = fixture.folder.lines("plumb/sweep.jsonl").front();
+  start.replace(start.find("\"compiler\":\""), 12, "\"compiler\":\"other ");
+  std::ofstream(fixture.folder.path("plumb/sweep.jsonl")) << start << "\n";
+  fixture.options.folder = fixture.folder.path("second");
+  EXPECT_THROW(sweep(fixture.options), Error);
+}
+
+// An engine whose search was lost is searched for here.
+TEST(Sweep, SearchesWhatNoOtherHasSearched) {
+  Fixture fixture;
+  fixture.options.engines = {&fixture.linear, &fixture.square};
+  SweepOptions alone = fixture.options;
+  alone.engines = {&fixture.linear};
+  alone.folder = fixture.folder.path("plumb");
+  alone.budget = alone.only_explore = 20;
+  sweep(alone);
+  fixture.options.budget = 40;
+  fixture.options.from = {alone.folder};
+  std::map<std::string, int> points;
+  for (const Result& row : sweep(fixture.options).rows) points[row.engine] += row.cost ? 1 : 0;
+  EXPECT_EQ(points["plumb"], 10);
+  EXPECT_EQ(points["rival"], 10);
 }
 
 TEST(Sweep, WithoutATruthEachEngineIsHeldAgainstItsOwnLimit) {
