@@ -34,12 +34,12 @@ namespace {
 namespace cluster = harness::cluster;
 namespace fs = std::filesystem;
 
-// Defaults of estimates, s, on one core of 2020: for a run of `compare` with its cost and without, a cell of
-// `stress`, a search of `thresholds`, a scene of `hunt` on an engine.
+// Default estimates of durations, s, on one core of 2020: a run of `compare` with its cost and without, a
+// cell of `stress`, a search of `thresholds`, a scene of `hunt` on an engine.
 constexpr double kRun = 0.3, kRunAlone = 0.1, kCell = 1, kSearch = 20, kScene = 0.2;
 constexpr double kBudget = 540, kMinutes = 10;  // the commands' own defaults
 
-/// A command line of which units are made.
+/// A command line that is divided into units.
 struct Given {
   std::string command;
   std::vector<std::string> names;
@@ -61,7 +61,7 @@ struct Piece {
 
 constexpr const char* kCommands = "compare, sweep, stress, thresholds, hunt or reality";
 
-// Reads a command line with the command's own options, so that a plan takes what the command takes.
+// Parses a command line with the options of the command itself, so that both accept the same.
 Given parse(std::vector<std::string> words) {
   CLI::App app("plumb", "plumb");
   Action ignored;
@@ -219,7 +219,7 @@ class Splitter {
     return out;
   }
 
-  // Copies a scene into the folder of work: units run what was there when the plan was made.
+  // Copies a scene into the folder of work, so that units run the scene as it was when the plan was made.
   std::string kept_file(const std::string& path) {
     const std::string text = harness::read_text(path);
     const fs::path files = fs::path(folder_) / "files";
@@ -283,7 +283,7 @@ class Splitter {
       }
     }
     if (!engine.empty()) out.insert(out.end(), {"--engine", engine});
-    // A unit takes a core, unless costs are measured: then it has the machine to itself.
+    // A unit uses one core, unless costs are measured: then it has the machine to itself.
     if (given_.command != "compare" && given_.command != "sweep" && given_.command != "reality" &&
         !given_.has("jobs"))
       out.insert(out.end(), {"--jobs", "1"});

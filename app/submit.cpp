@@ -49,7 +49,7 @@ int run_script(const std::string& script) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kInterrupted;
 }
 
-// Does the units on this machine, and gathers them.
+// Runs the units on this machine, `jobs` at a time, and gathers the results.
 int run_here(const std::string& folder, const Options& options, const LocalWork& work) {
   if (!do_here(work)) {
     notice(fmt::format("interrupted; `plumb submit {} --on local` goes on", options.folder));

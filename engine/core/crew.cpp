@@ -27,7 +27,7 @@ int Crew::place(int nth, int count) const {
     case LoopOrder::Shuffled:
       break;
   }
-  // Steps of a length that has no factor in common with the count reach each block once.
+  // A stride that has no common factor with the count reaches each block once.
   long long stride = std::max(1, count * 5 / 8);
   while (std::gcd(stride, static_cast<long long>(count)) != 1) ++stride;
   return static_cast<int>((stride * nth + count / 3) % count);
@@ -58,8 +58,8 @@ void Crew::share(int count, void (*run)(void*, int), void* data) {
 
 namespace {
 
-// While this guard is alive, the thread computes as another one does: rounds, and treats numbers that are
-// nearly 0, in the same way.
+// While this guard is alive, the thread has the floating-point environment of another thread: rounding mode
+// and treatment of denormals.
 class Computing {
  public:
   explicit Computing(const std::fenv_t& as) {
@@ -74,15 +74,15 @@ class Computing {
   std::fenv_t own_;
 };
 
-// Looks before a thread that waits for another one's last block gives the processor away: some 10 us, longer
-// than nearly all blocks take.
+// Number of polls before a thread that waits for another one's last block yields the processor: about 10 us,
+// longer than nearly all blocks take.
 constexpr int kLooksAtLast = 500;
 
 }  // namespace
 
 struct Crew::Shared {
-  /// Blocks that a thread begins with, so that a loop finds them in its cache again; then it takes those of
-  /// the others. A cache line each.
+  /// Blocks with which a thread begins, so that a later loop finds their data in its cache; after that it
+  /// takes those of other threads. One cache line each.
   struct alignas(64) Share {
     Claims claims;
   };
@@ -120,7 +120,7 @@ struct Crew::Shared {
     join(own);
   }
 
-  // Runs the session on the thread that comes first; others take part in its loops.
+  // Runs the session on the first thread to arrive; others take part in its loops.
   void join(int own) {
     if (!led.exchange(true, std::memory_order_acq_rel)) {
       leader = own;

@@ -4,9 +4,8 @@
 
 namespace plumb::precise {
 
-/// Returns the scene with what its bodies ask for as force laws: the part of gravity that `gravity_scale`
-/// leaves out or adds, and damping as linear drag, v' = -c v. The motion is the same, and its laws have
-/// derivatives.
+/// Returns the scene with properties of bodies converted to force laws: the difference of `gravity_scale`
+/// from 1, and damping as linear drag, v' = -c v. The motion is the same, and the laws have derivatives.
 Scene with_body_laws(Scene scene);
 
 }  // namespace plumb::precise

@@ -43,8 +43,8 @@ void PreciseDriver::step() {
   report_cost();
 }
 
-/// Advances the motion by one step. Steps may go beyond `end`, as states are interpolated within them: step
-/// sizes do not depend on the output times. Events end a step.
+/// Advances the motion by one step. Steps may go beyond `end`, because states are interpolated within them:
+/// step sizes do not depend on the output times. An event ends a step.
 void PreciseDriver::go_on(double end) {
   arrive();
   if (!contacts_.empty() && !contacts_.settled()) {

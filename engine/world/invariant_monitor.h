@@ -26,12 +26,11 @@ struct MonitorBounds {
 };
 
 /// Checks after each step of a world that joints are closed, that shapes do not overlap, and that energy has
-/// not grown without a drive. What was there when it began, or what calls between steps brought in, is not
-/// held against the step. Keeps copies of the bodies' states; a step with it costs about a tenth more.
-///
-/// Energy is balanced over each step: the change of kinetic energy less the work of gravity and of the forces
-/// that were applied. Motors with a speed, springs of joints, kinematic bodies that move, conveyors and mouse
-/// joints may do work: in steps with these nothing is said of energy.
+/// not grown without a drive. Violations that exist at the start, or that calls between steps cause, are not
+/// counted. Keeps copies of the bodies' states; a step with it costs about a tenth more.
+/// Energy is balanced over each step: the change of kinetic energy minus the work of gravity and of applied
+/// forces. Motors with a speed, springs of joints, moving kinematic bodies, conveyors and mouse joints may do
+/// work, so energy is not checked in steps with these.
 template <class Real>
 class InvariantMonitor {
  public:

@@ -104,7 +104,7 @@ std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
     ++count;
   };
   for (const int body : w.awake) add({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
-  // Those that were woken since are in both lists.
+  // Bodies that were woken since are in both lists.
   for (const BodyId body : slept) {
     if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);
   }

@@ -196,7 +196,7 @@ struct BegunContact {
   bool waived = false;    ///< it was disabled
 };
 
-/// Contacts of one colour that lie side by side in the graph, updated by one thread.
+/// Contacts of one colour that are contiguous in the graph, updated by one thread.
 template <class Real>
 struct ContactRun {
   ContactConstraint<Real>* first = nullptr;

@@ -101,8 +101,8 @@ bool DynamicTree<Real>::refit() {
   return true;
 }
 
-/// Sorts the loose pairs. Marking them in a list of all pairs takes a tenth of the time of sorting, as most
-/// pairs are loose.
+/// Sorts the loose pairs. Most pairs are loose, so marking them in a list of all pairs takes a tenth of the
+/// time of sorting.
 template <class Real>
 void DynamicTree<Real>::order_loose_pairs() {
   is_loose_.reserve(pairs_.capacity());
@@ -133,7 +133,7 @@ void DynamicTree<Real>::gather(bool everything) {
     if (i + kAhead < loose_pairs_.size()) __builtin_prefetch(&pairs_[loose_pairs_[i + kAhead]]);
     for (const Node& child : pairs_[loose_pairs_[i]].children) take(child);
   }
-  // Nodes that do not fit into a cache are to lie in the order in which they are built: that of a query.
+  // If the nodes do not fit into a cache, store them in the order in which they are built: that of a query.
   if (loose_pairs_.size() > kCachedPairs) order_loose_pairs();
 }
 

@@ -56,8 +56,8 @@ Simplex segment_simplex(const Vertex& p, const Vertex& q) {
   const double before = -dot(p.w, e), after = dot(q.w, e);
   if (!(before > 0)) return point_simplex(p);
   if (!(after > 0)) return point_simplex(q);
-  // The foot of the perpendicular: p - (p . e) e / e^2 = (p . m) m / e^2 with m = e turned by a right angle,
-  // and no difference of nearly equal lengths.
+  // The foot of the perpendicular is p - (p . e) e / e^2 = (p . m) m / e^2, with m = e rotated by a right
+  // angle. The second form has no difference of nearly equal lengths.
   const Vec2d m = perpendicular(e);
   const double height = dot(p.w, m), size = length_squared(e);
   return {{p, q}, 2, height < 0 ? -m : m, height * height / size};
@@ -208,8 +208,8 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
       break;
     const Simplex nearer =
         simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
-    // After a gain the new distance is smaller, unless the old one was only rounding: the origin is on the
-    // segment, and the difference lies on both sides of it.
+    // After a gain the new distance is smaller, unless the old one was only rounding: then the origin is on
+    // the segment, with the difference on both sides of it.
     touching = nearer.count == 3 || !(nearer.square > kSmallest) || nearer.square > kGrowth * simplex.square;
     simplex = nearer;
   }

@@ -31,7 +31,7 @@ bool beside(const Axis<Real>& axis, const End<Real>& end) {
   return end.along >= 0 && end.along <= axis.length;
 }
 
-/// The side of an axis on which two ends are less deep, and the separation of the deeper one there.
+/// The side of an axis on which the two ends penetrate less, and the separation of the deeper end there.
 template <class Real>
 struct Side {
   bool right;       // of the axis: along its normal

@@ -26,8 +26,8 @@ struct ContactManifold {
 /// Computes the manifold of two rounded convex shapes. The corners of `a` are in the frame of a's body, those
 /// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `reach` (m, >= 0)
 /// are left out. `pivot`, in a's frame, is the point about which a contact's impulses do not turn the bodies
-/// relative to each other: the mean of their centres of mass, weighted by inverse inertia. Of an outline of
-/// nearly parallel edges the two points are those on either side of it.
+/// relative to each other: the mean of their centres of mass, weighted by inverse inertia. On outlines with
+/// nearly parallel edges, the two points are chosen on both sides of it.
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                      Real reach, Vec2<Real> pivot);

@@ -89,7 +89,7 @@ int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
 }
 
 /// Returns the edge of `other` at its corner nearest along `normal` that rises less. Compares sines: the
-/// cosines of small angles are all 1 to rounding. Both edges of a line rise alike; one faces `normal`.
+/// cosines of small angles are all 1 to rounding. Both edges of a segment rise equally; one faces `normal`.
 template <class Real>
 int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   const int before = other.previous(corner);
@@ -267,8 +267,8 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
-  // Of two equally deep ends of parallel edges beside each other take the nearer one, where the far one may
-  // be within reach: a line has no thickness, and what is rounded no edge, that would separate it.
+  // Of two equally deep ends of parallel edges beside each other, take the nearer one if the far one may be
+  // within reach: a segment has no thickness, and a rounded shape no edge, that would separate it.
   const bool either = a.count == 2 || b.count == 2 || a.radius + b.radius > 0;
   const int deepest = support<0>(other, reference.normal(edge));
   const int corner =

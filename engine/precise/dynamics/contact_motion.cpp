@@ -180,7 +180,8 @@ std::vector<double> EquationsOfMotion::decided_forces() const {
 /// Adds the accelerations by contacts to those without them.
 void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
   linearise_contacts(true);
-  // Forces of redundant contacts are not unique: those since the contacts were decided, and what changed.
+  // Forces of redundant contacts are not unique: keep those from when the contacts were decided, and add the
+  // change since then.
   const std::vector<double> decided = decided_forces();
   add_response(active_response_, decided, accelerations);
   contact_side_.resize(constraints_.size());

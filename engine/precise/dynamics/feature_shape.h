@@ -61,9 +61,10 @@ struct Gap {
 Gap gap_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
            const Pose<double>& pose_b);
 
-/// Returns true if chains allow a feature with this gap to push. Chains are touched from the front; at a
-/// vertex that bends to the back, along the normals between those of its two segments, as part of the first.
-/// `near`: gaps below count as touching, m; much deeper overlaps came from the back.
+/// Returns true if chains allow a feature with this gap to push. Chains push from the front only. At a vertex
+/// that bends to the back they push along the normals between those of its two segments, and the contact
+/// belongs to the first segment. `near`: gaps below count as touching, m; much deeper overlaps came from the
+/// back.
 bool admits(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
             const FeatureShape& b, const Pose<double>& pose_b, double near);
 

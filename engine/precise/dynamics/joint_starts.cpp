@@ -32,7 +32,7 @@ struct Start {
   }
 };
 
-/// The names of the joints that plain rows belong to, as `Joints::rows` has them.
+/// Returns the names of the joints to which plain rows belong, in the order of `Joints::rows`.
 std::vector<std::string> plain_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Joint& joint : scene.joints) {

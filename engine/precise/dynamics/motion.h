@@ -88,18 +88,18 @@ class EquationsOfMotion final : public Flow {
   /// Treats rows that were dependent at the last factorisation as dependent everywhere.
   void keep_dependent() { system_.keep_dependent(); }
   void release_dependent() { system_.release_dependent(); }
-  /// `project` ignores rows that the others leave less than this fraction of, and gaps up to `open`, m, may
-  /// remain. 0: holds all rows that can be held.
+  /// `project` ignores rows with an independent fraction below `share`, and gaps up to `open`, m, may remain.
+  /// 0: holds all rows that can be held.
   void hold_only_above(double share, double open) { system_.set_least_share(share), may_stay_open_ = open; }
   /// Takes one step of Newton's method to the point of the joints' manifold nearest to `target`: closes gaps,
   /// and moves towards it along the manifold. Returns the distance moved, m.
   double draw_near(double time, std::span<const double> target, std::span<double> y);
   /// Removes from the velocities in y the part that joints do not allow.
   void allow_velocities(double time, std::span<double> y);
-  /// Removes from changes of positions, and of velocities, the part that the joints do not allow, as last
-  /// held.
+  /// Removes from changes of positions, and of velocities, the part that violates the joints, with the rows
+  /// of the last `hold`.
   void keep_allowed(std::span<double> change);
-  /// Closes the gaps in y except for rows that the others leave less than `weak` of; returns the widest
+  /// Closes the gaps in y, except for rows with an independent fraction below `weak`; returns the widest
   /// remaining gap, m.
   double left_open(double time, std::span<double> y, double weak);
   /// Returns the joint of the weakest row of the last factorisation.

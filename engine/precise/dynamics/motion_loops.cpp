@@ -7,7 +7,8 @@
 // Closed linkages near kinematic singularities, at which their rows become dependent.
 namespace plumb::precise {
 
-/// Returns true if joints close a loop, over the world or not: bodies and joints are then no forest.
+/// Returns true if joints close a loop, through the world or not: bodies and joints then do not form a
+/// forest.
 bool EquationsOfMotion::find_loops() const {
   std::vector<int> group(poses_.size() + 1);
   std::iota(group.begin(), group.end(), 0);
@@ -121,8 +122,7 @@ double EquationsOfMotion::left_open(double time, std::span<double> y, double wea
     }
   }
   system_.set_least_share(0);
-  // Rows that are redundant throughout close as well there as `project` requires, or the linkage could not
-  // move.
+  // Rows that are always redundant must close to the accuracy of `project`, or the linkage could not move.
   constexpr double kOpen = 1e-9;
   return system_.kept() > 0 ? std::max(open - std::min(kOpen, tolerance_) * length_, 0.0) : open;
 }

@@ -13,7 +13,7 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   if (!has_joints_ && !holds_anything()) return;
   if (only_hinges() && hinges_.rooted()) return hang(time, y);
   close_gaps(time, y);
-  // v += M^-1 J^T lambda with A lambda = -J v, at the positions found.
+  // Apply v += M^-1 J^T lambda with A lambda = -J v, at the corrected positions.
   std::vector<Twist<double>>& shift = accelerations_;
   std::fill(shift.begin(), shift.end(), Twist<double>{});
   if (only_hinges()) {

@@ -99,7 +99,7 @@ std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const
   return a;
 }
 
-/// Scales that a law gives at the start: a length, and an acceleration.
+/// Scales derived from a law at the start: a length, and an acceleration.
 struct LawScale {
   double length = 0, acceleration = 0;
 };

@@ -177,8 +177,8 @@ void Contacts::evaluate_contact(const Watched& watched, const ContactForces& for
     case Quantity::Cone: {
       double normal = 0;
       for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
-      // At the tip of the cone the contact opens, which is no slip: without a tangential force the cone
-      // lasts.
+      // At the tip of the cone the contact opens, which is not a slip. Without a tangential force the cone is
+      // never left.
       value = patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[watched.patch]);
       break;
     }

@@ -254,8 +254,8 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   return resolve_zeno_contacts(touches) ? Decision::Again : Decision::Done;
 }
 
-/// The digits of other forces would be lost beside motors that are far stronger: their bounds are reduced as
-/// long as the weaker motors suffice.
+/// Next to far stronger motors the digits of other forces would be lost: reduce their bounds as long as the
+/// weaker motors suffice.
 CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
   constexpr double kStronger = 1e3;
   if (brakes.empty()) return solve_coulomb(problem);

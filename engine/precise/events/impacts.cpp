@@ -98,7 +98,7 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
     throw Error(Error::Kind::Run, subject(touches[p.touches[0]]), "effective mass", "infinite",
                 "an impact meets what joints and other contacts hold everything fast: nothing can give way");
   }
-  // The impulses do the work of `first` + `second`, J, and scaled by k that of k `first` + k^2 `second`.
+  // The impulses do the work `first` + `second`, J; scaled by k they do k `first` + k^2 `second`.
   double first = 0, second = 0;
   for (std::size_t i = 0; i < p.problem.size(); ++i) {
     const double before = i < n ? touches[p.touch_of[i]].closing[p.index_of[i]] : p.problem.rate[i];
@@ -147,7 +147,7 @@ void ImpactLaw::strike_point(double time, std::size_t struck, std::span<ContactC
     throw Error(Error::Kind::Run, subject(touch), "effective mass", "infinite",
                 "an impact meets what joints and other contacts hold everything fast: nothing can give way");
   }
-  // Without a response along the tangent nothing slips, and nothing couples to it.
+  // Without a response along the tangent there is no slip, and nothing couples to it.
   if (!(point.tangent_response > 0))
     point.tangent_response = 1, point.cross_response = 0, c.friction = c.later_friction = 0;
   const ContactImpulse along =
@@ -233,12 +233,13 @@ bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::s
   if (worst == touches.size()) return false;
   const ContactCandidate& touch = touches[worst];
   const double nn = response[0], nt = response[1], tn = response[2], tt = response[3], mu = touch.friction;
-  // Until slip ends: J_t = -mu J_n.
+  // First phase, until the slip ends: J_t = -mu J_n.
   const double slowing = tn - worst_way * mu * tt;
   if (worst_way * slowing >= 0) return false;
   const double first = -touch.slip / slowing;
   double closing = touch.closing[worst_point] + (nn - worst_way * mu * nt) * first;
-  // Then without slip, or with reversed slip if friction does not hold, until the gap no longer closes.
+  // Second phase, without slip (or with reversed slip if friction does not hold), until the gap no longer
+  // closes.
   const double stick = -tn / tt;
   const double drawn = std::clamp(stick, -mu, mu);
   const double opening = nn + drawn * nt;

@@ -11,7 +11,7 @@ double slip_after(const ImpactPoint& point, const ContactImpulse& impulse) {
 }
 
 double energy_change(const ImpactPoint& point, const ContactImpulse& impulse) {
-  // An impulse does its work at the mean of the rates before and after.
+  // The work of an impulse is the impulse times the mean of the rates before and after it.
   return (impulse.normal * (point.closing + closing_after(point, impulse)) +
           impulse.tangential * (point.slip + slip_after(point, impulse))) /
          2;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Laws of one impact at one contact point, in closed form: a file each. A law sees of the bodies only how
-/// fast gap and slip change and what unit impulses do to that, so that it holds for any shapes and joints.
+/// Laws of one impact at one contact point, in closed form, a file each. A law uses only the rates of gap and
+/// slip and their response to unit impulses, so it holds for any shapes and joints.
 namespace plumb::precise {
 
 /// A contact point in an impact. Rates are those before it.
@@ -41,12 +41,12 @@ ContactImpulse stronge_impulse(const ImpactPoint& point, const ImpactCoefficient
 
 /// Returns the coefficient of restitution at an impact of `speed`: `restitution` up to `yield_speed`, beyond
 /// that restitution (speed / yield_speed)^-exponent. Exponent 1/4: a body that yields plastically (Johnson,
-/// Contact Mechanics (1985), 11.5). Speeds in m/s; a `yield_speed` of 0 means that it does not fall.
+/// Contact Mechanics (1985), 11.5). Speeds in m/s; with a `yield_speed` of 0 it is constant.
 double falling_restitution(double restitution, double speed, double yield_speed, double exponent = 0.25);
 
-/// Adds the part of the slip that comes back where friction has stopped it: the tangential impulse that
-/// leaves a slip of -tangential_restitution times that before, as far as friction holds, the gap does not
-/// close again and the whole impact has lost energy. Unchanged where the contact slips at the end.
+/// Restores a part of the slip that friction has stopped: adds the tangential impulse that leaves a slip of
+/// -tangential_restitution times the initial one, as far as friction holds, the gap does not close again and
+/// the whole impact has lost energy. Does nothing if the contact slips at the end.
 ContactImpulse with_tangential_restitution(const ImpactPoint& point, const ImpactCoefficients& coefficients,
                                            const ContactImpulse& impulse);
 

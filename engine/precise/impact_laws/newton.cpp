@@ -12,7 +12,8 @@ ContactImpulse newton_impulse(const ImpactPoint& point, const ImpactCoefficients
   const ContactImpulse stuck{(wanted * tt + point.slip * nt) / determinant,
                              -(wanted * nt + point.slip * nn) / determinant};
   if (std::abs(stuck.tangential) <= c.friction * stuck.normal) return stuck;
-  // Slips at the end, in the direction that it has or, where friction then pulls too hard, in the other.
+  // The contact slips at the end: in its initial direction or, if friction would then be too strong, in the
+  // other.
   const double way = point.slip < 0 ? -1 : 1;
   for (const double direction : {way, -way}) {
     const double share = -direction * c.friction;

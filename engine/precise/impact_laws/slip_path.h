@@ -5,8 +5,8 @@
 namespace plumb::precise {
 
 /// The course of an impact along its growing normal impulse p, by Routh's method: gap rate and slip are
-/// linear in p, with at most one bend, where the slip with which the impact begins has stopped. After that
-/// the contact sticks or slips the other way for good.
+/// linear in p, with at most one bend, at which the initial slip has stopped. After it the contact sticks, or
+/// slips in the other direction, until the end.
 class SlipPath {
  public:
   SlipPath(const ImpactPoint& point, const ImpactCoefficients& coefficients);

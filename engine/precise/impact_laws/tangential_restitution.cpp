@@ -19,7 +19,8 @@ ContactImpulse with_tangential_restitution(const ImpactPoint& point, const Impac
   double more = c.tangential_restitution * std::abs(point.slip) / point.tangent_response;
   const double cone = std::max(c.friction, c.later_friction) * impulse.normal;
   more = std::min(more, std::max(0.0, cone - way * impulse.tangential));
-  // Without slip the addition costs tangent_response more^2 / 2, which what was lost must cover.
+  // Without slip the addition costs the energy tangent_response more^2 / 2, which must not exceed the energy
+  // lost so far.
   const double lost = std::max(0.0, -energy_change(point, impulse));
   more = std::min(more, std::sqrt(2 * lost / point.tangent_response));
   const double opening = closing_after(point, impulse), change = way * point.cross_response;

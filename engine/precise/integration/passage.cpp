@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Fraction of a row left by the others below which it counts as lost: branches are that close there. The
+/// Independent fraction of a row below which it counts as dependent: the branches are that close there. The
 /// expected motion passes crossings within less.
 constexpr double kLost = 1e-7;
 /// Allowed gap of a linkage at a crossing, in roundings of the scene's extent. If it is wider, the branches

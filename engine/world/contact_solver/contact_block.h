@@ -10,10 +10,10 @@
 
 namespace plumb {
 
-/// Contacts of one colour side by side, a lane each, for the time of a step: what the passes need of a
-/// ContactConstraint, in rows of one number of each, and the inverse masses of their bodies. All have the
-/// same number of points and hardness, all or none have rolling resistance, and the same sides give way.
-/// Lanes that are left over repeat the last contact: they come to the same results, which are stored twice.
+/// Contacts of one colour in SIMD lanes, for the time of a step: the members of ContactConstraint that the
+/// passes need, in rows of one number of each contact, and the inverse masses of their bodies. All have the
+/// same number of points, hardness and dynamic sides; all or none have rolling resistance. Unused lanes
+/// repeat the last contact: they get the same results, which are stored twice.
 template <class Number>
 struct ContactBlock {
   using Real = typename Number::Number;
@@ -76,7 +76,7 @@ struct ContactRows {
   }
 };
 
-/// Fills a block with the contacts that it points to, which are of one kind.
+/// Fills a block with the contacts to which it points, which are of one kind.
 template <class Number, class Real>
 [[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
   using Block = ContactBlock<Number>;

@@ -8,7 +8,7 @@
 namespace plumb {
 
 /// Constraint graph: the contact constraints of awake bodies, grouped by graph colouring. No two of a colour
-/// share a dynamic body, so they may be solved in any order, side by side. Contacts with a static or
+/// share a dynamic body, so they may be solved in any order, or at the same time. Contacts with a static or
 /// kinematic body have colours of their own at the end: the constraints solved last hold best, and the ground
 /// should. The colouring is greedy and persistent: a constraint keeps its colour. Constraints without a
 /// colour (of a body with many contacts, as a drum or a wrecking ball) go to the overflow. It is solved in

@@ -6,9 +6,8 @@
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
 
-/// Building blocks of the passes over contacts: of one contact, or of several side by side, where `Number`
-/// has a lane for each. They are inlined into each pass, which costs little more than the latency of its few
-/// operations.
+/// Building blocks of the passes over contacts: for one contact, or for several in SIMD lanes if `Number` has
+/// lanes. They are inlined into each pass, which costs little more than the latency of its few operations.
 namespace plumb {
 
 /// The two bodies of a constraint, held in registers through a pass. Their velocities are written back once.
@@ -76,7 +75,8 @@ template <class Pair, class Contact, class Number>
                  at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
   Number new_q = (q - at_q.impulse_scale * (q - c.load_estimate[1])) -
                  at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
-  // A gap is not softened. Next to a point that is, its impulse follows from the other's: so it closes.
+  // A gap is not softened. If only the other point is softened, the gap's impulse follows from that of the
+  // other point, so that the gap closes.
   const auto p_gap = at_p.impulse_scale < at_q.impulse_scale, q_gap = at_q.impulse_scale < at_p.impulse_scale;
   if (any(p_gap) || any(q_gap)) [[unlikely]] {
     new_q = select(q_gap, Number(q - c.mass[1] * (rate_q + c.between * (new_p - p))), new_q);

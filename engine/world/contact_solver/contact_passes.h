@@ -26,8 +26,8 @@ template <class Number, class Contact, class Real>
   return min(Number(step.load_push_share * loaded), Number(Real(kLoadedPush) * c.push_speed));
 }
 
-/// Returns the demand of a point at the separation s. The bias is the maximum of three: gaps may close,
-/// overlaps are pushed out, and at most at the speed `-fastest`.
+/// Returns the bias velocity of a point at the separation s, and its softness: the maximum of three. Gaps may
+/// close, overlaps are pushed out, and at most at the speed `-fastest`.
 template <class Number, class Real>
 [[gnu::always_inline]] inline Demand<Number> demand_at(const Number& s, const Number& closed,
                                                        const Number& fastest, const Softness<Real> (&soft)[2],
@@ -58,8 +58,8 @@ template <class Number, class Pair, class Contact, class Real>
   if (c.watched) note_peaks(c);
 }
 
-/// Returns the demand of point i without bias, at its present separation: updated from the start of the step
-/// to first order.
+/// Returns the target of point i without bias, at its present separation, which is updated from the start of
+/// the step to first order.
 template <class Number, class Pair, class Contact, class Real>
 [[gnu::always_inline]] inline Demand<Number> demand_now(const Pair& pair, Contact& c, int i,
                                                         const Number& closed, Real inverse_h) {
@@ -84,11 +84,11 @@ template <class Number, class Pair, class Contact>
   pair.rub(c, c.tangent_impulse - before);
 }
 
-/// Solves normals and friction of a contact together, in the `fresh` lanes, where friction begins to act. One
-/// after the other, friction only stops the share of the sliding that a body free to turn about the contact
-/// would have. What is left of it takes long to stop if the load is nearly the most that friction holds: a
-/// block would slide for millimetres. Contacts of which a point does not press are left as they are, since
-/// the tangential mass with both pressing would be too large for them.
+/// Solves normals and friction of a contact together, in the `fresh` lanes, where friction begins to act.
+/// Solved one after the other, friction only stops the part of the sliding that a body free to rotate about
+/// the contact would have. If the load is close to the limit of friction, the rest takes long to stop: a
+/// block would slide for millimetres. Contacts with a point that does not press are left unchanged, because
+/// the tangential mass for two pressing points would be too large.
 template <class Number, class Real, class Pair, class Contact, class Mask>
 [[gnu::always_inline]] inline void begin_friction(Pair& pair, Contact& c, const Mask& fresh,
                                                   const Demand<Number>& at_p, const Demand<Number>& at_q) {
@@ -101,8 +101,8 @@ template <class Number, class Real, class Pair, class Contact, class Mask>
   const Number k_p = coupling(0), k_q = c.count == 2 ? coupling(1) : Number(0);
   const Number yields =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
-  // Bounds it by what gives way along t without turning. Two points close together have an inverse that is
-  // lost to rounding.
+  // Bound it by the mobility along t without rotation. The inverse for two points close together is lost to
+  // rounding.
   constexpr Real kLeast = Real(1) / 64;
   const Number gives =
       max(Number(1) - c.tangent_mass * yields, c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass));
@@ -143,8 +143,8 @@ template <class Number, class Pair, class Contact, class Real>
   if (c.watched) note_peaks(c);
   const Number before = c.tangent_impulse;
   rub_within_bound(pair, c, c.tangent_mass);
-  // It begins where it grows by more than it was, and by a quarter of its bound: from less it takes up the
-  // rest within a few substeps.
+  // Friction begins to act if it grows by more than its previous value and by a quarter of its bound; smaller
+  // growth is resolved within a few substeps.
   const Number change = c.tangent_impulse - before, some = Real(0.25) * c.friction * normal_sum(c);
   if (const auto fresh = change * change > before * before + some * some; any(fresh)) [[unlikely]]
     begin_friction<Number, Real>(pair, c, fresh, at_p, at_q);

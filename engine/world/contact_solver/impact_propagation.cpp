@@ -19,10 +19,9 @@ constexpr double kSlow = 1e-4;
 // The iterations of a round end when no velocity changes by more than this fraction of the fastest.
 constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
-// Maximum number of contacts examined in all rounds of a substep, and of points solved in all iterations of
-// theirs: some 2 ms. A stirred heap of 6000 bodies with e = 0.1 always
-// reaches it; overlaps and escapes are the same from 4e4 to without a bound, as constraints hold what is
-// left.
+// Maximum number of contacts examined in all rounds of a substep, and of points solved in all their
+// iterations: about 2 ms. A stirred heap of 6000 bodies with e = 0.1 always reaches it; overlaps and escapes
+// are the same from 4e4 to no limit, because constraints handle the rest.
 constexpr int kLooks = 1 << 16;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
 // An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
@@ -30,7 +29,7 @@ constexpr int kLooks = 1 << 16;
 constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 // Maximum cost of factorising the rows of a round's joints, in multiplications: some 0.1 ms. Beyond it joints
-// feel impacts in the solver's next sweeps alone, which lose energy.
+// react to impacts only in the solver's next iterations, which lose energy.
 constexpr double kJointsCost = 2e5;
 
 template <class Real>
@@ -166,7 +165,7 @@ inline void note(std::vector<int>& list, std::vector<char>& noted, int item) {
   append(list, item);
 }
 
-// Finds when the points of a contact have their next impact, as its bodies move now.
+// Finds the time of the next impact of each point of a contact, for the present motion of its bodies.
 template <class Real>
 void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real least, Real h,
              const ImpactScratch<Real>& room, ComingImpact<Real>& coming) {
@@ -223,9 +222,9 @@ void arrange_looked(ImpactScratch<Real>& room) {
   }
 }
 
-// Finds the points of the next impacts: for each body those of its earliest one. Looks only at the contacts
-// that are listed, whose bodies have had an impact since they were looked at: what is expected of the others
-// has not changed.
+// Finds the points of the next impacts: for each body those of its earliest one. Examines only the listed
+// contacts, whose bodies have had an impact since they were last examined; the predictions for the others
+// have not changed.
 template <class Real>
 void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real least,
                  Real h, ImpactScratch<Real>& room) {
@@ -267,7 +266,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
   room.looked.clear();
 }
 
-// Orders the struck points by groups that share no dynamic body, and within a group as they were.
+// Sorts the struck points by groups that share no dynamic body; within a group their order is kept.
 template <class Real>
 void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
   std::vector<StruckPoint<Real>>& struck = room.struck;
@@ -301,7 +300,7 @@ void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
   struck.swap(room.grouped);
 }
 
-// Returns the factor on a round's impulses with which they gain no energy: 1 if they gain none. Scaled by k
+// Returns the largest factor, at most 1, on a round's impulses with which they gain no energy. Scaled by k
 // they change it by k (before + k (after - before) / 2).
 template <class Real>
 Real energy_scale(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> struck) {
@@ -476,7 +475,7 @@ class JointedRound {
     room_.sizes.push_back(rows);
   }
 
-  // Adds the joints' rows, which are to keep the rates that they had before the round.
+  // Adds the joints' rows, which must keep their rates from before the round.
   void add_joint_rows() {
     system_.rows.clear();
     int block = 0;

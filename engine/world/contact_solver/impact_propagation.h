@@ -21,7 +21,7 @@ struct StruckPoint {
   int group = 0;     ///< the same for points that share a body, directly or through others
 };
 
-/// The points of a contact with an impact to come, as its bodies move now; infinity: none.
+/// Impact times of a contact's points, for the present motion of its bodies; infinity: none.
 template <class Real>
 struct ComingImpact {
   Real time[2] = {};    ///< s, since the start of the substep
@@ -36,8 +36,8 @@ struct ImpactJoint {
   int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
 };
 
-/// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is what joints hold together,
-/// known by its body of the lowest index; a body without joints is a group of its own.
+/// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is a set of bodies connected by
+/// joints, identified by its lowest body index; a body without joints is a group of its own.
 template <class Real>
 struct ImpactScratch {
   explicit ImpactScratch(std::pmr::memory_resource* room = std::pmr::get_default_resource()) : system(room) {}
@@ -79,9 +79,9 @@ struct ImpactScratch {
   BoundedRows system;
 };
 
-/// Finds the contacts that impacts may reach, before `propagate_impacts`. Returns false if there are none.
-/// Joints are given by `room.group` alone so far; the rows of those whose group is reached are to be filled
-/// in afterwards.
+/// Finds the contacts that impacts may reach, before `propagate_impacts`. Returns false if there are none. So
+/// far joints are given by `room.group` alone; the caller then fills in the rows of joints whose group is
+/// reached.
 template <class Real>
 bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
                            const ContactStep<Real>& step, ImpactScratch<Real>& room);
@@ -92,11 +92,10 @@ bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<Restituti
 /// n.v. With lambda >= 0 the impulses of a round change its energy by the sum of lambda (n.v + (n.v)') / 2.
 /// Impulses of iterations that have not converged are scaled back until this is not positive, so no round
 /// gains energy. Friction follows, at most as much as stops the sliding. Impacts of a round that share no
-/// body are solved apart. A round looks at the contacts of bodies that the last one has struck, and at no
-/// others: the cost is that of the impacts, not of the crowd.
-///
-/// Joints pass impacts on at once: in the rounds of what they hold together their rows have impulses of their
-/// own, such that no rate of theirs changes, J M^-1 (J^T mu + N^T lambda) = 0. The impulses mu do no work.
+/// body are solved apart. A round examines only contacts of bodies that the last one has struck: the cost
+/// depends on the number of impacts, not on the size of the crowd.
+/// Joints pass impacts on at once: in each round the rows of a group's joints have impulses such that none of
+/// their rates changes, J M^-1 (J^T mu + N^T lambda) = 0. The impulses mu do no work.
 ///
 /// An impulse at the time t displaces a body by (h - t) times the change in velocity. The excess of the
 /// substep's motion is subtracted from the position.

@@ -40,8 +40,9 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 
 /// Turns the normal of two separated discs to that at their contact between `from` and `h`, or else at their
 /// closest approach. With p from centre to centre and v its rate, |p + v t| = R. The present normal would
-/// deflect them by the angle that it turns until then. After an impact at `from` that leaves them sliding,
-/// t = `from` is a double root: rounding would find an earlier one, at which they still approach.
+/// deflect them by the angle by which it rotates until then. After an impact at `from` that leaves them
+/// sliding, t = `from` is a double root, and rounding could give an earlier root, at which they still
+/// approach.
 template <class Real>
 void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 

@@ -10,18 +10,18 @@
 namespace plumb {
 namespace {
 
-// Fewest contacts of a world for which blocks are built: gathering fewer costs more than it saves. A narrow
-// register has two doubles, and saves little.
+// Minimum number of contacts in a world for which blocks are built: gathering fewer costs more than it saves.
+// A narrow register holds only two doubles, which saves little.
 template <class Real>
 constexpr std::size_t least_contacts(VectorWidth width) {
   return sizeof(Real) == 8 && width == VectorWidth::Bytes16 ? 64 : 16;
 }
 
-// Fewest contacts in a block: one alone costs less.
+// Minimum number of contacts in a block: a single one costs less alone.
 constexpr int kLeastLanes = 2;
 
-// Blocks, and contacts that are alone, that a thread takes at a time: 1 to 2 us of work, where a thread that
-// joins a loop, or waits for the last one, takes some 0.3 us. Colours of one such task stay with one thread.
+// Blocks, and single contacts, that a thread takes at a time: 1 to 2 us of work. Joining a loop, or waiting
+// for the last thread, takes about 0.3 us. Colours of one such task stay with one thread.
 constexpr int kBlocksOfTask = 16, kAloneOfTask = 48;
 
 struct WarmStart {
@@ -47,7 +47,7 @@ struct Relax {
   }
 };
 
-// Bodies that do not give way are only read: several contacts of a colour may share one.
+// Non-dynamic bodies are only read: several contacts of a colour may share one.
 template <class Pass, class Real>
 [[gnu::always_inline]] inline void run_alone(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
                                              const ContactStep<Real>& step) {
@@ -184,7 +184,8 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
   return blocks.count > 0;
 }
 
-// Counts what the segments of all colours come to, and then fills all at their places.
+// Counts the blocks and single contacts of the segments of all colours, and then fills all of them at their
+// places.
 template <class Real>
 template <int kBytes, class Fill>
 void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,

@@ -12,13 +12,13 @@
 namespace plumb {
 
 /// The passes over all contacts of a world, in the order of the constraint graph's colours. Within a colour
-/// several contacts are solved side by side, with the same bits as one after the other.
+/// several contacts are solved in SIMD lanes, with the same bits as one after the other.
 template <class Real>
 class SoftContacts {
  public:
-  /// Prepares the passes of a step: gathers contacts into blocks. Those that something else reads or changes
-  /// until `finish` stay alone: with restitution, rigid, or marked in `apart` (by record). `crew` shares the
-  /// passes, colour by colour.
+  /// Prepares the passes of a step: gathers contacts into blocks. Contacts that other code reads or changes
+  /// before `finish` stay single: with restitution, rigid, or marked in `apart` (by record). `crew` shares
+  /// the passes, colour by colour.
   void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
              Crew& crew);
 
@@ -35,7 +35,7 @@ class SoftContacts {
   void finish();
 
  private:
-  /// Numbers in a register, or in two: at least four, as the records have that are moved there.
+  /// Numbers of lanes, in one or two registers: at least four, because records are moved by four numbers.
   template <int kBytes>
   using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
   template <int kBytes>
@@ -48,8 +48,7 @@ class SoftContacts {
     int count = 0;
   };
 
-  /// A colour's blocks and its contacts that are alone: where they end. They begin where the last colour's
-  /// end.
+  /// End of a colour's blocks and of its single contacts; they begin at the end of the last colour's.
   struct Run {
     int blocks = 0, alone = 0;
     bool has_colour = true;  ///< else they share bodies, and are solved in order

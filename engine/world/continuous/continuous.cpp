@@ -20,7 +20,7 @@
 namespace plumb {
 namespace {
 
-// Contacts, and swept bodies, of a block: a thread needs 10 us or more for them.
+// Contacts, and swept bodies, per block of a shared loop: at least 10 us of work for a thread.
 constexpr int kContactsOfBlock = 512, kSweptOfBlock = 16;
 
 // Prefetches the contacts of the next 8 swept bodies, one of each at a time, because contact
@@ -494,8 +494,8 @@ bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   return true;
 }
 
-// Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion, and does not hold
-// the path there.
+// Stores the swept AABBs of bodies whose fat AABB was updated at the end of their motion and does not contain
+// the whole path.
 template <class Real>
 void show_ways(WorldData<Real>& w) {
   for (SweptBody& flight : w.scratch.swept_bodies)

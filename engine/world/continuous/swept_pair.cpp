@@ -35,7 +35,7 @@ Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, 
   return {flight_of(w, body, dt).sweep(from, origin)};
 }
 
-// A shape relative to the point of its body that moves straight.
+// A shape relative to the point of its body that moves along a straight line.
 template <class Real>
 class Seen {
  public:

@@ -37,8 +37,8 @@ struct SweptPair {
 };
 
 /// Returns the displacement that keeps a moving body out of a surface that it touched at the start of the
-/// step, m; zero if its core ends outside. None if it must be stopped instead: it is deeper, or what it
-/// touches turns or gives way. Without this, a thin body that turns or slides on a surface would stop for
+/// step, m; zero if its core ends outside. None if it must be stopped instead: it is deeper, or the touched
+/// body rotates or is dynamic. Without this, a thin body that turns or slides on a surface would stop for
 /// good: its core lies less deep than contacts rest.
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);

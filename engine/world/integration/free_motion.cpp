@@ -23,9 +23,9 @@ double decay(double x) {
   return sum;
 }
 
-// Means over a time t of what damping c leaves: of a velocity, phi_1 = (1 - e^-x) / x, and of one that grows
-// from 0, phi_2 = (1 - phi_1) / x, x = c t. Under a constant acceleration a, v' = e^-x v + phi_1 t a and the
-// displacement is t (phi_1 v + phi_2 t a).
+// Means over a time t, as fractions, with damping c and x = c t: phi_1 = (1 - e^-x) / x for a velocity that
+// decays, and phi_2 = (1 - phi_1) / x for one that grows from 0. Under a constant acceleration a, v' = e^-x v
+// + phi_1 t a and the displacement is t (phi_1 v + phi_2 t a).
 struct DampedMeans {
   double first, second;
 };
@@ -69,13 +69,13 @@ void apply(const VelocityIncrement<Real>& kick, BodyMotion<Real>& motion) {
   if (kick.locked_y) motion.velocity.y = 0;
 }
 
-// Returns the share of the velocity before the kick in the velocity that moves a body.
+// Returns the weight of the velocity before the increment in the velocity that moves a body.
 constexpr double share_before(Integrator integrator) {
   return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
 }
 
-// Moves a velocity through a time under a constant acceleration, which would add `gain`, and damping, which
-// leaves `keep`, c times the time being `x`. Returns the displacement.
+// Advances a velocity under a constant acceleration, which would add `gain`, and damping, which leaves the
+// fraction `keep`; `x` is c times the time. Returns the displacement.
 template <class Value, class Real>
 Value coast(Value& velocity, Value gain, Real keep, double x, Real time) {
   const Value before = velocity;
@@ -121,7 +121,7 @@ void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
-// Bodies of a block: some 5 us of work.
+// Bodies per block of a shared loop: about 5 us of work.
 constexpr int kBodies = 256;
 
 template <class Real, class Visit>
@@ -140,7 +140,8 @@ bool moves_by_substeps(const BodyRecord<Real>& record, Integrator integrator) {
   return integrator != Integrator::VelocityVerlet || record.constraints != 0;
 }
 
-// Counts those of each block, and makes room for their increments. Returns where those of each block begin.
+// Counts the bodies that move by substeps in each block, and reserves memory for their increments. Returns
+// the first index of each block.
 template <class Real>
 const int* place_kicks(WorldData<Real>& w, int blocks, Integrator integrator) {
   std::vector<int>& firsts = w.scratch.block_firsts;
@@ -169,7 +170,7 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
   const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
   const PrefetchAwakeBodies<Real> ahead(w);
   const int count = static_cast<int>(w.awake.size());
-  // Moves a body that flies, or hands its increment on.
+  // Moves a free body, or stores the increment of another one.
   const auto prepare = [&w, &ahead, h, dt, gain, loaded, articulated, integrator](int place,
                                                                                   const auto& add) {
     ahead.prefetch_motion(place);

@@ -34,7 +34,7 @@ int swept_joints(const WorldData<Real>& w) {
 // Returns true if an island of so many rows is solved directly.
 constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
 
-// Markers in island_size of an island with joints: solved by iterations; solved as one.
+// Markers in island_size of an island with joints: solved by iterations, or as one system.
 constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
 
 // Chooses the islands with joints that are solved as one: those with a large mass ratio, or all with
@@ -184,7 +184,7 @@ Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, 
          row.angular_b * b.turned;
 }
 
-// Calls `act(island)` for the islands of contacts, which have no dynamic body in common: at once.
+// Calls `act(island)` for the islands of contacts, in parallel: they have no dynamic body in common.
 template <class Real, class Act>
 void for_each_direct(WorldData<Real>& w, const Act& act) {
   constexpr int kIslands = 2;

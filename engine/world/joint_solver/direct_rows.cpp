@@ -8,28 +8,28 @@ namespace plumb {
 namespace {
 
 // Regularisation (CFM): added to the diagonal, as a fraction of it, so that redundant rows share their load.
-// Supports that are redundant and not quite level brace against each other by the error in their levels over
-// this: below 3e-5 the impulses of a pyramid change from substep to substep, and its boxes shake. Above 1e-2
-// they give way for several substeps after a load has changed.
+// Redundant supports that are not quite level are wedged with forces of the error of their levels divided by
+// this value. Below 3e-5 the impulses of a pyramid therefore change from substep to substep, and its boxes
+// shake. Above 1e-2 they yield for several substeps after a load has changed.
 constexpr double kSharing = 1e-4;
-// Mass ratio, and number of rows, above which the regularisation is smaller: by the ratio, and by the square
-// of the number. The smallest eigenvalues that hold a load are a fraction 1 / (2 ratio) of the largest, and
-// in a tower 5 / rows^2.
+// Mass ratio and number of rows above which the regularisation is reduced: in proportion to the ratio, and to
+// the square of the number. The smallest eigenvalues that carry a load are a fraction 1 / (2 ratio) of the
+// largest, and in a tower 5 / rows^2.
 constexpr double kFarApart = 100, kMany = 96;
-// Refinements, which remove what the regularisation has left of the rates, and the rest at which they end, as
-// a fraction of the rate that the load causes. More would let redundant rows brace.
+// Number of iterative refinements, which remove the error of the rates due to the regularisation, and the
+// residual at which they end, as a fraction of the rate due to the load. More would wedge redundant rows.
 constexpr int kRefinements = 2;
 constexpr double kExact = 1e-8;
 // Rows contradict each other (a body is pushed out of two walls at once) if the last refinement leaves more
-// than kInVain of the rest before it, while no impulse falls by more than kPulls of what the most rises by:
-// all press, and nothing would end it. Redundant supports that are not level also leave a rest, but some of
-// their impulses fall, until those rows no longer press.
+// than kInVain of the previous residual, while no impulse falls by more than kPulls times the largest rise:
+// all rows press, and more refinements would not end it. Redundant supports that are not level leave a
+// residual too, but some of their impulses fall, until those rows no longer press.
 constexpr double kInVain = 0.5, kPulls = 0.1;
 // Maximum number of times that rows are removed or come back before giving up.
 constexpr int kTries = 10;
-// Times that this may fail to make the wrong rows fewer before they are changed one by one.
+// Number of attempts that may fail to reduce the number of wrong rows, before rows are changed one by one.
 constexpr int kPatience = 3;
-// Velocity at which a removed row counts as entered, relative to the largest velocity asked for: rounding.
+// Velocity at which a removed row counts as violated, relative to the largest requested velocity: rounding.
 constexpr double kEntered = 1e-5;
 // Returns J_r M^-1 J_s^T: the part of one body that both rows act on.
 template <class Real>
@@ -49,7 +49,7 @@ double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const 
   return sum;
 }
 
-// Bodies that do not give way are only read: several islands may stand on one.
+// Non-dynamic bodies are only read: several islands may stand on one.
 template <class Real>
 void push(BodyMotion<Real>& motion, Vec2<Real> impulse, Real angular_impulse) {
   if (is_dynamic(motion)) motion.apply(impulse, angular_impulse);
@@ -133,7 +133,7 @@ void DirectRows<Real>::factorise(Factors& factors, int from) {
   matrix.factorise(from);
 }
 
-// Lets rows on the wrong side leave or come back. Returns the first place that changed.
+// Removes or restores the rows on the wrong side. Returns the first place that changed.
 template <class Real>
 int DirectRows<Real>::change_sides(Factors& factors) {
   int from = factors.matrix.size();
@@ -164,8 +164,8 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
   int fewest = std::numeric_limits<int>::max(), patience = kPatience;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const double asked = solve(motion, factors.matrix);
-    // Rows that would pull leave, those that would be entered come back, all at once while that makes them
-    // fewer, else the last one alone.
+    // Remove rows that would pull and restore violated ones, all at once as long as that reduces their
+    // number, otherwise only the last one.
     int wrong = 0;
     DirectRow<Real>* last = nullptr;
     for (int i = 0; i < all_.size(); ++i) {
@@ -191,7 +191,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
   return false;
 }
 
-// Solves for the impulses x of the active rows. Returns the largest rate asked for, m/s.
+// Solves for the impulses x of the active rows. Returns the largest requested rate, m/s.
 template <class Real>
 double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix) {
   const int count = matrix.size();
@@ -234,7 +234,7 @@ double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow
                 dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
 }
 
-// Returns the velocity that the impulses found cause along the row at a place, m/s.
+// Returns the velocity that the solution causes along the row at a place, m/s.
 template <class Real>
 double DirectRows<Real>::response_of(int place) const {
   double sum = 0;
@@ -257,7 +257,7 @@ void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
   }
 }
 
-// Applies them again, so that what is solved by iterations instead keeps its load.
+// Applies them again, so that rows solved by iterations instead keep their load.
 template <class Real>
 void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
   for (DirectRow<Real>& row : rows) {

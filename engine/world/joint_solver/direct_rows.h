@@ -19,17 +19,17 @@ struct DirectRow {
   Real* impulse = nullptr;  ///< the impulse that is kept between substeps
   bool one_sided = false;   ///< impulse >= 0
   bool active = true;       ///< takes part; a one-sided row that would have to pull does not
-  bool wrong = false;       ///< set by `find`: it would pull, or is entered though it is not active
-  Real taken = 0;           ///< impulse that `find` has taken back, as the row is not active any more
+  bool wrong = false;       ///< set by `find`: it would pull, or is inactive but violated
+  Real taken = 0;           ///< impulse that `find` has removed, because the row is no longer active
   int block = 0;            ///< index of its constraint
 };
 
 /// The rows of a few connected constraints, solved together: J M^-1 J^T x = -(J v + bias), sparsely. It
 /// replaces the many iterations that sequential impulses need for a heavy load on light bodies, far above the
-/// ground. Rows that would have to pull do not take part, which block principal pivoting finds out (Judice
-/// and Pires, Computers and Operations Research 21, 1994). The two passes of a substep, with depenetration
-/// and without, press on different rows for as long as bodies rest. So each keeps its rows and their
-/// factorisation to its next substep.
+/// ground. Rows that would have to pull are excluded, by block principal pivoting (Judice and Pires,
+/// Computers and Operations Research 21, 1994). While bodies rest, the two passes of a substep, with and
+/// without depenetration, have different active rows. Each therefore keeps its active rows and their
+/// factorisation for its next substep.
 template <class Real>
 class DirectRows {
  public:

@@ -5,8 +5,8 @@
 #include "engine/math/vec2.h"
 
 /// Articulated bodies: trees of bodies joined by plain hinges, each integrated as one mechanism by RATTLE
-/// (Andersen, Journal of Computational Physics 52, 1983). The impulses of a substep close all hinges at the
-/// new positions to rounding, and those at its end correct the velocities. The method is symmetric and of
+/// (Andersen, Journal of Computational Physics 52, 1983). The first impulses of a substep close all hinges at
+/// the new positions, to rounding; those at its end correct the velocities. The method is symmetric and of
 /// second order: a pendulum's energy oscillates by a fraction of (h w)^2 and does not decay. Each system is
 /// solved in one pass to the root and one back (Featherstone, The Calculation of Robot Dynamics using
 /// Articulated-Body Inertias, 1983). Trees may branch. Any mass ratio works, because only positive terms are

@@ -467,7 +467,7 @@ struct JointConstraint {
     const Rotation<Real> q_a = bodies.rotation[a], q_b = bodies.rotation[b];
     const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
     if constexpr (kAngle == AngleUse::Geared) {
-      // Gears are assembled such that their teeth meet: at first, b takes the matching turn.
+      // Gears are assembled with matching teeth: initially, b gets the matching turn.
       const bool born = angle.count == TurnCount::Born;
       angle.a = nearest_turn(angle_of(q_a), angle.a + (born ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;

@@ -9,9 +9,9 @@
 namespace plumb {
 
 /// Largest fraction of a joint's mobility that is body a's, and b's, over all combinations of its rows: the
-/// largest eigenvalue of K^-1 K_a, K = K_a + K_b = J M^-1 J^T; 0 to 1. Traces would mix rotation and
-/// translation. For a long blade welded to a small hub, the hub has 0.92 of the mobility in the stiffest
-/// direction, and 0.5 in the trace.
+/// largest eigenvalue of K^-1 K_a, K = K_a + K_b = J M^-1 J^T; 0 to 1. The trace would mix rotation and
+/// translation: if a long blade is welded to a small hub, the hub has 0.92 of the mobility in the stiffest
+/// direction, but 0.5 of the trace.
 template <class Real>
 struct JointLoad {
   Real a = 0, b = 0;

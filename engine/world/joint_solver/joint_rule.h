@@ -164,8 +164,8 @@ struct SolverRule {
         return;
       }
       case RowRole::Motor:
-        // Like rigid rows, with decaying impulses and position feedback. With undiminished impulses, legs on
-        // many held hips swing up.
+        // As for rigid rows, use decaying impulses and position feedback. With undiminished impulses, legs
+        // with many held hips would oscillate with growing amplitude.
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
         if (!part.alone) term[kSolve] = {share * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
         return;

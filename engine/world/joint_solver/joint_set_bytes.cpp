@@ -207,7 +207,7 @@ bool is_coloured(const Parts& p) {
   return taken == p.taken;
 }
 
-/// Returns true if slots and lists are consistent, as JointSet leaves them: nothing else may be solved.
+/// Returns true if slots and lists are consistent, as JointSet leaves them; other data must not be solved.
 template <class Parts>
 bool is_whole(const Parts& p) {
   std::size_t constraints = 0;

@@ -14,7 +14,7 @@
 /// docs/guide/recording.md describes the format.
 namespace plumb {
 
-/// What errors of recordings name.
+/// Names a recording in errors.
 inline constexpr char kRecording[] = "recording";
 
 /// Kind of a record; a Call also has its WorldCall.

@@ -40,7 +40,7 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
   c.tangent_mass = inverse > 0 ? 1 / inverse : Real(0);
 }
 
-// Collects the joints, and what they hold together.
+// Collects the joints and the groups of bodies that they connect.
 template <class Real>
 void collect_joints(WorldData<Real>& w) {
   ImpactScratch<Real>& room = w.scratch.impacts;
@@ -56,7 +56,7 @@ void collect_joints(WorldData<Real>& w) {
   for (int body = 0; body < w.bodies.size(); ++body) room.group[body] = groups.find(body);
 }
 
-// Fills in the rows of the joints that impacts reach: those that are rigid, and limits that are reached.
+// Fills in the rows of the joints that impacts reach: rigid rows and reached limits.
 template <class Real>
 void fill_joint_rows(WorldData<Real>& w) {
   ImpactScratch<Real>& room = w.scratch.impacts;

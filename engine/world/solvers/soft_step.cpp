@@ -120,8 +120,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     begin_jointed_substep(w);
     repeat ? integrate_and_warm_start(w) : integrate_velocities(w);
     // The last impulses cancel only in the solve. Find impacts before warm starting, so that these impulses
-    // are not mistaken for an approach: those of an impact threw heavy bodies up from light ones. Impulses
-    // that are repeated follow a substep without impacts.
+    // are not mistaken for an approach velocity: those of an earlier impact threw heavy bodies up from light
+    // ones. Repeated impulses follow a substep without impacts.
     const bool place_first = !repeat;
     note_free_velocities(w);
     if (place_first) place();

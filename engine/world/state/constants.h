@@ -16,8 +16,8 @@ inline constexpr double kContactDampingRatio = 10;
 /// 100 rows collapses at 0.2 (at 0.4 with two substeps); one of 75 with two substeps sways, but stands.
 inline constexpr double kContactComplianceScale = 0.35;
 /// Fraction of a lasting load that becomes the load estimate. Contacts are compliant only to the rest, so a
-/// lasting load causes little penetration. At 1 nothing would keep loads from creeping among redundant
-/// supports, and overlaps would grow again.
+/// lasting load causes little penetration. At 1 loads would creep among redundant supports, and overlaps
+/// would grow again.
 inline constexpr double kExpectedShare = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which the load estimate is the full load; below it
 /// the fraction rises linearly. A few points of a heap bear much more than the others. A heap of 100 rows of
@@ -60,9 +60,9 @@ inline constexpr double kJointedCost = 2e5;
 /// links of a taut bridge turn so far for a gap of 0.4 mm that it sags. At 0.1 chains close half as fast.
 inline constexpr double kJointShare = 0.5;
 inline constexpr double kCloseSoftness = 1e-2;
-/// The same with Solver::Direct, which closes them at each substep: a chain of ten links is pulled about
-/// within 1e-6 m. At 1e-2 it opens by 7e-6 m; at 1e-4 bridges sag here as well. At once a step whole gaps let
-/// them sag.
+/// The same with Solver::Direct, which closes them at each substep: a chain of ten links that is pulled about
+/// stays closed within 1e-6 m. At 1e-2 it opens by 7e-6 m; at 1e-4 bridges sag here as well. Closing whole
+/// gaps once per step would let them sag.
 inline constexpr double kDirectJointShare = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
@@ -91,8 +91,8 @@ inline constexpr double kSlop = 0.002;
 /// burst.
 inline constexpr double kPushSpeed = 4;
 /// Additional depenetration speed between dynamic bodies that an impact has driven into each other, as a
-/// fraction of a velocity: the one that their contact impulse gives them in a substep. At 0.2 shapes that
-/// start in overlap fly apart a fifth faster.
+/// fraction of a velocity: the one that their contact impulse gives them in a substep. At 0.2 initially
+/// overlapping shapes separate a fifth faster.
 inline constexpr double kLoadPushShare = 0.05;
 
 /// Constant part of the speculative margin, as a fraction of the smaller shape's extent; the possible
@@ -107,12 +107,12 @@ inline constexpr double kSpeculativeMarginMost = 0.5;
 inline constexpr double kRecycleDistance = 0.002;
 
 /// Height of ignored steps in a surface of several shapes, as a fraction of the smaller extent of the shapes
-/// in contact. Gaps may be three times as wide. Below, planks that have settled to a thousandth would act as
-/// stairs; above, real steps would be ignored.
+/// in contact. Gaps may be three times as wide. With a smaller value, planks that are level to a thousandth
+/// would act as stairs; with a larger one, real steps would be ignored.
 inline constexpr double kSeamTolerance = 0.002;
-/// Penetration, as a fraction of the smaller extent, from which a shape in such a surface is pushed out as
-/// out of a single shape: the normal across a seam would throw it. Contact points farther apart than this
-/// belong to no seam.
+/// Penetration, as a fraction of the smaller extent, from which a shape in such a surface is treated as if in
+/// a single shape, because the normal across a seam would throw it out. Contact points farther apart than
+/// this belong to no seam.
 inline constexpr double kSeamDepth = 0.25;
 
 /// Margin of a fat AABB, as a fraction of the shape's extent, and steps of motion that it covers ahead: of a
@@ -143,7 +143,7 @@ inline constexpr double kCoreDepth = 0.5;
 /// Depth of the inner core, for shapes that loads, joints or the user have already put deeper than
 /// kCoreDepth: they get no deeper than this.
 inline constexpr double kInnerDepth = 0.9;
-/// Penetration, as a fraction of the smaller extent, up to which a contact is not checked for that.
+/// Penetration, as a fraction of the smaller extent, from which a contact is checked for entering the core.
 inline constexpr double kDeepFrom = 0.002;
 /// Overlap, as a fraction of the smaller radius, at which two fast circles without a contact are stopped.
 inline constexpr double kGraze = 0.01;

@@ -57,8 +57,8 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
                      ContactConstraint<Real>& c);
 
-/// Does the same, but leaves the constraint's normal impulses and writes the new ones to `impulse`: others
-/// may read the old ones meanwhile.
+/// Does the same, but writes the new normal impulses to `impulse` and leaves those of the constraint, because
+/// other threads may still read them.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,

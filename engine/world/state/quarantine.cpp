@@ -23,7 +23,7 @@ bool fits(Vec2d v) { return fits(v.x) && fits(v.y); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sign and payload of NaNs differ between compilers.
+// Replaces any NaN by one fixed NaN: sign and payload of NaNs differ between compilers.
 double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quiet_NaN(); }
 
 [[noreturn]] void report(const QuarantineEvent& why) {

@@ -11,8 +11,8 @@ namespace plumb {
 template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value);
 
-/// Takes the body out in the same way, because its program says so; without an event. A body in quarantine
-/// stays there.
+/// Disables the body in the same way on the program's request, without an event. Does nothing if it is in
+/// quarantine.
 template <class Real>
 void disable_body(WorldData<Real>& w, int body);
 /// Puts back a body that `disable_body` took out.

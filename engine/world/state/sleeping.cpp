@@ -154,7 +154,7 @@ void wake_body(WorldData<Real>& w, int body) {
       if (w.is_dynamic(current)) for_each_constraint_edge(w, current, wake);
     }
   } catch (...) {
-    // Half an island must not be awake, so all of it sleeps on. This needs no memory: the lists held these
+    // An island must not be half awake, so all of it stays asleep. This needs no memory: the lists held these
     // before.
     for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
     for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);

@@ -40,7 +40,7 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
   append(list, body);
 }
 
-// Leaves bodies to the solver that meet two or more dynamic bodies: it resolves simultaneous impacts
+// Leaves bodies that meet two or more dynamic bodies to the solver, which resolves simultaneous impacts
 // together.
 template <class Real>
 void leave_crowds(WorldData<Real>& w) {
@@ -115,7 +115,8 @@ void decide_expected_impacts(WorldData<Real>& w) {
   if (impacts.empty()) return;
   if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
   leave_crowds(w);
-  // An impact left to the solver may end the free flight of its bodies, and so of others.
+  // If an impact is left to the solver, its bodies may no longer be in free flight, which may affect further
+  // impacts.
   bool more = true;
   while (more) {
     more = false;

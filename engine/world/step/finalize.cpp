@@ -52,10 +52,10 @@ void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const Bod
   }
 }
 
-// Bodies of a block: a thread moves them in some 10 us.
+// Bodies per block of a shared loop: about 10 us of work.
 constexpr int kBodiesOfBlock = 128;
 
-// Takes what follows from the motion of bodies, on one thread.
+// Applies the consequences of the bodies' motion, on one thread.
 template <class Real>
 struct TakenAtOnce {
   WorldData<Real>& w;
@@ -66,7 +66,7 @@ struct TakenAtOnce {
   void find_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
 };
 
-// Notes the same in the lists of a block.
+// Records the same in the lists of a block.
 template <class Real>
 struct NotedInBlock {
   WorldData<Real>& w;

@@ -31,7 +31,8 @@ Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Re
          std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
 }
 
-// Tight AABBs lie in the fat ones, and are at hand.
+// Returns true if the fat AABBs do not overlap. Tests the tight ones first: these lie in the fat ones, and
+// are already loaded.
 template <class Real>
 bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
   if (w.boxes[contact.shape_a].overlaps(w.boxes[contact.shape_b])) return false;
@@ -158,8 +159,8 @@ ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord
 }
 
 // Returns true if the AABBs of a contact without points are farther apart than its shapes may approach in the
-// step: it has no manifold and no predicted impact. Decides most pairs of a crowd. Bounds the approaches that
-// both of these compute from above, also in their rounding.
+// step: it has no manifold and no predicted impact. This rejects most pairs in a crowd. The approach used
+// here is an upper bound of those that both of these compute, rounding included.
 template <class Real>
 bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -178,7 +179,7 @@ bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
   return contact.pre_solve && w.pre_solve;
 }
 
-// Flags of what an update has found of a contact.
+// Changes of a contact found by an update, as flags.
 enum ContactChange : std::uint8_t {
   kTouchChange = 1,  // it begins or ends to touch
   kLost = 2,         // its fat AABBs have separated
@@ -300,7 +301,7 @@ int look_again(WorldData<Real>& w, int block, ContactConstraint<Real>& c, int ch
   return known | kRenewed | (!has_points ? kEnded : is_asked(w, contact) ? kAsked : 0);
 }
 
-// Contacts of a block: a thread updates them in 10 to 100 us.
+// Contacts per block of a shared loop: 10 to 100 us of work.
 constexpr int kNearOfBlock = 128, kContactsOfBlock = 128;
 
 // Cuts the graph's colours into blocks.
@@ -308,7 +309,7 @@ template <class Real>
 void find_contact_runs(WorldData<Real>& w) {
   std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
   runs.clear();
-  // First of all: if memory runs out, nothing is noted of any run.
+  // This comes first: if memory runs out, no changes of any run have been recorded.
   std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
   make_room(changes, static_cast<int>(w.near.size() + w.graph.size()));
   std::fill(changes.begin(), changes.end(), std::uint8_t{0});
@@ -335,8 +336,7 @@ void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
   }
 }
 
-// Updates all contacts, each by itself: what it changes of others is noted. First those that are carried on,
-// in the order of memory; then those that need their records and shapes.
+// Updates all contacts independently; changes that affect others are recorded.
 template <class Real>
 void update_each(WorldData<Real>& w, Real dt, Real h) {
   Scratch<Real>& scratch = w.scratch;
@@ -395,7 +395,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   });
 }
 
-// Leaves the contacts so that the next step computes their points anew, after an exception.
+// After an exception: makes the next step recompute the points of the contacts.
 template <class Real>
 void invalidate_all(WorldData<Real>& w) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
@@ -431,7 +431,7 @@ void ask_hook(WorldData<Real>& w, Real dt) {
   }
 }
 
-// Collects what the update has found, in the order of the contacts.
+// Collects the recorded changes, in the order of the contacts.
 template <class Real>
 void collect_changes(WorldData<Real>& w) {
   Scratch<Real>& scratch = w.scratch;

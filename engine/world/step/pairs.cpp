@@ -43,7 +43,7 @@ template <class Real>
   if (i + kShapesAhead < w.move_buffer.size()) __builtin_prefetch(&w.shapes[w.move_buffer[i + kShapesAhead]]);
 }
 
-// Moved shapes of a block: a thread looks up 64 in some 30 us.
+// Moved shapes per block of a shared loop: about 30 us of work.
 constexpr int kMovedOfBlock = 64;
 
 // Finds the new pairs of a block of moved shapes.

@@ -88,8 +88,8 @@ int substeps_of(const WorldData<Real>& w, double dt, int asked) {
   return static_cast<int>(std::min(wanted, most));
 }
 
-// Least number of awake bodies, contacts and joints of a step that is shared by threads. Below, what a second
-// thread takes over costs about as much as to tell it (docs/decisions/threads.md).
+// Minimum number of awake bodies, contacts and joints of a step that is shared by threads. Below it, waking a
+// second thread costs about as much as the work that it takes over (docs/decisions/threads.md).
 constexpr std::size_t kSharedWork = 256;
 
 template <class Real>
