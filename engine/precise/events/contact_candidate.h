@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,6 +30,16 @@ struct ContactCandidate {
   double quiet = 0;        ///< m/s, noise floor of these by rounding, or `graze`
   double graze = 0;        ///< m/s, approach that the motion itself ends within the rounding of a gap
 };
+
+/// Returns true if a point of a touch closes, faster than rounding.
+inline bool closes_at(const ContactCandidate& touch, int point) {
+  return touch.closing[point] < -touch.quiet;
+}
+/// Returns true if any point does.
+inline bool closes(const ContactCandidate& touch) {
+  return std::any_of(touch.closing, touch.closing + touch.count,
+                     [&](double rate) { return rate < -touch.quiet; });
+}
 
 /// The outlines of a scene that may touch; finds those that touch at an instant.
 class TouchFinder {

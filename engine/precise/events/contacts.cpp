@@ -24,11 +24,6 @@ constexpr double kClatter = 1e-7;
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 
-bool closes(const ContactCandidate& touch) {
-  return std::any_of(touch.closing, touch.closing + touch.count,
-                     [&](double rate) { return rate < -touch.quiet; });
-}
-
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,

@@ -16,15 +16,6 @@ namespace {
 /// series: approach that remains is rounding, and is resolved together, with restitution only where it is 1.
 constexpr std::int64_t kMostInSequence = 20000;
 
-bool closes(const ContactCandidate& touch) {
-  for (int i = 0; i < touch.count; ++i) {
-    if (touch.closing[i] < -touch.quiet) return true;
-  }
-  return false;
-}
-
-bool closes(const ContactCandidate& touch, int point) { return touch.closing[point] < -touch.quiet; }
-
 double fastest(const ContactCandidate& touch) {
   double least = 0;
   for (int i = 0; i < touch.count; ++i) least = std::min(least, touch.closing[i]);
@@ -115,7 +106,7 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
 void ImpactLaw::strike_point(double time, std::size_t struck, std::span<ContactCandidate> touches,
                              std::span<BodyState> states, Compensated& y, const Restitution& restitution) {
   const ContactCandidate& touch = touches[struck];
-  const auto part = [&](std::size_t t, int point) { return t == struck && closes(touch, point); };
+  const auto part = [&](std::size_t t, int point) { return t == struck && closes_at(touch, point); };
   TouchProblem p = TouchProblem::of(touches, part, {}, equations_, time, y.value());
   const std::size_t n = p.problem.points(), size = n + 1;
   // Shares of the points in the normal impulse: as in the impulse that stops them all.
@@ -198,9 +189,9 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touc
     // the other, and so on in turn: the limit of corners that touch at slightly different times.
     const ContactCandidate& struck = touches[worst];
     bool both = true;
-    for (int i = 0; i < struck.count; ++i) both = both && closes(struck, i);
+    for (int i = 0; i < struck.count; ++i) both = both && closes_at(struck, i);
     const auto part = [&](std::size_t t, int point) {
-      return touches[t].stop.has_value() || (t == worst && (both || closes(touches[t], point)));
+      return touches[t].stop.has_value() || (t == worst && (both || closes_at(touches[t], point)));
     };
     strike(time, part, touches, states, y, restitution);
   }

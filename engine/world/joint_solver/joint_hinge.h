@@ -123,4 +123,10 @@ struct HingeConstraint {
   }
 };
 
+/// True for plain hinges.
+template <class Constraint>
+constexpr bool kIsHinge = false;
+template <class Real>
+constexpr bool kIsHinge<HingeConstraint<Real>> = true;
+
 }  // namespace plumb

@@ -41,11 +41,6 @@ void reload(Parts& parts, int joint) {
   });
 }
 
-template <class Constraint>
-constexpr bool kIsHinge = false;
-template <class Real>
-constexpr bool kIsHinge<HingeConstraint<Real>> = true;
-
 template <class Real>
 constexpr bool kIsRevolute = false;
 template <class Real>

@@ -10,11 +10,6 @@
 namespace plumb {
 namespace {
 
-template <class Real>
-constexpr bool kIsHinge = false;
-template <class Real>
-constexpr bool kIsHinge<HingeConstraint<Real>> = true;
-
 /// Returns the error of a rule with its coordinate at `q`.
 template <class Real>
 Real error_of(const SolverRule<Real>& rule, Real q) {
