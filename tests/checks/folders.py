@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Checks that each folder of engine/ compiles as one source, as the preset `library` does: names that are hidden in a
+file (anonymous namespaces) are unique within their folder, or shared by a header.
+
+    folders.py BUILD     a build folder with compile_commands.json
+
+Files that engine/CMakeLists.txt leaves out of it, or gives options of their own, are left out here.
+"""
+
+import collections
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+APART = {"integrate/dop853.cpp", "linear_algebra/joint_system_hinges.cpp"}
+OPTIONS_OF_THEIR_OWN = "-fno-tree-slp-vectorize"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    engine = pathlib.Path(__file__).resolve().parents[2] / "engine"
+    folders = collections.defaultdict(list)
+    for entry in json.loads((pathlib.Path(sys.argv[1]) / "compile_commands.json").read_text(encoding="utf-8")):
+        file = pathlib.Path(entry["file"])
+        if engine not in file.parents or str(file.relative_to(engine)) in APART:
+            continue
+        if OPTIONS_OF_THEIR_OWN not in entry["command"]:
+            folders[file.parent].append(entry)
+    wrong = 0
+    for folder, entries in sorted(folders.items()):
+        if len(entries) < 2:
+            continue
+        command = shlex.split(re.sub(r" -(o|c|MF|MT) \S+| -MD", "", entries[0]["command"]))
+        if pathlib.Path(command[0]).name == "cmake":  # cmake -E env NAME=VALUE ccache COMPILER ...
+            command = command[next(i for i, word in enumerate(command) if word.endswith("ccache")) + 1:]
+        with tempfile.NamedTemporaryFile("w", suffix=".cpp") as source:
+            source.write("".join(f'#include "{entry["file"]}"\n' for entry in entries))
+            source.flush()
+            run = subprocess.run(command + ["-w", "-fsyntax-only", source.name], cwd=entries[0]["directory"],
+                                 capture_output=True, text=True)
+        if run.returncode != 0:
+            wrong += 1
+            print(f"{folder.relative_to(engine.parent)}: names of its files collide, or cannot be compiled as one source")
+            print("\n".join(line for line in run.stderr.splitlines() if "error" in line)[:2000])
+    print(f"{len(folders)} folders, {wrong} problems")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
