@@ -116,12 +116,12 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     std::ranges::copy(before_, out.begin());
     return;
   }
-  // A scene's bodies have their origins at their centres of mass.
+  // Dynamic bodies of a scene have their origins at their centres of mass; shapes of others may lie anywhere.
   const WorldData<Real>& w = world_.data();
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
     const int body = static_cast<int>(parts_.bodies[i].index);
     const BodyMotion<Real>& motion = w.motion[body];
-    out[i] = {w.position[body], w.bodies[body].angle, motion.velocity.template as<double>(),
+    out[i] = {world_.position(parts_.bodies[i]), w.bodies[body].angle, motion.velocity.template as<double>(),
               static_cast<double>(motion.angular_velocity)};
   }
 }

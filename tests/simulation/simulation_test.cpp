@@ -131,6 +131,27 @@ TEST(Simulation, SetStateMovesABodyAndWakesItsSurroundings) {
   EXPECT_LT(world.state(2).position.y, -3) << "the ground is gone";
 }
 
+TEST(Simulation, AStateThatWasReadLeavesTheBodyWhereItIsWhenSet) {
+  constexpr double kNear = 1e-6;  // m, rounding of a float's rotation
+  Scene scene;
+  for (const BodyType type : {BodyType::Static, BodyType::Kinematic})
+    scene.bodies.push_back({.name = type == BodyType::Static ? "wall" : "lift",
+                            .type = type,
+                            .position = {-6, -0.5},
+                            .angle = 0.3,
+                            .shapes = {{.geometry = Box{1, 1}, .position = {1, 0}}}});
+  for (const Realtime& accuracy : kinds()) {
+    Simulation world = compile(scene, accuracy);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      EXPECT_NEAR(world.state(i).position.x, -6, kNear);
+      EXPECT_NEAR(world.state(i).position.y, -0.5, kNear);
+      world.set_state(i, world.state(i));
+      EXPECT_NEAR(world.state(i).position.x, -6, kNear);
+      EXPECT_NEAR(world.state(i).position.y, -0.5, kNear);
+    }
+  }
+}
+
 TEST(Simulation, WrongUseIsRefused) {
   Simulation world = compile(with(empty_scene(), {disc("a", {0, 0})}));
   EXPECT_THROW(world.state(1), Error);
