@@ -40,9 +40,9 @@ struct Gap {
 
   double operator()(const RevoluteJoint&) const { return length(at.b - at.a); }
   double operator()(const DistanceJoint& j) const {
-    const double length = length(at.b - at.a);
-    if (j.range) return outside(j.range, length);
-    return j.spring ? 0 : std::abs(length - j.length);
+    const double apart = length(at.b - at.a);
+    if (j.range) return outside(j.range, apart);
+    return j.spring ? 0 : std::abs(apart - j.length);
   }
   double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : length(at.b - at.a); }
   double operator()(const PrismaticJoint& j) const { return off_axis(j, at); }
