@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/magnitude.h"
 #include "harness/pulls.h"
 
 namespace plumb::harness {
@@ -82,10 +83,11 @@ Tolerances::Bound Tolerances::energy(int sample) const {
     const Body& body = problem_.scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
     const BodyState& exact = truth_.at(sample)[i];
-    const double v = length(exact.velocity), w = std::abs(exact.angular_velocity);
+    const double v = magnitude(exact.velocity), w = std::abs(exact.angular_velocity);
     const double off_v = *velocity(sample, i), off_w = *angular_velocity(sample, i);
-    sum += body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
-           body.mass * std::abs(body.gravity_scale) * length(problem_.scene.gravity) * *position(sample, i);
+    sum +=
+        body.mass * (v * off_v + off_v * off_v / 2) + inertias_[i] * (w * off_w + off_w * off_w / 2) +
+        body.mass * std::abs(body.gravity_scale) * magnitude(problem_.scene.gravity) * *position(sample, i);
   }
   // The error of a potential is its force times the displacement error, plus half its stiffness times the
   // square. For the errors of both ends together, (a + b)^2/2 <= a^2 + b^2.
@@ -111,7 +113,7 @@ Tolerances::Bound Tolerances::angular_momentum(int sample) const {
     const Body& body = problem_.scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
     const BodyState& exact = truth_.at(sample)[i];
-    const double x = length(exact.position), v = length(exact.velocity);
+    const double x = magnitude(exact.position), v = magnitude(exact.velocity);
     const double off_x = *position(sample, i), off_v = *velocity(sample, i);
     sum += body.mass * (x * off_v + off_x * v + off_x * off_v) + inertias_[i] * *angular_velocity(sample, i);
   }
@@ -128,8 +130,8 @@ Tolerances::Bound Tolerances::joint_gap(int sample, const JointGaps& joints, std
   if (!envelope_) return {};
   const JointGaps::End &a = joints.end_a(joint), &b = joints.end_b(joint);
   double sum = 0;
-  if (a.body) sum += reach(sample, *a.body, length(a.anchor) + joints.lever(joint, truth_.at(sample)));
-  if (b.body) sum += b.gain * reach(sample, *b.body, length(b.anchor));
+  if (a.body) sum += reach(sample, *a.body, magnitude(a.anchor) + joints.lever(joint, truth_.at(sample)));
+  if (b.body) sum += b.gain * reach(sample, *b.body, magnitude(b.anchor));
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "harness/magnitude.h"
 #include "harness/pulls.h"
 
 namespace plumb::harness {
@@ -29,10 +30,10 @@ Feedback feedback_at(const Scene& scene, std::size_t body, double from, double t
     if (to <= force->start || from >= force->start + force->duration) continue;
     const Body& target = scene.bodies[body];
     if (force->frame == Frame::Body) {
-      feedback.acceleration_per_rad += length(force->force) / target.mass;
+      feedback.acceleration_per_rad += magnitude(force->force) / target.mass;
     } else if (!target.fixed_rotation) {
       feedback.angular_acceleration_per_rad +=
-          length(force->force) * length(force->point) / inertia_of(target);
+          magnitude(force->force) * magnitude(force->point) / inertia_of(target);
     }
   }
   return feedback;
@@ -58,7 +59,7 @@ Vec2d absolute(Vec2d v) { return {std::abs(v.x), std::abs(v.y)}; }
 double along(Vec2d bound, Vec2d n) { return dot(bound, absolute(n)); }
 
 StateBound total(const Parts& parts) {
-  return {length(parts.position), parts.angle, length(parts.velocity), parts.angular_velocity};
+  return {magnitude(parts.position), parts.angle, magnitude(parts.velocity), parts.angular_velocity};
 }
 
 // Groups the dynamic bodies that joints connect, directly or through each other; groups of one are left out.
@@ -142,7 +143,7 @@ class Growth {
 
   void add_lever(const std::string& name, Vec2d anchor) {
     if (const auto body = find_body(problem_.scene, name))
-      levers_[*body] = std::max(levers_[*body], length(anchor));
+      levers_[*body] = std::max(levers_[*body], magnitude(anchor));
   }
 
   double substep() const { return method_.substep; }
@@ -177,8 +178,8 @@ class Growth {
             Parts& growth) {
     const Body& body = problem_.scene.bodies[index];
     const Vec2d force = acceleration - body.gravity_scale * problem_.scene.gravity;
-    held_[index] = std::max(held_[index], length(force));
-    const double speed = length(velocity);
+    held_[index] = std::max(held_[index], magnitude(force));
+    const double speed = magnitude(velocity);
     if (!begins) return;
     if (speed > 0)
       growth.velocity += substep() * std::abs(dot(force, velocity)) / (speed * speed) * absolute(velocity);
@@ -246,8 +247,9 @@ class Growth {
     const double angular_change =
         last.angular_acceleration ? angular_acceleration - *last.angular_acceleration : 0;
     Parts growth;
-    pulled_[body] = std::max(pulled_[body], length(acceleration - problem_.scene.bodies[body].gravity_scale *
-                                                                      problem_.scene.gravity));
+    pulled_[body] = std::max(
+        pulled_[body],
+        magnitude(acceleration - problem_.scene.bodies[body].gravity_scale * problem_.scene.gravity));
     if (problem_.truth.contacts_last)
       hold(body, acceleration, angular_acceleration, after.velocity, !last.acceleration, growth);
     if (method_.order == 1) {
@@ -276,8 +278,8 @@ class Growth {
     if (body.type != BodyType::Dynamic) return;
     const auto error = [&](std::size_t of, double arm) {
       const Parts& bound = now_[of];
-      return pull.stiffness * (length(bound.position) + arm * bound.angle) +
-             pull.damping * (length(bound.velocity) + arm * bound.angular_velocity);
+      return pull.stiffness * (magnitude(bound.position) + arm * bound.angle) +
+             pull.damping * (magnitude(bound.velocity) + arm * bound.angular_velocity);
     };
     const double off =
         error(pull.body, pull.arm) + (pull.partner ? error(*pull.partner, pull.partner_arm) : 0);
@@ -321,7 +323,7 @@ class Growth {
       const double turn = (jump.sliding * delay + along(position, tangent)) / lever;
       const double gained = std::abs(dot(relative_gravity(jump), normal)) * delay;
       const double share = (turn * jump.sliding + along(velocity, normal) + gained) / closing;
-      const double size = length(jump.velocity);
+      const double size = magnitude(jump.velocity);
       bound.velocity += size * (share * absolute(normal) + turn * absolute(tangent));
       bound.angular_velocity +=
           jump.angular_velocity * (share + turn) + size * spin_of_arm(jump, delay, position);
@@ -361,10 +363,10 @@ class Growth {
       const double time = k * dt;
       if (std::abs(time - window.time) > window.delay * (1 + 1e-9)) continue;
       StateBound& bound = out[static_cast<std::size_t>(k) * now_.size() + window.body];
-      bound.velocity += length(window.velocity);
+      bound.velocity += magnitude(window.velocity);
       bound.angular_velocity += window.angular_velocity;
       if (time < window.time) {
-        bound.position += length(window.velocity) * window.delay;
+        bound.position += magnitude(window.velocity) * window.delay;
         bound.angle += window.angular_velocity * window.delay;
       }
     }

@@ -1,4 +1,5 @@
 #include "harness/impacts.h"
+#include "harness/magnitude.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +15,9 @@ struct Moment {
 bool jumps(const Moment& moment, std::size_t body) {
   const BodyState &a = moment.before[body], &b = moment.after[body];
   // Within the margin, forces change the velocity by far less than this fraction of the speed.
-  const double speed = length(a.velocity) + length(b.velocity) + 1e-3;
+  const double speed = magnitude(a.velocity) + magnitude(b.velocity) + 1e-3;
   const double spin = std::abs(a.angular_velocity) + std::abs(b.angular_velocity) + 1e-3;
-  return length(b.velocity - a.velocity) > 1e-6 * speed ||
+  return magnitude(b.velocity - a.velocity) > 1e-6 * speed ||
          std::abs(b.angular_velocity - a.angular_velocity) > 1e-6 * spin;
 }
 
@@ -27,7 +28,7 @@ std::optional<std::size_t> partner_of(const Scene& scene, const Moment& moment, 
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < scene.bodies.size(); ++j) {
     if (j == body || scene.bodies[j].shapes.empty()) continue;
-    const double gap = length(moment.before[j].position - moment.before[body].position) -
+    const double gap = magnitude(moment.before[j].position - moment.before[body].position) -
                        bounding_radius(scene.bodies[j]) - bounding_radius(scene.bodies[body]);
     if (gap < nearest) {
       nearest = gap;
@@ -47,10 +48,10 @@ Jump jump_of(const Scene& scene, const Moment& moment, std::size_t body) {
   jump.distance = std::max(bounding_radius(scene.bodies[body]), 1e-9);
   if (jump.partner) {
     relative = relative - moment.before[*jump.partner].velocity;
-    jump.distance = length(moment.before[*jump.partner].position - before.position);
+    jump.distance = magnitude(moment.before[*jump.partner].position - before.position);
   }
-  const double speed = length(relative);
-  if (length(change) > 0) jump.normal = (1 / length(change)) * change;
+  const double speed = magnitude(relative);
+  if (magnitude(change) > 0) jump.normal = (1 / magnitude(change)) * change;
   jump.closing = std::max(std::abs(dot(relative, jump.normal)), 1e-9 * speed);
   jump.sliding = std::abs(cross(relative, jump.normal));
   return jump;
@@ -61,7 +62,7 @@ Jump jump_of(const Scene& scene, const Moment& moment, std::size_t body) {
 double bounding_radius(const Body& body) {
   double radius = 0;
   for (const Shape& shape : body.shapes)
-    radius = std::max(radius, length(shape.position) + reach_of(shape.geometry));
+    radius = std::max(radius, magnitude(shape.position) + reach_of(shape.geometry));
   return radius;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/math/trigonometry.h"
+#include "harness/magnitude.h"
 
 namespace plumb::harness {
 namespace {
@@ -21,7 +22,7 @@ struct Placed {
 };
 
 double rope_length(const PulleyJoint& pulley, const Placed& at) {
-  return length(at.a - pulley.ground_a) + pulley.ratio * length(at.b - pulley.ground_b);
+  return magnitude(at.a - pulley.ground_a) + pulley.ratio * magnitude(at.b - pulley.ground_b);
 }
 
 double outside(const std::optional<Range>& range, double value) {
@@ -30,7 +31,7 @@ double outside(const std::optional<Range>& range, double value) {
 
 // Returns the distance of b's anchor from the allowed part of a's axis.
 double off_axis(const auto& joint, const Placed& at) {
-  const Vec2d axis = (1 / length(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
+  const Vec2d axis = (1 / magnitude(joint.axis)) * (rotation_of(at.angle_a) * joint.axis), way = at.b - at.a;
   return std::hypot(cross(axis, way), outside(joint.limits, dot(axis, way)));
 }
 
@@ -38,13 +39,13 @@ struct Gap {
   const Placed& at;
   double rope;
 
-  double operator()(const RevoluteJoint&) const { return length(at.b - at.a); }
+  double operator()(const RevoluteJoint&) const { return magnitude(at.b - at.a); }
   double operator()(const DistanceJoint& j) const {
-    const double apart = length(at.b - at.a);
-    if (j.range) return outside(j.range, apart);
-    return j.spring ? 0 : std::abs(apart - j.length);
+    const double length = magnitude(at.b - at.a);
+    if (j.range) return outside(j.range, length);
+    return j.spring ? 0 : std::abs(length - j.length);
   }
-  double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : length(at.b - at.a); }
+  double operator()(const WeldJoint& j) const { return j.linear_spring ? 0 : magnitude(at.b - at.a); }
   double operator()(const PrismaticJoint& j) const { return off_axis(j, at); }
   double operator()(const WheelJoint& j) const { return off_axis(j, at); }
   double operator()(const PulleyJoint& j) const { return std::abs(rope_length(j, at) - rope); }
@@ -89,7 +90,7 @@ double JointGaps::lever(std::size_t joint, std::span<const BodyState> states) co
       std::holds_alternative<PrismaticJoint>(entry.joint) || std::holds_alternative<WheelJoint>(entry.joint);
   if (!has_axis || !entry.a.body) return 0;
   const Placed at = place(entry.a, entry.b, states);
-  return length(at.b - at.a);
+  return magnitude(at.b - at.a);
 }
 
 }  // namespace plumb::harness

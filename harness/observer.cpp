@@ -1,4 +1,5 @@
 #include "harness/observer.h"
+#include "harness/magnitude.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,7 @@ void Observer::watch_for_divergence(int sample, std::span<const BodyState> state
       return;
     }
     const Vec2d from = case_.truth.known() ? case_.truth.at(sample)[i].position : Vec2d{};
-    const double off = length(states[i].position - from) - (case_.truth.known() ? 0 : start);
+    const double off = magnitude(states[i].position - from) - (case_.truth.known() ? 0 : start);
     finite_.add(std::max(off, 0.0), allowed);
     if (off > allowed) {
       why_diverged_ = fmt::format("body '{}' is {:.3g} m off at t = {:.6g} s", name, off, time);
@@ -82,14 +83,14 @@ void Observer::against_truth(int sample, std::span<const BodyState> states) {
   const auto truth = case_.truth.at(sample);
   const bool quiet = !near_impact(sample * case_.truth.dt());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const double position = length(states[i].position - truth[i].position);
+    const double position = magnitude(states[i].position - truth[i].position);
     const double angle = std::abs(states[i].angle - truth[i].angle);
     raise(metrics_.position_error, position);
     raise(metrics_.angle_error, angle);
     hold(position_, position, tolerances_.position(sample, i));
     hold(angle_, angle, tolerances_.angle(sample, i));
     if (!quiet) continue;
-    const double velocity = length(states[i].velocity - truth[i].velocity);
+    const double velocity = magnitude(states[i].velocity - truth[i].velocity);
     const double angular = std::abs(states[i].angular_velocity - truth[i].angular_velocity);
     raise(metrics_.velocity_error, velocity);
     raise(metrics_.angular_velocity_error, angular);
@@ -106,9 +107,9 @@ void Observer::against_discrete(int sample, std::span<const BodyState> states) {
   if (!discrete_known_) return;
   const StateBound rounding = tolerances_.rounding(sample);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    discrete_position_.add(length(states[i].position - expected[i].position), rounding.position);
+    discrete_position_.add(magnitude(states[i].position - expected[i].position), rounding.position);
     discrete_angle_.add(std::abs(states[i].angle - expected[i].angle), rounding.angle);
-    discrete_velocity_.add(length(states[i].velocity - expected[i].velocity), rounding.velocity);
+    discrete_velocity_.add(magnitude(states[i].velocity - expected[i].velocity), rounding.velocity);
     discrete_angular_velocity_.add(std::abs(states[i].angular_velocity - expected[i].angular_velocity),
                                    rounding.angular_velocity);
   }

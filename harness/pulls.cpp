@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "engine/math/trigonometry.h"
+#include "harness/magnitude.h"
 
 namespace plumb::harness {
 namespace {
@@ -17,7 +18,7 @@ double distance_of(const Scene& scene, std::span<const BodyState> states, const 
     const auto body = find_body(scene, name);
     return body ? states[*body].position + rotation_of(states[*body].angle) * anchor : anchor;
   };
-  return length(place(b, anchor_b) - place(a, anchor_a));
+  return magnitude(place(b, anchor_b) - place(a, anchor_a));
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ std::vector<Pull> pulls_in(const Scene& scene, std::span<const BodyState> states
   const auto add = [&](const std::string& a, Vec2d anchor_a, const std::string& b, Vec2d anchor_b,
                        Pull pull) {
     const auto one = find_body(scene, a), other = find_body(scene, b);
-    pull.arm = length(anchor_a), pull.partner_arm = length(anchor_b);
+    pull.arm = magnitude(anchor_a), pull.partner_arm = magnitude(anchor_b);
     if (one) out.push_back(pull), out.back().body = *one, out.back().partner = other;
     std::swap(pull.arm, pull.partner_arm);
     if (other) out.push_back(pull), out.back().body = *other, out.back().partner = one;

@@ -8,6 +8,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "harness/magnitude.h"
 
 namespace plumb::harness {
 namespace {
@@ -55,7 +56,7 @@ void TruthTable::measure(const Scene& scene) {
   const auto include = [&](std::size_t body, const BodyState& state) {
     const double radius = bounding_radius(scene.bodies[body]);
     scale_.length = std::max({scale_.length, std::abs(state.position.x), std::abs(state.position.y)});
-    scale_.speed = std::max(scale_.speed, length(state.velocity));
+    scale_.speed = std::max(scale_.speed, magnitude(state.velocity));
     scale_.angle = std::max(scale_.angle, std::abs(state.angle));
     scale_.angular_speed = std::max(scale_.angular_speed, std::abs(state.angular_velocity));
     const Vec2d a = state.position - Vec2d{radius, radius}, b = state.position + Vec2d{radius, radius};
@@ -69,17 +70,17 @@ void TruthTable::measure(const Scene& scene) {
     // Without a truth, use the length and speed that gravity and the initial speeds can reach.
     double pulled = 0;
     for (const Body& body : scene.bodies) pulled = std::max(pulled, std::abs(body.gravity_scale));
-    scale_.speed += pulled * length(scene.gravity) * scale_.duration;
+    scale_.speed += pulled * magnitude(scene.gravity) * scale_.duration;
     high += Vec2d{scale_.speed * scale_.duration, 0};
   }
-  scale_.extent = std::max(length(high - low), 1e-3);
+  scale_.extent = std::max(magnitude(high - low), 1e-3);
   measure_joints(scene);
   for (const Impact& impact : impacts_) {
     double most = 0;
     for (const Jump& jump : impact.jumps) {
       const Body& body = scene.bodies[jump.body];
       const double inertia = body.type == BodyType::Dynamic ? inertia_of(body) : 0;
-      if (inertia > 0) most = std::max(most, length(jump.velocity) * body.mass / inertia);
+      if (inertia > 0) most = std::max(most, magnitude(jump.velocity) * body.mass / inertia);
     }
     scale_.impact_spin += most * (scale_.length + scale_.extent);
   }
@@ -88,7 +89,7 @@ void TruthTable::measure(const Scene& scene) {
 void TruthTable::measure_joints(const Scene& scene) {
   double nearest = std::numeric_limits<double>::infinity();
   const auto include = [&](const std::string& name, Vec2d anchor) {
-    const double arm = length(anchor);
+    const double arm = magnitude(anchor);
     if (name != kWorld && arm > 0) nearest = std::min(nearest, arm);
   };
   for (const Joint& joint : scene.joints) {

@@ -18,7 +18,7 @@ for place in one another/and-a-longer-one; do
   cp -r "$work/packed" "$work/$place"
   build=$work/$place/build/library
   cmake -S "$work/$place" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPLUMB_LIBRARY_ONLY=ON -DPLUMB_PYTHON=OFF \
-    -DCMAKE_INSTALL_PREFIX=/usr >"$work/log"
+    -DPLUMB_UNITY=$(($# == 0)) -DCMAKE_INSTALL_PREFIX=/usr >"$work/log"
   ninja -C "$build" "${objects[@]}" >>"$work/log" || { tail -20 "$work/log" && exit 1; }
   if (($# == 0)); then
     DESTDIR=$work/$place-kept cmake --install "$build" >>"$work/log"

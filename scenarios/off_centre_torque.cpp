@@ -1,8 +1,7 @@
 #include "scenarios/truth/pushes.h"
 
-// Forces off the centre of mass accelerate and rotate a body; without torque its angular velocity is
-// constant. There is no gravity and no contact, so only r x F, the inertia, and the angle used within a step
-// matter.
+// Forces off the centre of mass accelerate and rotate a body; without torque its spin is constant. There is
+// no gravity and no contact, so only r x F, the inertia, and the angle used within a step matter.
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

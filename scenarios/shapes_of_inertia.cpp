@@ -2,9 +2,8 @@
 
 #include "scenarios/truth/parts.h"
 
-// A torque on bodies of several shapes: the inertia is m (w^2 + h^2)/12 for a box, m r^2/2 for a disc, m
-// a^2/12 for an equilateral triangle, and for two discs it follows from the parallel axis theorem. Source:
-// Huygens; Steiner.
+// A torque on bodies of several shapes. Inertia: box m (w^2 + h^2)/12, disc m r^2/2, equilateral triangle
+// m a^2/12, two discs by the parallel axis theorem (Huygens; Steiner).
 namespace plumb::scenarios {
 namespace {
 using namespace truth;

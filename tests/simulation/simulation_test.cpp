@@ -203,12 +203,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 17726436302137944664ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 18307777763735601212ull},
-      {Precision::Double, Solver::Direct, 0.5, 4191128955718228249ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 9180292248954128510ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 13182307734043741046ull},
-      {Precision::Float, Solver::Direct, 0.5, 13087285022831783480ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 12136856006975867482ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 7273632845365267968ull},
+      {Precision::Double, Solver::Direct, 0.5, 17088822052058736431ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 18287152695072332993ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 16140404775762130959ull},
+      {Precision::Float, Solver::Direct, 0.5, 15180854210104062730ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -264,6 +264,9 @@ void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double frac
       };
       const Vec2d wanted = (1 - fraction) * between(0) + fraction * between(1);
       flight.shift = other.shift + other.rotation_at(fraction) * (wanted - between(fraction));
+      const BodyLocks locks = w.bodies[flight.body].locks();
+      if (locks.x) flight.shift.x = 0;
+      if (locks.y) flight.shift.y = 0;
     });
   }
 }
