@@ -44,13 +44,13 @@ program=$work/prefix/bin/plumb
 "$program" list >out
 if grep -q '^dumbbell$' out; then echo "dumbbell is there without its module" && exit 1; fi
 PLUMB_SCENARIOS=build/libmine.so:build/libfaulty.so "$program" list >out
-grep -q '^dumbbell$' out && grep -q '^wrong$' out || { cat out && exit 1; }
+if ! grep -q '^dumbbell$' out || ! grep -q '^wrong$' out; then cat out && exit 1; fi
 code=0
 PLUMB_SCENARIOS=absent.so "$program" list 2>err || code=$?
-((code == 2)) && grep -q 'absent.so' err || { cat err && exit 1; }
+if ((code != 2)) || ! grep -q 'absent.so' err; then cat err && exit 1; fi
 echo 'int x;' >other.cpp
 "${CXX:-c++}" -shared -fPIC other.cpp -o other.so
 code=0
 PLUMB_SCENARIOS=other.so "$program" list 2>err || code=$?
-((code == 2)) && grep -q 'plumb_add_scenarios' err || { cat err && exit 1; }
+if ((code != 2)) || ! grep -q 'plumb_add_scenarios' err; then cat err && exit 1; fi
 echo "2 tests out of the tree"

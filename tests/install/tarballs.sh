@@ -17,5 +17,5 @@ export PKG_CONFIG_PATH=$libraries/pkgconfig
 read -ra flags <<<"$(pkg-config --cflags --libs plumb-c)"
 cc -std=c99 "$example" "${flags[@]}" -o "$work/ball"
 LD_LIBRARY_PATH=$libraries "$work/ball" | tail -1 | grep -q '^2.00 s: 1.61 m$'
-ls -1 "$work/packed" | grep -c -e '-runtime.tar.gz' -e '-c.tar.gz' -e '-cpp.tar.gz' -e '-harness.tar.gz' | grep -q 4
+for component in runtime c cpp harness; do compgen -G "$work/packed/plumb-*-$component.tar.gz" >"$work/log"; done
 echo "four tarballs"
