@@ -149,8 +149,9 @@ def self_test():
 def main(arguments):
     if arguments == ["--self-test"]:
         return self_test()
-    if not arguments:
-        sys.exit(__doc__)
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(__doc__.strip(), file=sys.stdout if arguments else sys.stderr)
+        sys.exit(0 if arguments else 2)
     wanted = float(arguments[arguments.index("--of") + 1]) if "--of" in arguments else WORK
     pieces = repeated(load(arguments[0]), wanted)
     if "--picture" in arguments:
