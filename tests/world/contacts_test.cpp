@@ -322,8 +322,8 @@ TEST(Manifolds, TheNormalOfBodiesThatTurnTogetherTurnsWithThem) {
     const std::vector<ContactReading> contacts = world.contacts(box);
     ASSERT_EQ(contacts.size(), 1) << step;
     // A step's solution moves on from the pose of its start, by which the drum has turned kSpin / 60 since.
-    // What is kept has turned against the drum by less than 0.2 % of the smaller extent, seen from a longer
-    // arm.
+    // Recycles while the bodies move relative to each other by less than 0.2 % of the smaller extent: the
+    // normal is off by less than 0.002 rad, as its arm is longer than that extent.
     const double angle = world.angle(drum) - kSpin / 60;
     EXPECT_NEAR(cross({-std::sin(angle), std::cos(angle)}, contacts[0].normal), 0, 0.002) << step;
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/math/trigonometry.h"
+#include "engine/scene/bytes.h"
 #include "engine/world/joint_solver/joint_set.h"
 
 namespace plumb {
@@ -94,5 +96,14 @@ struct JointBench {
     }
   }
 };
+
+/// Returns what a set of joints saves.
+template <class Real>
+std::vector<std::byte> bytes_of(const JointSet<Real>& joints) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  joints.save(out);
+  return bytes;
+}
 
 }  // namespace plumb

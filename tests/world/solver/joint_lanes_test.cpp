@@ -90,14 +90,6 @@ JointBench<Real> crowd(bool side_by_side) {
 }
 
 template <class Real>
-std::vector<std::byte> bytes_of(const JointSet<Real>& joints) {
-  std::vector<std::byte> bytes;
-  ByteWriter out(bytes);
-  joints.save(out);
-  return bytes;
-}
-
-template <class Real>
 class JointLanesTest : public testing::Test {};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(JointLanesTest, Reals);

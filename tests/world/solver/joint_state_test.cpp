@@ -83,14 +83,6 @@ std::uint64_t hash(const JointBench<Real>& bench) {
 }
 
 template <class Real>
-std::vector<std::byte> bytes_of(const JointSet<Real>& joints) {
-  std::vector<std::byte> bytes;
-  ByteWriter out(bytes);
-  joints.save(out);
-  return bytes;
-}
-
-template <class Real>
 void expect_colours_apart(const JointSet<Real>& joints, const JointBench<Real>& bench) {
   std::vector<std::set<int>> bodies(JointSet<Real>::colours());
   for (int joint = 0; joint < joints.slots(); ++joint) {
