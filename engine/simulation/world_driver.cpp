@@ -24,7 +24,7 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
   return definition;
 }
 
-/// Leaves out the shapes of a scene in which none can touch: masses do not depend on them.
+/// Leaves out shapes that a scene does not need: masses do not depend on them.
 Scene with_needed_parts(const Scene& scene, const Plan& plan) {
   Scene out = scene;
   if (needs_shapes(plan)) return out;

@@ -105,7 +105,10 @@ Plan plan_world(const Scene& scene, const Realtime& accuracy, bool every_stage) 
 }
 
 bool needs_shapes(const Plan& plan) {
-  return plan.stages[kFirstWorldStage + static_cast<std::size_t>(WorldStage::BroadPhase)].active;
+  const auto runs = [&](WorldStage stage) {
+    return plan.stages[kFirstWorldStage + static_cast<std::size_t>(stage)].active;
+  };
+  return runs(WorldStage::BroadPhase) || runs(WorldStage::Sleep);
 }
 
 }  // namespace plumb

@@ -13,7 +13,8 @@ inline constexpr std::size_t kForcesStage = 0, kFirstWorldStage = 1;
 /// not. The scene is valid.
 Plan plan_world(const Scene& scene, const Realtime& accuracy, bool every_stage);
 
-/// Returns true if shapes of different bodies may touch, so that the world needs the scene's shapes.
+/// Returns true if the world needs the scene's shapes: those of different bodies may touch, or bodies may
+/// sleep, for which a body is slow by comparison with its size.
 bool needs_shapes(const Plan& plan);
 
 }  // namespace plumb

@@ -32,8 +32,9 @@ struct JointEvent {
 
 /// Quantity of a body that was not finite, or beyond 1e12.
 /// `None`: of a body that its program disabled.
-enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity, None };
-inline constexpr const char* kBadFieldNames[] = {"force", "torque", "velocity", "angular_velocity", "none"};
+enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity, None, Position, Angle };
+inline constexpr const char* kBadFieldNames[] = {"force", "torque",   "velocity", "angular_velocity",
+                                                 "none",  "position", "angle"};
 
 /// A body was quarantined, because one of its numbers was not finite, or beyond 1e12.
 struct QuarantineEvent {

@@ -52,7 +52,7 @@ MUTATIONS = [
              "for (int i = from.alone; i < to.alone; ++i)", "for (int i = from.alone; i + 1 < to.alone; ++i)", "world",
              ("world/side_by_side",)),
     Mutation("contacts side by side: peaks of what is not watched", "engine/world/contact_solver/contact_block.h",
-             "if (c.watched) c.peak_impulse[0]", "c.peak_impulse[0]", "world", ("world/side_by_side",)),
+             "if (c.watched != Watch::Off) c.peak_impulse[0]", "c.peak_impulse[0]", "world", ("world/side_by_side",)),
     Mutation("joints side by side: a body keeps the other's velocity", "engine/world/joint_solver/joint_lanes.cpp",
              "if (block.gives_way_b) b.store", "if (block.gives_way_a) b.store", "world", ("world/solver/joint_lanes",)),
     Mutation("joints side by side that share a body", "engine/world/joint_solver/joint_set.cpp",
@@ -190,7 +190,7 @@ MUTATIONS = [
     Mutation("world: what lands wakes nobody", "engine/world/state/contacts.cpp",
              "wake_body(w, record.body_a); wake_body(w, record.body_b);", "", "world"),
     Mutation("world: what is gone within a step is not told", "engine/world/step/narrow_phase.cpp",
-             "(c.watched && c.peak_impulse[i] > 0)", "(c.watched && c.peak_impulse[i] < 0)", "world"),
+             "c.separation[1] <= near_enough) || has_pressed(c);", "c.separation[1] <= near_enough);", "world"),
 
     # Large systems of contacts.
     Mutation("entries that elimination fills in are forgotten", "engine/linear_algebra/dense_system.cpp",

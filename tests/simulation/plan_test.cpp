@@ -117,6 +117,27 @@ TEST(Plan, DerivedAndEveryStageGiveTheSameBits) {
   }
 }
 
+// A body is at rest by comparison with its size, which its shapes give, whether they can touch or not.
+TEST(Plan, DerivedAndEveryStageFallAsleepInTheSameStep) {
+  Scene swing = with(empty_scene({0, 0}), {box("a", {0, 0}, 1.6, 0.3)});
+  RevoluteJoint hinge;
+  hinge.name = "hinge", hinge.body_a = "world", hinge.body_b = "a";
+  hinge.spring = Spring{0.16, 0}, hinge.target_angle = 0.4;
+  swing.joints = {hinge};
+  const Scene at_rest = with(empty_scene({0, 0}), {disc("a", {0, 0})});
+  for (const Scene& scene : {swing, at_rest}) {
+    for (const Precision precision : {Precision::Float, Precision::Double}) {
+      Simulation derived = compile(scene, Realtime{.precision = precision, .sleeping = true}),
+                 all = compile(scene, Realtime{.precision = precision, .sleeping = true},
+                               {.every_stage = true});
+      for (int i = 0; i < 60; ++i) {
+        derived.step(), all.step();
+        ASSERT_EQ(derived.hash(), all.hash()) << name_of(precision) << " step " << i;
+      }
+    }
+  }
+}
+
 TEST(Plan, ProfilingTimesTheStagesThatRun) {
   Simulation world = compile(dragged(with(empty_scene(), {plane(), disc("a", {0, 0.5})})));
   world.step();

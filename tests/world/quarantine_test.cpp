@@ -175,6 +175,23 @@ TYPED_TEST(Quarantine, OverflowsNeverReachTheNeighbours) {
   }
 }
 
+// A velocity within the limits leads out of them in time: a position counts as much as a velocity.
+TYPED_TEST(Quarantine, EndsAFlightBeyondTheLimits) {
+  typename TestFixture::World world(weightless());
+  const BodyId far = world.create_body({.name = "far", .position = {9e11, 5}, .velocity = {3e11, 0}},
+                                       ShapeDefinition{.geometry = Box{1, 1}});
+  const BodyId spins = world.create_body({.name = "spins", .angular_velocity = 9e11},
+                                         ShapeDefinition{.geometry = Circle{1e-3}});
+  std::vector<BadField> fields;
+  for (int i = 0; i < 90; ++i) {
+    world.step();
+    for (const QuarantineEvent& event : world.events().quarantined) fields.push_back(event.field);
+    ASSERT_LE(world.position(far).x, 1e12) << i;
+    ASSERT_LE(std::abs(world.angle(spins)), 1e12) << i;
+  }
+  EXPECT_EQ(fields, (std::vector{BadField::Position, BadField::Angle}));
+}
+
 // One of two towers on a ground gets a velocity that is no number, and its contacts hand it to the ground and
 // to all that stands on it. That one is taken out; the others are left out of one step.
 TYPED_TEST(Quarantine, AFailureThatContactsPassOnTakesItsCauseOut) {

@@ -113,6 +113,24 @@ TEST(Sleeping, ATowerFallsAsleepAndWakesWhenItsSupportGoes) {
   EXPECT_EQ(world.counts().awake, 0);
 }
 
+// A static box is put into one that stands, with a heavy one on it: it presses it into the ground. What is
+// pushed apart is not at rest; without the other it stands and sleeps.
+TEST(Sleeping, WaitsForShapesThatLieInEachOther) {
+  World world;
+  add_ground(world);
+  const BodyId low = add_box(world, {0, 0.5}), high = add_box(world, {0, 1.5}, 3200);
+  const BodyId intruder = world.create_body({.type = BodyType::Static, .position = {30, 40}},
+                                            ShapeDefinition{.geometry = Box{0.5, 0.5}});
+  run(world, 120);
+  ASSERT_FALSE(world.awake(low) || world.awake(high));
+  world.set_position(intruder, {-0.06, 0.75}, 0);
+  run(world, 300);
+  EXPECT_TRUE(world.awake(low));
+  world.set_position(intruder, {30, 40}, 0);
+  run(world, 300);
+  EXPECT_FALSE(world.awake(low) || world.awake(high));
+}
+
 // A body at rest that is struck in whichever step, also in the one in which it would fall asleep, takes the
 // impulse: momentum stays, and the light disc leaves at 2 m1/(m1 + m2) times the heavy one's speed.
 TEST(Sleeping, AHitCountsInTheVeryStepInWhichABodyWouldFallAsleep) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,7 +35,7 @@ struct ContactBlock {
   ContactHardness hardness;
   std::uint8_t count;             ///< points
   bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
-  bool watched;                   ///< at least one is
+  Watch watched;                  ///< the most of any
   bool rolls;                     ///< all have rolling resistance
   Number rolling_arm, rolling_impulse, peak_impulse[2];
   Constraint* contact[kLanes];
@@ -92,12 +93,12 @@ template <class Number, class Real>
   const ContactRows<Number> rows{block};
   for (int k = 0; k < kRows; k += 4) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
 
-  block.watched = false;
+  block.watched = Watch::Off;
   for (int i = 0; i < Block::kLanes; ++i) {
     const Constraint& c = *block.contact[i];
     block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_a);
     block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_b);
-    block.watched |= c.watched;
+    block.watched = std::max(block.watched, c.watched);
   }
   load_masses(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
   load_masses(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
@@ -109,7 +110,7 @@ template <class Number, class Real>
   block.gives_way_b = both || is_dynamic(motion[first.body_b]);
   static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
-  if (block.watched || block.rolls)
+  if (block.watched != Watch::Off || block.rolls)
     rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
 }
 
@@ -121,14 +122,14 @@ template <class Number>
   const ContactRows<Number> rows{block};
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
   rows.store(offsetof(Constraint, load_estimate), offsetof(Block, load_estimate));
-  if (!block.watched && !block.rolls) return;
+  if (block.watched == Watch::Off && !block.rolls) return;
   typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
   block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
       block.peak_impulse[1].store(peaks[1]);
   for (int i = 0; i < Block::kLanes; ++i) {
     Constraint& c = *block.contact[i];
     if (block.rolls) c.rolling_impulse = rolling[i];
-    if (c.watched) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
+    if (c.watched != Watch::Off) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
   }
 }
 

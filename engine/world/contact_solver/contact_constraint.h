@@ -13,6 +13,13 @@ enum class ContactHardness : std::uint8_t {
   Rigid,  ///< solved by the direct solver
 };
 
+/// Reasons to record a contact's approach and largest impulses.
+enum class Watch : std::uint8_t {
+  Off,      ///< nothing is recorded
+  Reports,  ///< hit events or the user's hook ask for it
+  Motion,   ///< it may bounce, or does not touch yet
+};
+
 /// A contact at one or two points: manifold and constraint in one, kept from step to step. It is rebuilt only
 /// when the bodies have moved relative to each other by more than `recycle_budget` (manifold recycling).
 /// Until then the separations are updated to first order, as the solver does within a step.
@@ -41,9 +48,10 @@ struct ContactConstraint {
   Real surface_speed = 0;  ///< m/s, target relative velocity along t, by friction
   ContactHardness hardness = ContactHardness::Soft;
   std::uint8_t count = 0;  ///< points in use
-  bool touching = false;   ///< as reported by events
-  bool watched =
-      false;  ///< approach and peaks are recorded: it may bounce, does not touch yet, or is reported
+  bool touching = false;   ///< as found at the start of a step; events may have reported it earlier
+  /// Why approach and peaks are recorded. The motion reads them only where it is itself the reason: a flag
+  /// that asks for reports changes no motion.
+  Watch watched = Watch::Off;
 
   // Data that the solver's passes do not need.
   Real restitution = 0;       ///< Newton's coefficient
@@ -55,5 +63,13 @@ struct ContactConstraint {
   int contact = 0;            ///< index of its record
   std::uint16_t features[2] = {};
 };
+
+/// Returns true if a contact has pressed in the step, as far as the motion needs to know: one that neither
+/// bounces nor begins presses at the step's end too.
+template <class Real>
+bool has_pressed(const ContactConstraint<Real>& c) {
+  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) return true;
+  return c.watched == Watch::Motion && (c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0);
+}
 
 }  // namespace plumb

@@ -55,7 +55,7 @@ template <class Number, class Pair, class Contact, class Real>
   } else {
     press_one(pair, c, demand_at<Number>(c.now[0], closed, fastest, soft, step.inverse_h));
   }
-  if (c.watched) note_peaks(c);
+  if (c.watched != Watch::Off) note_peaks(c);
 }
 
 /// Returns the target of point i without bias, at its present separation, which is updated from the start of
@@ -140,7 +140,7 @@ template <class Number, class Pair, class Contact, class Real>
   } else {
     press_one(pair, c, at_p);
   }
-  if (c.watched) note_peaks(c);
+  if (c.watched != Watch::Off) note_peaks(c);
   const Number before = c.tangent_impulse;
   rub_within_bound(pair, c, c.tangent_mass);
   // Friction begins to act if it grows by more than its previous value and by a quarter of its bound; smaller

@@ -89,7 +89,7 @@ struct ContactPair {
     if (c.rolling_arm > 0) roll(std::clamp(holding_torque(), -most, most));
   }
   void note_peaks() {
-    if (!c.watched) return;
+    if (c.watched == Watch::Off) return;
     for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
   }
 

@@ -52,7 +52,7 @@ void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph
   graph.for_each([&](ContactConstraint<Real>& c) {
     c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
     c.load_estimate[0] = c.load_estimate[1] = 0;
-    if (!c.watched) return;
+    if (c.watched == Watch::Off) return;
     const ContactPair<Real> pair(motion, c);
     for (int i = 0; i < c.count; ++i) {
       if (c.peak_impulse[i] == 0) c.approach[i] = pair.normal_rate(i);

@@ -340,7 +340,8 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
     return;
   }
   const int other_place = other == nullptr ? kNone : w.scratch.swept_body_places[other_body];
-  if (flight.yields && flight.impacts < tuning::kImpactsInFlight && may_rebound(w, next.shape, next.other)) {
+  if (flight.yields && flight.impacts < tuning::kImpactsInFlight &&
+      may_rebound(w, next.shape, next.other, search.dt)) {
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
     if (!thrown) flight.yields = false;  // they do not approach
     if (thrown) insert_swept_aabb(w, flight);
@@ -428,8 +429,7 @@ template <class Real>
 void find_loaded_bodies(WorldData<Real>& w) {
   w.scratch.loaded.assign(w.bodies.size(), 0);
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
-    const bool presses = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
-    if (presses || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0) return note_loaded(w, c);
+    if (has_pressed(c)) return note_loaded(w, c);
     const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
     if (c.separation[0] > near && (c.count < 2 || c.separation[1] > near)) return;
     for (const int body : {c.body_a, c.body_b})

@@ -19,7 +19,7 @@ namespace {
 
 // Returns true if only gravity acts on the body.
 template <class Real>
-bool is_free(const WorldData<Real>& w, int body) {
+bool is_free(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
   if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
@@ -29,7 +29,7 @@ bool is_free(const WorldData<Real>& w, int body) {
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    return holds(w, c) || c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0;
+    return has_held(w, c, static_cast<Real>(dt));
   });
 }
 
@@ -107,7 +107,7 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   pair.push(static_cast<Real>(impulses.normal[0]), static_cast<Real>(impulses.normal[1]));
   pair.rub(static_cast<Real>(impulses.friction));
   pair.resist_rolling();
-  c.watched = true;
+  c.watched = Watch::Motion;
   pair.note_peaks();
   return fast ? Throw::Bounce : Throw::Slide;
 }
@@ -146,15 +146,15 @@ SweptBody flight_of(const WorldData<Real>& w, int body, double dt) {
   const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
   const Rotation<double> back = rotation_of(-flight.turn);
   flight.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
-  if (w.is_dynamic(body) && is_free(w, body)) note_parabola(motion, flight, dt);
+  if (w.is_dynamic(body) && is_free(w, body, dt)) note_parabola(motion, flight, dt);
   return flight;
 }
 
 template <class Real>
-bool may_rebound(const WorldData<Real>& w, int shape, int other) {
+bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
   if (a.pre_solve || b.pre_solve || !(restitution_between(w, shape, other) > 0)) return false;
-  return is_free(w, a.body) && is_free(w, b.body);
+  return is_free(w, a.body, dt) && is_free(w, b.body, dt);
 }
 
 template <class Real>
@@ -204,7 +204,7 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
 
 #define PLUMB_FOR(Real)                                                                      \
   template SweptBody flight_of(const WorldData<Real>&, int, double);                         \
-  template bool may_rebound(const WorldData<Real>&, int, int);                               \
+  template bool may_rebound(const WorldData<Real>&, int, int, double);                       \
   template bool rebound(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double); \
   template void land(WorldData<Real>&, const SweptBody&);
 PLUMB_FOR(float)

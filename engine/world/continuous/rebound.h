@@ -22,7 +22,7 @@ const SweptBody* flight_in(const WorldData<Real>& w, int body) {
 /// Returns true if two shapes separate after an impact and no joint or pressing contact holds their bodies in
 /// this step. Only then may a flight bounce within the step.
 template <class Real>
-bool may_rebound(const WorldData<Real>& w, int shape, int other);
+bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt);
 
 /// Resolves an impact in flight: `a` with its `shape`, and `b` with its `other` (null: it does not move),
 /// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; approaches

@@ -243,7 +243,8 @@ bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& p
            bound.try_edges();
   };
   if (!try_all()) return false;
-  return pair.contact != nullptr || bound.least() >= apart || !may_rebound(w, pair.shape, pair.other);
+  return pair.contact != nullptr || bound.least() >= apart ||
+         !may_rebound(w, pair.shape, pair.other, way.search.dt);
 }
 
 // Returns the least coordinate of a shape along a direction at a pose, m.
@@ -304,7 +305,8 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   if (is_clear(w, way, pair)) return 1;
   const Encountering<Real> at(w, way, pair);
   const bool flies_on = way.flight.impacts > 0;
-  if ((pair.contact == nullptr || flies_on) && way.flight.yields && may_rebound(w, pair.shape, pair.other)) {
+  if ((pair.contact == nullptr || flies_on) && way.flight.yields &&
+      may_rebound(w, pair.shape, pair.other, way.search.dt)) {
     if (w.forms[pair.shape].chain && !pair.stands) return 1;  // found by the other shape's search
     const Result first = at.meet_closely();
     if (first.state == Result::State::Separated) return 1;

@@ -404,7 +404,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
       put_velocity(w.motion[island.links[k].body], body.velocity, body.spin);
     }
     for (ContactConstraint<Real>* c : island.contacts)
-      if (c->watched) note_peaks(*c);
+      if (c->watched != Watch::Off) note_peaks(*c);
   }
 }
 

@@ -19,7 +19,9 @@ inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
 template <>
-inline constexpr int kEnumerators<BadField> = 5;
+inline constexpr int kEnumerators<Watch> = 3;
+template <>
+inline constexpr int kEnumerators<BadField> = 7;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 

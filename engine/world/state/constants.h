@@ -169,6 +169,11 @@ inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
 inline constexpr double kSleepSpeed = 0.05;
 inline constexpr double kSleepTime = 0.5;
 
+/// Overlap, as a fraction of the smaller extent, with which no body falls asleep: shapes that lie deeper in
+/// each other are being pushed apart, and would stay so. It is the largest that the invariant monitor takes
+/// for rest; a heap of 100 rows has 0.002.
+inline constexpr double kSleepOverlap = 0.02;
+
 /// Separation, as a fraction of the smaller extent, up to which shapes count as touching for events.
 inline constexpr double kTouch = 1e-3;
 

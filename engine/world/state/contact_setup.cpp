@@ -78,7 +78,7 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
   c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
-  c.watched = records_impact(contact, c);
+  c.watched = watch_of(contact, c);
   c.hardness = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b) ? ContactHardness::Soft
                                                                             : ContactHardness::Stiff;
 }

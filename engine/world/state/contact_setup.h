@@ -23,11 +23,12 @@ Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b);
 template <class Real>
 void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c);
 
-/// Returns true if the solver must record approach and largest impulses. A touching contact that neither
-/// bounces nor is reported needs neither.
+/// Returns why the solver must record approach and largest impulses. A touching contact that neither bounces
+/// nor is reported needs neither.
 template <class Real>
-bool records_impact(const ContactRecord& contact, const ContactConstraint<Real>& c) {
-  return !c.touching || c.restitution > 0 || contact.hit_events || contact.pre_solve;
+Watch watch_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  if (!c.touching || c.restitution > 0) return Watch::Motion;
+  return contact.hit_events || contact.pre_solve ? Watch::Reports : Watch::Off;
 }
 
 /// Returns the depth, m, to which rounding may have moved the shapes of a contact into each other.

@@ -77,9 +77,15 @@ void take_out(WorldData<Real>& w, int body, const QuarantineEvent& why) {
   w.topology_changed = true;
 }
 
-// Returns the field of a motion that is not valid, with its value.
+// Returns the field of a motion, or of the state to which it leads, that is not valid, with its value.
 template <class Real>
-std::pair<BadField, double> fault_of(const BodyMotion<Real>& motion) {
+std::pair<BadField, double> fault_of(const WorldData<Real>& w, int body) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  if (is_sound_motion(motion)) {
+    const Vec2d end = w.position[body] + motion.moved.template as<double>();
+    if (!fits(end)) return {BadField::Position, fits(end.x) ? end.y : end.x};
+    return {BadField::Angle, w.bodies[body].angle + static_cast<double>(motion.turned)};
+  }
   for (const Real x : {motion.velocity.x, motion.velocity.y, motion.moved.x, motion.moved.y}) {
     if (!fits(static_cast<double>(x))) return {BadField::Velocity, static_cast<double>(x)};
   }
@@ -214,6 +220,13 @@ bool is_sound_motion(const BodyMotion<Real>& motion) {
 }
 
 template <class Real>
+bool stays_in_range(const WorldData<Real>& w, int body) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  return fits(w.position[body] + motion.moved.template as<double>()) &&
+         fits(w.bodies[body].angle + static_cast<double>(motion.turned));
+}
+
+template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value) {
   if (w.bodies[body].quarantined) return;
   QuarantineEvent why{{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
@@ -269,7 +282,7 @@ void push_body(WorldData<Real>& w, int body, Vec2d impulse, double angular_impul
   const BodyMotion<Real> before = motion;
   motion.apply(impulse.as<Real>(), static_cast<Real>(angular_impulse));
   if (!w.settings.quarantine || fits(BodyVelocity<Real>{motion.velocity, motion.angular_velocity})) return;
-  const auto [field, value] = fault_of(motion);
+  const auto [field, value] = fault_of(w, body);
   motion = before;
   quarantine_body(w, body, field, value);
 }
@@ -313,7 +326,7 @@ void quarantine_diverged(WorldData<Real>& w, double dt) {
     while (kick < kicks.size() && w.bodies[kicks[kick].body].awake_index < place) ++kick;
     const bool held = kick < kicks.size() && kicks[kick].body == body;
     const BodyMotion<Real> motion = w.motion[body];
-    const auto [field, value] = fault_of(motion);
+    const auto [field, value] = fault_of(w, body);
     const BodyVelocity<Real> start = held ? w.scratch.starts[kick] : start_of_flight(motion, dt);
     put_back(w, body, start);
     const bool own = !held || is_finite_motion(motion);
@@ -336,6 +349,7 @@ void quarantine_diverged(WorldData<Real>& w, double dt) {
   template BodyType own_type(const WorldData<Real>&, int);                \
   template QuarantinedBody& quarantine_of(WorldData<Real>&, int);         \
   template bool is_sound_motion(const BodyMotion<Real>&);                 \
+  template bool stays_in_range(const WorldData<Real>&, int);              \
   template void push_body(WorldData<Real>&, int, Vec2d, double);          \
   template void quarantine_body(WorldData<Real>&, int, BadField, double); \
   template void release_body(WorldData<Real>&, int);                      \

@@ -57,6 +57,10 @@ bool is_finite_motion(const BodyMotion<Real>& motion) {
 template <class Real>
 bool is_sound_motion(const BodyMotion<Real>& motion);
 
+/// Returns true if a body's motion of a step leads to a position and an angle within the world's limits.
+template <class Real>
+bool stays_in_range(const WorldData<Real>& w, int body);
+
 /// Handles, after a step's solver, the bodies in `scratch.nonfinite_bodies`, whose motion is invalid and was
 /// not applied. Bodies in free flight, or too fast, are quarantined. Of bodies with a common failure (a
 /// constraint passes it on), the fastest are quarantined. The others stay in place for this step, lose their

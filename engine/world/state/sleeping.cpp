@@ -84,6 +84,13 @@ bool still(const WorldData<Real>& w, int body) {
   return record.may_sleep && record.sleep_time >= Real(tuning::kSleepTime);
 }
 
+// Returns true if the shapes of a contact lie too deep in each other to be at rest.
+template <class Real>
+bool lies_deep(const ContactConstraint<Real>& c) {
+  const Real depth = -(c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0]);
+  return depth > Real(tuning::kSleepOverlap / tuning::kPushSpeed) * c.push_speed;
+}
+
 // Reserves memory for the contacts of bodies that fall asleep.
 template <class Real>
 void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
@@ -185,7 +192,10 @@ void sleep_islands(WorldData<Real>& w) {
       if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) cannot_sleep[rider] = 1;
     }
   };
-  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    tie(c.body_a, c.body_b);
+    if (lies_deep(c)) cannot_sleep[c.body_a] = cannot_sleep[c.body_b] = 1;
+  });
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (joint.active) tie(joint.body_a, joint.body_b);
   });

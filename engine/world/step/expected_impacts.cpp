@@ -1,6 +1,7 @@
 #include "engine/world/step/expected_impacts.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/core/room.h"
 #include "engine/world/integration/free_motion.h"
@@ -11,6 +12,10 @@
 namespace plumb {
 namespace {
 
+// Impacts closer in time than this fraction of the step are simultaneous. Impact propagation takes those
+// within the same fraction of a substep together.
+constexpr double kAtOnce = 2.5e-4;
+
 template <class Real>
 Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
@@ -18,15 +23,22 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
+// Returns true if a close point neither separates nor is about to bounce.
+template <class Real>
+bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
+  const Real rate = rate_of(w, c, i);
+  return !(rate > 0) && !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
+}
+
 // Returns true if a body is in free flight until its impact, or is not dynamic.
 template <class Real>
-bool flies_freely(const WorldData<Real>& w, int body) {
+bool flies_freely(const WorldData<Real>& w, int body, Real dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
   if (w.scratch.pressed[body] || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     return contact.home == ContactHome::Parked ||
-           (contact.home == ContactHome::Graph && holds(w, w.graph.at({contact.colour, contact.index})));
+           (contact.home == ContactHome::Graph && holds(w, w.graph.at({contact.colour, contact.index}), dt));
   });
 }
 
@@ -40,17 +52,44 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
   append(list, body);
 }
 
-// Leaves bodies that meet two or more dynamic bodies to the solver, which resolves simultaneous impacts
-// together.
+// Returns the time until a contact's first point closes, s, as its bodies move now.
 template <class Real>
-void leave_crowds(WorldData<Real>& w) {
+Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  Real first = std::numeric_limits<Real>::infinity();
+  for (int i = 0; i < c.count; ++i) {
+    const Real rate = rate_of(w, c, i);
+    if (rate < 0) first = std::min(first, std::max(-c.separation[i] / rate, Real(0)));
+  }
+  return first;
+}
+
+// Leaves bodies whose first impact is with two or more dynamic bodies at once to the solver, which resolves
+// simultaneous impacts together. Impacts one after the other are placed at their times in flight: those
+// after a body's first may not come about, or at another time.
+template <class Real>
+void leave_simultaneous(WorldData<Real>& w, Real dt) {
   std::vector<char>& met = w.scratch.expecting;
+  std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
+  if (earliest.size() < w.motion.size()) make_room(earliest, static_cast<int>(w.motion.size()));
   const auto is_dynamic = [&](const ContactConstraint<Real>& c) {
     return w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
   };
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
     if (!is_dynamic(impact.constraint)) continue;
+    const Real time = time_until(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
+      const bool first = met.size() <= static_cast<std::size_t>(body) || !met[body];
+      earliest[body] = first ? time : std::min(earliest[body], time);
+      if (first) note(w, w.scratch.expecting_bodies, met, body);
+    }
+  }
+  for (const int body : w.scratch.expecting_bodies) met[body] = 0;
+  w.scratch.expecting_bodies.clear();
+  for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+    if (!is_dynamic(impact.constraint)) continue;
+    const Real time = time_until(w, impact.constraint);
+    for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
+      if (time > earliest[body] + Real(kAtOnce) * dt) continue;
       if (met.size() > static_cast<std::size_t>(body) && met[body]) {
         note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
       } else {
@@ -65,13 +104,23 @@ void leave_crowds(WorldData<Real>& w) {
 }  // namespace
 
 template <class Real>
-bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
   const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
   const Real rounding = rounding_between(w, c.body_a, c.body_b);
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
-    if (c.separation[i] <= near && !(rate_of(w, c, i) > 0)) return true;
+    if (c.separation[i] <= near && lies_on(w, c, i, dt)) return true;
   }
+  return false;
+}
+
+template <class Real>
+bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+  if (has_pressed(c)) return true;
+  if (c.watched != Watch::Motion) return holds(w, c, dt);
+  const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+  for (int i = 0; i < c.count; ++i)
+    if (c.now[i] <= near && lies_on(w, c, i, dt)) return true;
   return false;
 }
 
@@ -110,11 +159,11 @@ void note_pressed(WorldData<Real>& w, int body_a, int body_b) {
 }
 
 template <class Real>
-void decide_expected_impacts(WorldData<Real>& w) {
+void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   std::vector<ExpectedImpact<Real>>& impacts = w.scratch.expected_impacts;
   if (impacts.empty()) return;
   if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
-  leave_crowds(w);
+  leave_simultaneous(w, dt);
   // If an impact is left to the solver, its bodies may no longer be in free flight, which may affect further
   // impacts.
   bool more = true;
@@ -122,7 +171,7 @@ void decide_expected_impacts(WorldData<Real>& w) {
     more = false;
     for (ExpectedImpact<Real>& impact : impacts) {
       const ContactConstraint<Real>& c = impact.constraint;
-      if (impact.left || (flies_freely(w, c.body_a) && flies_freely(w, c.body_b))) continue;
+      if (impact.left || (flies_freely(w, c.body_a, dt) && flies_freely(w, c.body_b, dt))) continue;
       impact.left = more = true;
       note_pressed(w, c.body_a, c.body_b);
     }
@@ -135,12 +184,13 @@ void decide_expected_impacts(WorldData<Real>& w) {
 }
 
 #define PLUMB_FOR(Real)                                                                                    \
-  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                             \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                       \
+  template bool has_held(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                    \
   template void clear_expected_impacts(WorldData<Real>&);                                                  \
   template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
                             const ContactConstraint<Real>&, Real);                                         \
   template void note_pressed(WorldData<Real>&, int, int);                                                  \
-  template void decide_expected_impacts(WorldData<Real>&);
+  template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

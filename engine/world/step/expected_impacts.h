@@ -5,9 +5,16 @@
 
 namespace plumb {
 
-/// Returns true if a contact with points holds its bodies: it has an impulse, or touches without separating.
+/// Returns true if a contact with points holds its bodies at the start of a step of `dt`: it has an impulse,
+/// or touches and will neither separate nor bounce.
 template <class Real>
-bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c);
+bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
+
+/// Returns true if a contact has held its bodies in a step, after the solver: it has pressed, or touches now
+/// and will neither separate nor bounce. Discs carry a separation along the normal at which they meet, which
+/// is not the one at the step's start.
+template <class Real>
+bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
 
 /// Clears the expected impacts of the step before.
 template <class Real>
@@ -27,6 +34,6 @@ void note_pressed(WorldData<Real>& w, int body_a, int body_b);
 /// body, the contact has no points in this step. The bodies then rebound at the time of impact
 /// (continuous.cpp). All other impacts are marked as left to the solver.
 template <class Real>
-void decide_expected_impacts(WorldData<Real>& w);
+void decide_expected_impacts(WorldData<Real>& w, Real dt);
 
 }  // namespace plumb

@@ -90,7 +90,7 @@ template <class Real, class Found>
   const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
   const bool expected = expects && w.scratch.expecting[body];
   const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
-  if (!is_finite_motion(motion) || (fast && !is_sound_motion(motion))) {
+  if (!is_finite_motion(motion) || (fast && !(is_sound_motion(motion) && stays_in_range(w, body)))) {
     found.find_nonfinite(body);
     return;
   }

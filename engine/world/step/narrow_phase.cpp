@@ -117,13 +117,14 @@ template <class Real>
 bool begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   update_load_estimate(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
-  if (!c.watched) return false;
+  if (c.watched == Watch::Off) return false;
   c.peak_impulse[0] = c.peak_impulse[1] = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
+  if (c.watched == Watch::Reports) return false;
   // A single point with a fast approach may belong to two discs, whose normal will rotate.
   const Real travel = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
   return c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel);
@@ -135,18 +136,15 @@ void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touchi
   const ContactRecord& contact = w.contacts[c.contact];
   set_touching(w, c.contact, touching);
   c.touching = touching;
-  c.watched = records_impact(contact, c);
-  if (!c.watched) c.approach[0] = c.approach[1] = 0;
+  c.watched = watch_of(contact, c);
+  if (c.watched == Watch::Off) c.approach[0] = c.approach[1] = 0;
 }
 
 template <class Real>
 bool touches(const ContactConstraint<Real>& c) {
   const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
   // A contact that bounced off within a step has touched, too.
-  const auto touch = [&](int i) {
-    return c.separation[i] <= near_enough || c.normal_impulse[i] > 0 || (c.watched && c.peak_impulse[i] > 0);
-  };
-  return touch(0) || (c.count == 2 && touch(1));
+  return c.separation[0] <= near_enough || (c.count == 2 && c.separation[1] <= near_enough) || has_pressed(c);
 }
 
 template <class Real>
@@ -468,7 +466,7 @@ void collect_changes(WorldData<Real>& w) {
 // Passes predicted impacts that do not bounce in free flight to the solver.
 template <class Real>
 void settle_expected_impacts(WorldData<Real>& w, Real dt) {
-  decide_expected_impacts(w);
+  decide_expected_impacts(w, dt);
   w.scratch.left_impacts.clear();
   for (ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
     ContactConstraint<Real>& c = impact.constraint;
@@ -530,7 +528,7 @@ void report_impacts(WorldData<Real>& w) {
   for (const int id : w.scratch.bouncing) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
-    if (struck(c)) set_touching(w, id, true), c.touching = true;
+    if (struck(c)) set_touching(w, id, true);
   }
   if (!w.reports_hits) return;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
@@ -540,7 +538,6 @@ void report_impacts(WorldData<Real>& w) {
     const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
     if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least) return;
     set_touching(w, c.contact, true);
-    c.touching = true;
     const ContactReading reading = reading_of(w, contact, c);
     w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
                             -static_cast<double>(c.approach[hardest])});
