@@ -29,7 +29,7 @@ TYPED_TEST_SUITE(Threads, Precisions);
 // A room into which bodies of all kinds fall, more than fit into a block of any loop: with restitution,
 // rolling, joints of several kinds, heavy on light, small and fast, and a paddle that comes down and turns.
 template <class Real>
-void fill_room(BasicWorld<Real>& world, int count) {
+void fill_room(BasicWorld<Real>& world, int count, double speed = 60) {
   std::mt19937 from(11);
   const auto between = [&](double low, double high) {
     return low + (high - low) * (static_cast<double>(from()) * 0x1p-32);
@@ -54,7 +54,7 @@ void fill_room(BasicWorld<Real>& world, int count) {
                                              .rolling_resistance = i % 3 == 0 ? 0.05 : 0.0}};
     const BodyId body = world.create_body({.position = {-9.5 + 0.6 * (i % 32), 0.5 + 0.6 * (i / 32)},
                                            .angle = between(0, 6),
-                                           .velocity = {0, i % 17 == 0 ? -60.0 : -2.0}},
+                                           .velocity = {0, i % 17 == 0 ? -speed : -2.0}},
                                           shape);
     if (i % 5 == 4)
       world.create_joint(last, body, {.kind = DistanceDefinition{.length = 0.7, .spring = Spring{4, 0.5}}});
@@ -99,6 +99,27 @@ TYPED_TEST(Threads, EachSolverHasTheSameBitsForEachNumber) {
     };
     const std::uint64_t alone = run_room(1);
     for (const int threads : {2, 3}) EXPECT_EQ(run_room(threads), alone) << threads << " threads";
+  }
+}
+
+// Joints pass on what is no number when bodies run away, and quarantine clears it: its sign would depend on how
+// many joints were solved side by side. Without that the hashes part after 8, 15 and 22 steps.
+TYPED_TEST(Threads, RunawaysHaveTheSameBits) {
+  using Real = TypeParam;
+  for (const double speed : {1e8, 1e10, 8e11}) {
+    const auto hashes = [&](int threads) {
+      BasicWorld<Real> world;
+      if (threads > 1) test::share_all(world, threads, LoopOrder::Shuffled);
+      fill_room(world, 300, speed);
+      std::vector<std::uint64_t> all;
+      for (int i = 0; i < 25; ++i) {
+        world.step();
+        all.push_back(full_hash(world));
+      }
+      EXPECT_GT(world.quarantined().size(), 0u);
+      return all;
+    };
+    EXPECT_EQ(hashes(3), hashes(1)) << speed;
   }
 }
 

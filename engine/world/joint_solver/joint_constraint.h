@@ -324,9 +324,17 @@ struct JointConstraint {
     return {linear, angular};
   }
 
-  /// Clears impulses and counts.
+  /// Clears impulses, counts and rows. A step that failed may have left what is no number, which no factor
+  /// clears, and whose sign depends on how many joints were solved side by side.
   void forget() {
-    scale(0);
+    arm_b = {};
+    if constexpr (Rows::kTurn) turn.forget();
+    for (auto& coordinate : axial) coordinate.forget();
+    if constexpr (kBlock > 0) {
+      for (auto& row : block.row) row = {};
+      for (Real& impulse : block.impulse) impulse = 0;
+    }
+    if constexpr (Rows::kPoint) point.impulse = point.drift = {};
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }

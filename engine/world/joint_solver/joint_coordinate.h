@@ -37,6 +37,10 @@ struct JointCoordinate {
   void scale(Real factor) {
     for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
   }
+  void forget() {
+    row = {};
+    for (auto& each : rule) each.impulse = each.drift = 0;
+  }
 
   /// Record the coordinate at the start of a step, and at the end of each substep.
   [[gnu::always_inline]] void start_at(Real q) {
