@@ -102,8 +102,8 @@ TYPED_TEST(Threads, EachSolverHasTheSameBitsForEachNumber) {
   }
 }
 
-// Joints pass on what is no number when bodies run away, and quarantine clears it: its sign would depend on how
-// many joints were solved side by side. Without that the hashes part after 8, 15 and 22 steps.
+// Joints pass on what is no number when bodies run away, and quarantine clears it: its sign would depend on
+// how many joints were solved side by side. Without that the hashes part after 8, 15 and 22 steps.
 TYPED_TEST(Threads, RunawaysHaveTheSameBits) {
   using Real = TypeParam;
   for (const double speed : {1e8, 1e10, 8e11}) {
