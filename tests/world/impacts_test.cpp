@@ -324,8 +324,9 @@ double energy_kept_by_a_gas(unsigned seed) {
   return energy() / before;
 }
 
+// In the last three, discs pass each other closely before one of them meets a wall.
 TEST(Impacts, OfAGasKeepItsEnergy) {
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 25u, 44u, 111u}) {
     EXPECT_NEAR(energy_kept_by_a_gas<float>(seed), 1, 80 * 0x1p-23) << seed;
     EXPECT_NEAR(energy_kept_by_a_gas<double>(seed), 1, 1e-7) << seed;
   }
