@@ -45,6 +45,8 @@ MUTATIONS = [
              "-restitution(touch, index) * closing", "restitution(touch, index) * closing"),
     Mutation("product for the geometric mean", "engine/scene/scene.cpp",
              "return std::sqrt(a * b);", "return a * b;"),
+    Mutation("sequential impulses repeat the feedback of errors", "engine/world/solvers/sequential_impulses.cpp",
+             ".softness = {0, 1, 0},", ".softness = {closing, 1, 0},", "world", ("world/sequential_impulses",)),
     Mutation("contacts side by side: a body keeps the other's velocity", "engine/world/contact_solver/soft_contacts.cpp",
              "if (block->gives_way_b) b.store(pair.vb, pair.wb);", "if (block->gives_way_a) b.store(pair.vb, pair.wb);", "world",
              ("world/side_by_side",)),
