@@ -289,6 +289,7 @@ struct Scratch {
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
   std::vector<char> meets;                         ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
+  std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have got no points
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
   BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on

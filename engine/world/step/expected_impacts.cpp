@@ -84,10 +84,10 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
-                 const ContactConstraint<Real>& c, Real dt) {
+bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;
+  if (!flies || contact.pre_solve) return false;
   const Real nearest = c.count == 2
                            ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
                            : at.manifold.points[0].separation;
@@ -134,12 +134,12 @@ void decide_expected_impacts(WorldData<Real>& w) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                             \
-  template void clear_expected_impacts(WorldData<Real>&);                                                  \
-  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
-                            const ContactConstraint<Real>&, Real);                                         \
-  template void note_pressed(WorldData<Real>&, int, int);                                                  \
+#define PLUMB_FOR(Real)                                                                                 \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&);                          \
+  template void clear_expected_impacts(WorldData<Real>&);                                               \
+  template bool meets_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
+                                const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
+  template void note_pressed(WorldData<Real>&, int, int);                                               \
   template void decide_expected_impacts(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
