@@ -45,6 +45,8 @@ MUTATIONS = [
              "-restitution(touch, index) * closing", "restitution(touch, index) * closing"),
     Mutation("product for the geometric mean", "engine/scene/scene.cpp",
              "return std::sqrt(a * b);", "return a * b;"),
+    Mutation("a hinge lets go of its load before its spring is solved", "engine/world/joint_solver/joint_constraint.h",
+             "if (turn_beside_rigid()) solve_point(v, kRelax);", "if (turn_beside_rigid()) solve_point(v, which);", "world", ("world/springs",)),
     Mutation("world: without restitution corners land together", "engine/world/step/expected_impacts.cpp",
              "if (!flies || contact.pre_solve) return false;", "if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;",
              "world", ("world/landing",)),
