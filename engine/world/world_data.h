@@ -259,6 +259,16 @@ struct JointedIsland {
   bool solved = false;  ///< false: left to iteration
 };
 
+/// A row whose position error is fed back: see solvers/error_feedback.h.
+template <class Real>
+struct FeedbackRow {
+  int body_a = 0, body_b = 0;
+  JointRow<Real> row{};
+  Real speed = 0;  ///< m/s or rad/s, wanted along the row
+  Real mass = 0, impulse = 0;
+  Real least = 0, most = std::numeric_limits<Real>::infinity();  ///< bounds of the impulse
+};
+
 /// Articulated bodies that are moved as such; kept until contacts or joints change.
 template <class Real>
 struct HingeTrees {
@@ -279,6 +289,7 @@ struct Scratch {
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
   std::vector<char> meets;                         ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
+  std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have got no points
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
   BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
@@ -295,6 +306,8 @@ struct Scratch {
   std::vector<Real> lightest, heaviest;
   std::vector<int> island_joints;
   std::vector<JointSolverRow<Real>> joint_rows;
+  std::vector<FeedbackRow<Real>> feedback_rows;
+  std::vector<BodyVelocity<Real>> feedback;  ///< by body
   /// Memory pool of small islands: islands that grow reuse the memory that others release.
   LockedPool room{{.largest_required_pool_block = 1 << 17}};
   std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use

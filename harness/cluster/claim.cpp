@@ -92,7 +92,8 @@ std::optional<double> changed(const std::string& path) {
 
 void touch(const std::string& path) { utimensat(AT_FDCWD, path.c_str(), nullptr, 0); }
 
-// Links `own` to `path`; false if that exists. File systems without links create it.
+// Creates `path` as a hard link to `own`; returns false if it exists. On file systems without links it is
+// created as a file.
 bool put(const std::string& own, const std::string& path) {
   if (link(own.c_str(), path.c_str()) == 0) return true;
   if (errno == EEXIST) return false;
@@ -132,7 +133,7 @@ std::unique_ptr<Claim> Claim::take(const std::string& folder, int number, double
   write_whole(own, content(nonce, host));
   const double now = changed(own).value_or(0);
   bool taken = put(own, path);
-  // Twice: a claim that is taken away may have another's behind it.
+  // Two attempts: when a dead process's claim has been removed, another process may take the unit first.
   for (int i = 0; i < 2 && !taken; ++i) {
     const std::string text = text_of(path);
     const bool over = is_over(path, text, now, expiry);

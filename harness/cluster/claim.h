@@ -5,13 +5,14 @@
 
 namespace plumb::harness::cluster {
 
-/// A process's claim to a unit: a file in claims/ that a link creates, so that one of several gets it. Claims
-/// spare work, no more: a unit that two do after all is renamed to its place by the first alone.
+/// A process's claim to a unit: a file in claims/, created by a link so that only one process gets it.
+/// Claims only save work. If two processes do the same unit after all, the results that are renamed into
+/// place first count.
 class Claim {
  public:
-  /// Takes the claim to a unit. Returns nothing if another holds it: one whose process lives, as far as can
-  /// be known, and that was renewed within `expiry` s by the clock of the file system. With `force` it takes
-  /// it from whoever holds it. `died` is set if it was a dead one's. Throws `Error` (Io).
+  /// Takes the claim to a unit. Returns nothing if another process holds it: one that lives, as far as can
+  /// be known, and has renewed its claim within `expiry` s by the file system's clock. With `force` the
+  /// claim is taken from any holder. `died` is set if the previous holder was dead. Throws `Error` (Io).
   static std::unique_ptr<Claim> take(const std::string& folder, int number, double expiry, bool force,
                                      bool& died);
   Claim(const Claim&) = delete;
@@ -26,7 +27,8 @@ class Claim {
   std::string path_, nonce_;
 };
 
-/// Removes what dead processes have left of claims: to units that are done, and while they took one.
+/// Removes the files that dead processes left in claims/: claims to units that are done, and temporary
+/// files.
 void remove_dead_claims(const std::string& folder, double expiry);
 
 /// Returns true if a unit is claimed by a process that lives, as far as this machine's clock can tell.

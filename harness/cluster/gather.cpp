@@ -118,7 +118,7 @@ bool for_each_line(const fs::path& path, const std::function<void(const std::str
   return begin < text.size();
 }
 
-// Adds the kind of machine to a line's environment, where the processor's name is not it.
+// Adds the kind of machine to a line's environment, if it is not the processor's name.
 std::string with_machine(const std::string& line, const Machine& machine) {
   if (machine.kind == machine.cpu) return line;
   Json json = Json::parse(line, nullptr, false);
@@ -203,7 +203,7 @@ class Merger {
   std::unordered_map<std::string, std::pair<std::size_t, int>> seen_;
 };
 
-// Merges hunts of several seeds: their scenes are counted on.
+// Merges hunts of several seeds; their scenes are numbered in one sequence.
 void gather_hunts(const std::string& folder, const fs::path& out, Gathered& gathered) {
   std::vector<hunt::Found> findings;
   for (const Done& done : gathered.survey.done) {
@@ -237,7 +237,7 @@ void gather_hunts(const std::string& folder, const fs::path& out, Gathered& gath
   write_whole((out / "kinds.json").string(), hunt::kinds_json(gathered.hunt) + "\n");
 }
 
-// Copies what is no list of runs: pages and pictures.
+// Copies the files that are not lists of runs: pages and pictures.
 void copy_files(const std::string& folder, const Done& done, const fs::path& out) {
   for (const auto& [name, bytes] : done.bytes)
     write_whole((out / name).string(), read_text(path_in(folder, "done", done.number) + "/" + name));
@@ -331,7 +331,7 @@ Gathered gather(const std::string& folder, const Plan& plan, const std::string& 
   });
   remove_dead_claims(folder, expiry);
   Gathered gathered{.survey = survey(folder, plan, expiry)};
-  // Of a unit that was measured again, the least disturbed attempt counts.
+  // If a unit was measured several times, the least disturbed attempt counts.
   std::vector<const Done*> counted;
   for (const auto& [number, best] : least_disturbed(plan, gathered.survey)) counted.push_back(best);
   for (const Format& format : kFormats) {

@@ -31,7 +31,7 @@ struct Survey {
   std::vector<int> missing() const;  ///< in order
 };
 
-/// `expiry`: s after which a claim counts as a dead one's.
+/// `expiry`: age in s from which a claim counts as that of a dead process.
 Survey survey(const std::string& folder, const Plan& plan, double expiry);
 
 struct Gathered {
@@ -46,9 +46,9 @@ struct Gathered {
   hunt::Hunted hunt{};
 };
 
-/// Writes the results of the units that are done to `out`, in the order of the plan; each file as a whole or
-/// not at all. Several may run at once: they take turns where the file system has locks, and the last is
-/// whole elsewhere. Throws `Error` (Io).
+/// Writes the results of the units that are done to `out`, in the order of the plan; each file is replaced
+/// as a whole. Several processes may do this at once: with file locks they take turns, without them the
+/// last one's files remain. Throws `Error` (Io).
 Gathered gather(const std::string& folder, const Plan& plan, const std::string& out, double expiry);
 
 /// State as JSON: of `plumb status`, and gathered.json.

@@ -21,7 +21,7 @@ std::string partition_line(const JobOptions& options) {
   return options.partition.empty() ? "" : fmt::format("#SBATCH --partition={}\n", options.partition);
 }
 
-// Goes on with what the results call for.
+// Returns the lines of a script that plan the next round and submit it.
 std::string further_text(const Plan& plan, const JobOptions& options, const std::string& how) {
   return fmt::format(
       R"(# What the results call for: the costs of a sweep, units that were disturbed. Exit code 3: nothing.

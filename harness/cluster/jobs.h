@@ -23,7 +23,7 @@ struct JobOptions {
   std::string exclude;    ///< Slurm's nodes that disturbed these units, parted by commas
 };
 
-/// Number of units that a task of the array does one after the other, so that there are at most `kMostTasks`.
+/// Units per task of the array, one after the other, so that there are at most `kMostTasks` tasks.
 int units_a_task(std::size_t units);
 
 /// Time limit in s: three times the estimate of the longest task, and two minutes.

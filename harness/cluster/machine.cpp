@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kNoise = 1.25;
-// Swings of as many pendulums as half a first-level cache (16 kB) holds, for about 2 ms on a processor of
+// Pendulums that fill half of a first-level cache (16 kB), and their steps: about 2 ms on a processor of
 // 2020.
 constexpr int kPendulums = 1024, kSteps = 400;
 

@@ -65,7 +65,7 @@ std::set<int> given_up(const std::string& folder, const Survey& survey) {
   return out;
 }
 
-// Adds the units that all of their predecessors have ended for.
+// Adds the units whose predecessors have all ended.
 void add_further(const std::string& folder, const Plan& plan, const Survey& survey, NextRound& out) {
   std::set<int> done, over = given_up(folder, survey);
   for (const Done& one : survey.done) done.insert(one.number);

@@ -16,10 +16,9 @@ struct NextRound {
   int again = 0;    ///< of these: measured again, because others disturbed the first time
 };
 
-/// Goes on from what is done. Where all units with the same `then` are done, or given up, it adds that unit,
-/// with
-/// "--from" and the folder of each. Units that measure costs and were disturbed are measured again on hosts
-/// that did not disturb them, at most `kAttempts` times in all.
+/// Plans the next round. If all units with the same `then` are done or given up, adds the unit that `then`
+/// describes, with "--from" and the folder of each. Adds repetitions of units that measure costs and were
+/// disturbed, on hosts that did not disturb them, at most `kAttempts` times in all.
 NextRound next_round(const std::string& folder, const Plan& plan, const Survey& survey);
 
 /// Returns by number the attempt whose results count, of a unit and its repetitions: the first that was not

@@ -109,7 +109,7 @@ void note_failure(const std::string& folder, int number, const std::string& kind
   failure.kind = kind;
   failure.message = message;
   failure.host = this_machine().host;
-  // Throws where the disk is full: who cannot write down a failure would try for ever.
+  // Throws if the disk is full: a worker that cannot record its failure would retry for ever.
   write_whole(path_in(folder, "failed", number) + ".json", to_json(failure));
 }
 
@@ -124,7 +124,7 @@ void sync(const std::string& path, int flags) {
                 fmt::format("cannot be written: {}", std::strerror(why)));
 }
 
-// Brings a folder's files to the disk; returns the sizes of results.
+// Flushes a folder's files to the disk; returns the sizes of the results.
 std::map<std::string, std::uintmax_t> keep_files(const fs::path& folder) {
   std::map<std::string, std::uintmax_t> out;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -142,7 +142,7 @@ bool put_in_place(const std::string& from, const std::string& to, bool replace) 
     throw Error(Error::Kind::Io, fmt::format("folder '{}'", to), "", "",
                 fmt::format("cannot be written: {}", std::strerror(errno)));
   if (!replace) return false;
-  // One call exchanges the two: at no time is there no result.
+  // One call exchanges the two, so that results exist at every instant.
   return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0;
 }
 
@@ -262,7 +262,7 @@ std::optional<int> Queue::next(Worked& worked) {
       return unit->number;
     }
   }
-  // A few, drawn anew each time: a thousand that wait together look at all of them.
+  // Looks at a few, chosen at random: otherwise a thousand waiting workers would all look at all of them.
   std::shuffle(claimed.begin(), claimed.end(), random_);
   claimed.resize(std::min(claimed.size(), kLookedAt));
   for (const Unit* unit : claimed) {

@@ -26,13 +26,14 @@ enum class Worked {
   Interrupted,  ///< it is free again
 };
 
-/// Does one unit: in a folder of its own, renamed when complete. `force`: whoever has the claim. Throws
-/// `Error` (Io) if the folder of work cannot be written, not even that the unit failed.
+/// Does one unit in a folder of its own, which is renamed when complete. With `force` the claim is taken
+/// from any holder. Throws `Error` (Io) if the folder of work cannot be written, so that not even the
+/// failure can be recorded.
 Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
                bool force);
 
-/// Chooses units one after the other, the longest first; then those whose claims may be dead ones'. One that
-/// is better done on another host is left to others while any are at work.
+/// Chooses units one after the other: the longest first, then those whose claims may belong to dead
+/// processes. A unit that is better done on another host is left to others as long as any are at work.
 class Queue {
  public:
   Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);

@@ -29,12 +29,12 @@ struct Unit {
   int repeats = 0;  ///< a unit that it measures again, because others disturbed that; 0: none
   int attempt = 0;  ///< how often it has been measured before, of one that repeats
   std::vector<std::string> avoid{};  ///< hosts on which it was disturbed
-  /// Arguments of the unit that goes on from this one and all others with the same, in the next round.
+  /// Arguments of the unit for the next round that follows this one and all others with the same `then`.
   std::vector<std::string> then{};
   double then_seconds = 0;  ///< estimated wall time of that
 };
 
-/// Program that a plan was made with, and that its units must be done with.
+/// Program that made a plan; its units must be done with the same.
 struct Program {
   std::string path, hash, version, commit;
   std::map<std::string, std::string> engines{};  ///< version of each installed engine

@@ -51,7 +51,7 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::string_view kQuantityNames[] = {
     "x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity", "drift"};
 
-/// Need of an expectation: masses and inertias must be those of its composition.
+/// Requirement of an expectation: masses and inertias are those of the composition.
 inline constexpr std::string_view kMasses = "masses";
 
 /// Property of the motion that is known from a scene's composition.

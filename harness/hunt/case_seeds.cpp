@@ -24,7 +24,7 @@ constexpr std::string_view kPrefix = "expected ";  // of the checks of a file's 
 constexpr double kLongest = 10;                    // s, of a variation
 constexpr rlim_t kSeconds = 10;                    // of processor time, of Precise
 
-// Steps at most as long as the usual one: what a file expects of that is expected of them.
+// Draws steps no longer than the usual one, so that the file's expectations still apply.
 void draw_finer_steps(Draft& draft) {
   Case& out = draft.out;
   const double duration = out.steps * out.dt;
@@ -151,7 +151,7 @@ Verdict case_file_verdict(const Case& one, const Engine& engine) {
   if (one.case_file.empty() || !one.actions.empty() || !one.sensors.empty()) return {};
   const scenarios::Instance& instance = instance_of(one.case_file);
   const scenarios::Problem problem = instance.build();
-  // A case that was made small is no longer the file's.
+  // A shrunk case no longer has the file's scene.
   if (!(problem.scene == one.scene) || one.steps * one.dt < problem.duration - 1e-9) return {};
   std::string what;
   const auto check = [&] { return missed(one, *engine.backend, instance); };

@@ -17,7 +17,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-/// Mixes words into a hash: FNV-1a with the upper half folded down, which products do not carry.
+/// Mixes words into a hash: FNV-1a, with the upper half folded into the lower, which its products do not
+/// reach.
 class Mixer {
  public:
   void add(std::uint64_t word) {

@@ -33,14 +33,14 @@ struct Digest {
 template <class Real>
 Digest digest_of(const BasicWorld<Real>& world);
 
-/// Returns settings of which none is that of `definition`.
+/// Returns settings that all differ from those of `definition`.
 WorldDefinition contrary(const WorldDefinition& definition);
 
 /// Puts bodies, a joint and a force into a world and steps it, so that there is something to replace.
 template <class Real>
 void litter(BasicWorld<Real>& world);
 
-/// Calls what reads a world: queries, readings, definitions, snapshots.
+/// Makes the calls that only read a world: queries, readings, definitions, snapshots.
 template <class Real>
 void look_at(const BasicWorld<Real>& world);
 

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSceneSeconds = 60;  // of processor time, as is kRunSeconds
 constexpr rlim_t kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
-// Stands for a law: a scene whose process died is examined again, each engine on its own.
+// Replaces the law in a task whose scene's process died: each engine is then examined alone.
 constexpr std::uint64_t kCrashed = 0xFF;
 
 /// A task packed into a number: a scene, or one finding in it to be shrunk.

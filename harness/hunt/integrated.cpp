@@ -13,11 +13,11 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Steps of the integration a sample, and twice as many to know its error, which is to stay below a tenth of
-// the bound.
+// Integration steps per sample. Twice as many give the error, which must stay below a tenth of the bound.
 constexpr int kSteps = 48;
 constexpr double kKnown = 0.1;
-// Precise: errors of its tolerance that grow a thousandfold stay below this part of the scene's size.
+// For Precise: the bound, as a fraction of the scene's size, and the largest growth of perturbations for
+// which errors of its tolerance stay below that.
 constexpr double kPreciseShare = 1e-5, kGrown = 1000;
 constexpr double kSteady = 0.25;  // of the bound, the most that a fixed step may change with half of it
 constexpr double kShare = 0.05;   // of the smallest body, of methods of first order
@@ -105,7 +105,7 @@ class Free {
     loads.force[body] += force;
     loads.torque[body] += arm.x * force.y - arm.y * force.x;
   }
-  // Within a part between switches a force acts, or does not, as in the part's middle.
+  // A force acts during a whole part between switches or not at all, so the part's middle decides.
   bool acts(double start, double duration) const { return middle_ >= start && middle_ < start + duration; }
 
   void add(const LinearDrag& law, const std::vector<BodyState>& y, double, Loads& out) const {
@@ -199,7 +199,7 @@ bool may_meet(const Case& one, const std::vector<BodyState>& states) {
 
 double bound_of(const Case& one, const Engine& engine, double fastest, double hardest, double time) {
   if (engine.kind == Engine::Kind::Precise) return kPreciseShare * largest_size(one.scene);
-  // Displacement of three steps, and velocities a step late.
+  // Allows the displacement of three steps, and that of velocities that are one step late.
   return kShare * largest_size(one.scene) + 3 * one.dt * fastest + one.dt * hardest * time;
 }
 
@@ -240,7 +240,7 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     if (!(distance(coarse, fine) <= kKnown * bound)) return {};
     const double off = distance(motion.samples[k].states, fine);
     if (off <= bound) continue;
-    // The step halves a first-order error: what changes with half the step is not known that well.
+    // With half the step a first-order error halves: the motion is known no better than what then changes.
     if (engine.kind != Engine::Kind::Precise) {
       const std::vector<double> change = apart(one, motion, run(engine, one, {.refine = 2}));
       if (k >= change.size() || change[k] > kSteady * bound) return {};

@@ -29,7 +29,7 @@ struct Law {
   Verdict (*judge)(const Case& one, const Engine& engine, const Motion& motion);
 };
 
-/// Returns the laws in the order of evaluation: the first that objects speaks for the run.
+/// Returns the laws in the order of evaluation; a run is reported for the first that objects.
 const std::vector<Law>& laws();
 
 // The laws. docs/hunting.md gives the source of each bound.

@@ -31,7 +31,7 @@ Accuracy accuracy_of(const Case& one, const Engine& engine) {
 
 int steps_of(const Case& one) { return std::min(one.steps, kMostSteps); }
 
-/// Runs a check that returns what is wrong, or an empty text. An error of the run itself is not its matter.
+/// Runs a check that returns an objection, or an empty text. Errors of the run itself are not judged here.
 Verdict judged(const Case& one, const Engine& engine, const char* name, const char* right,
                const std::function<std::string()>& check) {
   const auto checked = [&]() -> std::string {
@@ -58,7 +58,7 @@ Verdict judged(const Case& one, const Engine& engine, const char* name, const ch
   return Objection{.law = name, .judge = name, .what = what, .right = right, .time = one.steps * one.dt};
 }
 
-/// Returns true if states are equal but for the rounding of putting a body to its pose.
+/// Returns true if states are equal up to the rounding of setting a pose.
 bool is_about(const BodyState& a, const BodyState& b) {
   const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-12 * (1 + std::abs(x)); };
   return near(a.position.x, b.position.x) && near(a.position.y, b.position.y) && near(a.angle, b.angle) &&

@@ -15,7 +15,7 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 constexpr std::array<double, 10> kRungs{1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8};
-// Literals are rounded once; a product of tens would be rounded at each factor.
+// Literals, which are rounded once; a product of tens would be rounded at each factor.
 constexpr std::array<double, 19> kTens{1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1,
                                        1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9};
 

@@ -15,8 +15,8 @@ constexpr double kPerturbation = 1e-6;
 // Largest distance between equal motions, as a fraction of the largest body; perturbations must stay below
 // kCalm of that.
 constexpr double kShare = 0.1, kCalm = 0.01;
-// kSampled: the same, for an engine with a tolerance of 1e-9. kGrown: largest growth of perturbations; errors
-// of the tolerance then stay below a hundredth of kSampled.
+// kSampled: the same distance for an engine with a tolerance of 1e-9. kGrown: largest growth of
+// perturbations, so that errors of the tolerance stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
 constexpr double kTighter = 1e-11;  // for Precise, whose usual one is 1e-9
 constexpr double kShift = 64;       // m, a power of two

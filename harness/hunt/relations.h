@@ -20,8 +20,8 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion);
 Verdict integrated_relation(const Case& one, const Engine& engine, const Motion& motion);
 
-/// Returns true if the motion up to the first contact is integrated here: forces, and neither joints nor
-/// locks.
+/// Returns true if the harness itself can integrate the motion up to the first contact: there are forces,
+/// but no joints or locks.
 bool integrable(const Case& one);
 
 /// Returns the distance of two motions at each sample, m: that of the dynamic body that is farthest off,

@@ -178,13 +178,13 @@ class Shrinker {
       if (reach(best_) == value) return;
       any = try_change([&](Case& one) { reach(one) = value; }) || any;
     };
-    // The figures of expectations that need the masses depend on the weights and the step.
+    // Expectations that need the masses have figures that depend on the weights and the step.
     const bool bare = !needs_masses(best_);
     if (bare) set([](Case& one) -> double& { return one.dt; }, 1.0 / 60);
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
     if (bare) set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
-    // A scene without gravity stays so, or the two would alternate.
+    // A scene without gravity keeps none; otherwise the two changes would alternate.
     if (bare && !(best_.scene.gravity == Vec2d{0, 0}))
       set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {

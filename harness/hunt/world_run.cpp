@@ -128,12 +128,12 @@ class WithWidth {
   VectorWidth before_ = vector_width();
 };
 
-// Every so many steps one is short, where digests are compared.
+// Interval, in steps, of shorter steps; used where digests are compared.
 constexpr int kBetweenShort = 3;
-// Steps that a world is taken ahead before it is rolled back, and steps between two such excursions.
+// Steps that a world runs ahead before it is rolled back, and interval, in steps, of such rollbacks.
 constexpr int kAhead = 3, kBetween = 4;
-// Steps between two restores, and between two looks or series of refused calls, which cost as much as a step
-// or more.
+// Intervals, in steps, of restores, of reading everything, and of refused calls. Each costs as much as a
+// step or more.
 constexpr int kBetweenRestores = 9, kBetweenLooks = 5, kBetweenRefusals = 40;
 
 template <class Real>
@@ -196,13 +196,13 @@ class Run {
     return out;
   }
 
-  // Returns the length of a step, s. Some are a quarter when digests are compared: a world then depends on
-  // the step before, as games do that step by the time that has passed.
+  // Returns the length of a step, s. Some are a quarter when digests are compared, because steps of varying
+  // length, as in games, make a world depend on the step before.
   double step_of(int step) const {
     return options_.digests && step % kBetweenShort == kBetweenShort - 1 ? 0.25 * case_.dt : case_.dt;
   }
 
-  // Puts on what a guise needs from the start.
+  // Applies the parts of a guise that are there from the start.
   void prepare() {
     if (options_.guise == Guise::Threaded) world_.data().crew.set_eager(true);
     if (options_.guise == Guise::Observed) monitor_.emplace(world_), world_.set_profiling(true);
@@ -210,7 +210,7 @@ class Run {
     if (options_.guise == Guise::Labelled) label(world_);
   }
 
-  // Does after a step what a guise is about.
+  // Applies the parts of a guise that follow a step.
   void after(int step, Motion& out) {
     if (options_.guise == Guise::Restored && step % kBetweenRestores == kBetweenRestores - 1) {
       BasicWorld<Real> other(contrary(definition()));
@@ -247,7 +247,8 @@ class Run {
       out.present[i] = bodies_[i].has_value();
       if (out.present[i]) {
         out.states[i] = world_.state(*bodies_[i]);
-        // A scene's static bodies are placed by origins that need not be the centres of their shapes.
+        // Static bodies of a scene are placed by their origins, which need not be the centres of their
+        // shapes.
         if (case_.scene.bodies[i].type == BodyType::Static)
           out.states[i].position = world_.position(*bodies_[i]);
         out.asleep[i] = world_.type(*bodies_[i]) == BodyType::Dynamic && !world_.awake(*bodies_[i]);

@@ -86,8 +86,8 @@ std::vector<MeasuredDrop> read_drops(const std::string& path) {
   read_table(path, {"drop", "x", "y", "angle"}, [&](const std::vector<double>& v) {
     const int number = static_cast<int>(v[0]);
     if (out.empty() || out.back().number != number) out.push_back({number, {}});
-    // The file's angles run clockwise: only so do the impulses at the lowest corner, which the changes of the
-    // velocity give, turn the square as it was seen to turn.
+    // The file's angles run clockwise. Only with that sign do the impulses at the lowest corner, computed
+    // from the change of velocity, explain the square's rotation.
     out.back().frames.push_back({{v[1], v[2]}, -v[3]});
   });
   return out;

@@ -5,8 +5,8 @@
 
 #include "engine/math/vec2.h"
 
-/// Measured motions of real bodies, which plumb does not bring along: docs/reality.md says what they are,
-/// who made them and where to get them.
+/// Measured motions of real bodies. They are not part of plumb: docs/reality.md says what they are, who
+/// made them and where to get them.
 namespace plumb::harness::reality {
 
 /// One impact of an ellipse on a floor, by motion capture. SI units, y up, angles counter-clockwise.

@@ -9,11 +9,11 @@ namespace {
 /// m/s^2, where it was measured to three digits.
 constexpr double kGravity = 9.81;
 
-/// Frames before the first impact that a start is taken from, at most and at least.
+/// Largest and smallest number of frames before the first impact from which a start is computed.
 constexpr int kMostFrames = 8, kLeastFrames = 4;
 
-/// m/s by which the vertical velocity rises from one frame to the next where an impact lies between them.
-/// Free fall takes it down by 0.04 m/s, the slowest first impacts of these drops turn it by 1 m/s.
+/// m/s: rise of the vertical velocity from one frame to the next that shows an impact between them. Free
+/// fall lowers it by 0.04 m/s; the slowest first impacts of these drops raise it by 1 m/s.
 constexpr double kRise = 0.1;
 
 /// Returns the last frame before the first impact's influence on the measured positions; -1 if there is none.

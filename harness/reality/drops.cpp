@@ -18,7 +18,7 @@ namespace {
 /// digits.
 constexpr double kExact = 1e-9, kFitted = 1e-5;
 
-/// Drops that a law is fitted on, of the training half, and evaluations of all of them.
+/// Number of drops of the training half that a law is fitted on, and of evaluations with them.
 constexpr std::size_t kFittedDrops = 120;
 constexpr int kEvaluations = 240;
 
@@ -27,7 +27,8 @@ constexpr std::array<double, 2> kSteps{1.0 / 250, 1.0 / 1000};
 /// Poses of a drop at its times; nothing where it was not finished.
 using Poses = std::optional<std::array<MeasuredPose, kTimes.size()>>;
 
-/// Returns the time of the first touch after the start, s: of the flight's parabola, so of no law.
+/// Returns the time of the first touch after the start, s, from the parabola of the flight: it depends on
+/// no law.
 double first_touch(const BodyState& start, std::span<const double> values, double gravity) {
   const auto height = [&](double t) {
     const double angle = start.angle + values[2] + start.angular_velocity * t;
@@ -45,8 +46,8 @@ double first_touch(const BodyState& start, std::span<const double> values, doubl
   return after;
 }
 
-/// Frames after the start that are nearest to the times after the first touch: engines read there without
-/// anything between their steps being made up.
+/// Returns the frames after the start that are nearest to the times after the first touch, so that no
+/// engine's state between its steps has to be interpolated.
 std::array<int, kTimes.size()> frames_of(const DropStart& start, const Scene& scene,
                                          std::span<const double> values) {
   const double touch = first_touch(start.state, values, scene.gravity.y);
@@ -100,7 +101,7 @@ Poses run(const reference::Backend& engine, const DropStart& start, const DropLa
   return out;
 }
 
-/// Returns the measured poses, as long after the computed ones as the delay says.
+/// Returns the measured poses, which are later than the computed ones by the delay.
 Poses measured(const DropStart& start, const DropLaw& law, std::span<const double> values) {
   const auto frames = frames_of(start, scene_of(start, law, values), values);
   std::array<MeasuredPose, kTimes.size()> out;
@@ -157,8 +158,8 @@ Differences differences(const std::vector<Poses>& a, const std::vector<Poses>& b
   return out;
 }
 
-/// Returns the mean over the times of the logarithm of the middle half's mean error: each time weighs the
-/// same, although errors grow.
+/// Returns the mean over the times of the logarithm of the middle half's mean error, so that each time has
+/// the same weight although errors grow.
 double loss(std::span<const DropStart* const> drops, const DropLaw& law, std::span<const double> values) {
   const std::vector<Poses> found =
       for_each(drops, [&](const DropStart& drop) { return solve(drop, law, values, kFitted); });

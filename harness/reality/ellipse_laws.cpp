@@ -20,8 +20,8 @@ const Parameter kTangential{"tangential restitution", "", 0.1, 0.05, 0, 1};
 const Parameter kExponent{"exponent", "", 0.25, 0.1, 0, 2};
 const Parameter kSlope{"restitution along the floor", "1/m", 0, 0.3, -4, 4};
 
-/// Speed beyond which restitution falls, m/s: below all that were measured, so that only the exponent and the
-/// coefficient at this speed are left to fit.
+/// Speed beyond which restitution falls, m/s. It is below all that were measured, so that only the exponent
+/// and the coefficient at this speed remain to be fitted.
 constexpr double kYieldSpeed = 2;
 
 /// Place from which restitution along the floor is counted, m: about the middle of the impacts, so that the

@@ -52,7 +52,8 @@ class Simplex {
   }
 
  private:
-  /// Evaluates the point that lies `factor` times as far beyond the middle of the others as the worst before.
+  /// Evaluates a point on the line from the worst corner through the middle of the others, at `factor`
+  /// times the worst one's distance beyond it.
   Fit beyond(const std::vector<Fit>& corners, double factor) {
     std::vector<double> point(parameters_.size());
     const double others = static_cast<double>(corners.size() - 1);

@@ -39,7 +39,7 @@ int name_width(std::span<const Cell> cells) {
   return static_cast<int>(width);
 }
 
-/// Scenes that survived with at least one of the cells added.
+/// Counts the scenes that an engine survived with at least one of several settings.
 class Tally {
  public:
   void add(const Cell& cell) {

@@ -60,7 +60,7 @@ std::optional<Space::Place> Explorer::next(double dearest) {
   const std::vector<Point> known = front();
   for (const std::vector<Space::Place> seeds = space_.seeds(); seed_ < seeds.size();) {
     const Space::Place& place = seeds[seed_++];
-    // Seeds get finer; steps finer than those of a point at the error floor are useless.
+    // Seeds come from coarse to fine; steps finer than those of a point at the error floor are useless.
     const bool exact =
         !known.empty() && known.back().error <= kErrorFloor && place[0] > known.back().place[0];
     const double steps =

@@ -30,7 +30,7 @@ class Explorer {
   /// `dearest`.
   std::optional<Space::Place> next_towards(const Goal& goal, double dearest);
 
-  /// Records the outcome of a run. An `error` below `kErrorFloor` counts as that.
+  /// Records the outcome of a run. Errors below `kErrorFloor` are recorded as `kErrorFloor`.
   void tell(const Space::Place& place, double error, double cost);
   /// Records a run without an outcome: it crashed, diverged or was refused.
   void fail(const Space::Place& place) { points_[place] = {}; }

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Runs the catalogue through Slurm, or through GNU parallel over ssh, on this machine, and kills parts of it on the way.
 
-    real_schedulers.py PROGRAM slurm|parallel [--times FILE] [SCENE ...]
+    real_schedulers.py PROGRAM slurm|parallel [--sweep] [--times FILE] [SCENE ...]
 
 Plans a comparison of all scenes (or of those named) on plumb and Box2D, a unit a scene and engine, has the units done, and holds the
 gathered results against those of `plumb compare` in one go: every error, check and status must be the same bits. Needs root.
+
+--sweep: a sweep instead, held against `plumb sweep`. A sweep chooses what to run by costs, which are measured anew, so the
+two need not make the same runs; every run that both make must be the same bits, and there must be some in each scene and engine.
 
 slurm: a controller and three slurmd of its own (Debian's slurm-wlm: names of one machine, a port each) in a folder of their own.
 Units are killed with SIGKILL, then a slurmd, which comes back when its node has been given up.
@@ -28,7 +31,10 @@ PROGRAM = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else ""
 ENGINES = "plumb,box2d"
 SKIPPED = 77
 KILLED_UNITS = 8
-LIMIT = 1800  # s for the whole
+LIMIT = 3600  # s for the whole
+# s that a sweep of all scenes may take: some seconds for the front of each. The one in one go has more, to reach all scenes on a machine
+# that others use as well.
+SWEEP_SECONDS, ALONE_SECONDS = 540, 1080
 NODES = ("n1", "n2", "n3")
 HOSTS = {"plumb-host-a": "10.213.1", "plumb-host-b": "10.213.2"}  # namespace: network of its link to this one
 
@@ -90,12 +96,29 @@ def kill_units(work, count):
 
 
 def errors_of(folder):
-    """What a run found, by scene and engine: nothing of when, where and how fast."""
+    """Reads what the runs found, by scene, engine and settings asked for: nothing of when, where and how fast."""
     out = {}
     for line in (pathlib.Path(folder) / "results.jsonl").read_text().splitlines():
         row = json.loads(line)
-        out[row["label"], row["engine"]] = json.dumps([row["metrics"], row["checks"], row["status"], row["reason"]])
+        key = row["label"], row["engine"], json.dumps(row["asked"], sort_keys=True)
+        out[key] = json.dumps([row["metrics"], row["checks"], row["status"], row["reason"]])
     return out
+
+
+def compare_errors(here, there, sweep):
+    """Prints how the errors of both agree; True if they do."""
+    shared = here.keys() & there.keys()
+    differ = sorted(key for key in shared if here[key] != there[key])
+    alone = [sorted(one.keys() - other.keys()) for one, other in ((there, here), (here, there))]
+    print(f"{len(there)} runs gathered, {len(here)} in one go, {len(shared)} of them in both, "
+          f"{len(differ)} of these not the same bits{': ' if differ else ''}{differ[:5] if differ else ''}")
+    if sweep:
+        missed = {key[:2] for key in here.keys() | there.keys()} - {key[:2] for key in shared}
+        print(f"scenes and engines with a run in both: {len({key[:2] for key in shared})}; without: {sorted(missed)}")
+        return not differ and not missed
+    if any(alone):
+        print(f"in one alone: {[keys[:5] for keys in alone]}")
+    return not differ and not any(alone)
 
 
 class Slurm:
@@ -280,12 +303,17 @@ def main():
         at = sys.argv.index("--times")
         times = pathlib.Path(sys.argv[at + 1]).absolute()
         del sys.argv[at:at + 2]
+    sweep = "--sweep" in sys.argv
+    if sweep:
+        sys.argv.remove("--sweep")
     kind = {"slurm": Slurm, "parallel": Parallel}[sys.argv[2]]
-    command = ["compare", *sys.argv[3:], "--engine", ENGINES, "--no-cost"]
+    scenes = sys.argv[3:]
+    command = ["sweep" if sweep else "compare", *scenes, "--engine", ENGINES]
     with tempfile.TemporaryDirectory(prefix="plumb-schedulers-") as name:
         folder = pathlib.Path(name)
         work, out = folder / "work", folder / "out"
-        run(PROGRAM, "plan", work, "--by-engine", "--unit-seconds", 0, *command)
+        run(PROGRAM, "plan", work, *([] if sweep else ["--by-engine"]), "--unit-seconds", 0, *command,
+            *(["--budget", SWEEP_SECONDS] if sweep else ["--no-cost"]))
         count = state(work)["units"]
         (folder / "cluster").mkdir()
         cluster = kind.__new__(kind)
@@ -315,13 +343,13 @@ def main():
                 f"{unit['seconds']:g} {took_each[unit['unit']]:.3f}\n" for unit in units if unit["unit"] in took_each))
         subprocess.run([PROGRAM, "gather", work, "--out", out, "--no-report"], capture_output=True)
         # The exit code says that an engine missed a check, here as there.
-        subprocess.run([PROGRAM, *command, "--no-report", "--out", str(folder / "local")], capture_output=True)
-        here, there = errors_of(folder / "local"), errors_of(out)
-        differ = sorted(key for key in here.keys() | there.keys() if here.get(key) != there.get(key))
-        print(f"{sys.argv[2]}: {done} of {count} units in {took:.0f} s; {killed} units killed with SIGKILL, and after {at} were done {what}")
-        print(f"{len(there)} runs gathered, {len(here)} in one go, {len(differ)} of them not the same bits{': ' if differ else ''}"
-              f"{differ[:5] if differ else ''}; hosts: {', '.join(sorted(hosts))}")
-        if done != count or differ or any(left.values()):
+        local = [PROGRAM, *command, "--out", str(folder / "local"),
+                 *(["--budget", str(ALONE_SECONDS)] if sweep else ["--no-cost", "--no-report"])]
+        subprocess.run(local, capture_output=True)
+        print(f"{sys.argv[2]}: {count} units planned at first, {done} done in {took:.0f} s; {killed} units killed with SIGKILL, "
+              f"and after {at} were done {what}; hosts: {', '.join(sorted(hosts))}")
+        same = compare_errors(errors_of(folder / "local"), errors_of(out), sweep)
+        if done < count or not same or any(left.values()):
             show_logs(folder)
             sys.exit(f"not all are there: {left}")
 

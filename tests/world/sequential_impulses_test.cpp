@@ -29,6 +29,51 @@ TEST(SequentialImpulses, ARodStretchesByBaumgartesLaw) {
   }
 }
 
+// A beam of welded planks held at one end: the slowest mode of the iterations is slower, the more planks
+// there are. If the feedback of errors were part of the impulses that the next substep starts from, it would
+// grow without end (engine/world/solvers/error_feedback.h): beams of three planks and more flew off at 1e9
+// m/s.
+TEST(SequentialImpulses, ABeamOfPlanksNeverGainsEnergyHoweverFewTheIterations) {
+  constexpr double kMass = 100, kInertia = kMass * (1 + 0.1 * 0.1) / 12;
+  for (const int iterations : {1, 4, 10}) {
+    for (const int count : {2, 3, 5, 8}) {
+      for (const bool weld : {true, false}) {
+        DoubleWorld world(with(Solver::SequentialImpulses, iterations));
+        std::vector<BodyId> planks;
+        BodyId before = world.create_body({.type = BodyType::Static});
+        for (int i = 0; i < count; ++i) {
+          const BodyId plank =
+              world.create_body({.position = {0.5 + i, 0}}, {.geometry = Box{1, 0.1}, .density = 1000});
+          const Vec2d end{i == 0 ? 0.0 : 0.5, 0}, start{-0.5, 0};
+          if (weld) {
+            world.create_joint(before, plank, {.kind = WeldDefinition{.anchor_a = end, .anchor_b = start}});
+          } else {
+            world.create_joint(
+                before, plank,
+                {.kind = RevoluteDefinition{.anchor_a = end, .anchor_b = start, .limits = Range{0, 0}}});
+          }
+          planks.push_back(before = plank);
+        }
+        // Relative to the energy of the whole beam hanging down.
+        const double scale = kMass * 9.81 * count * count / 2;
+        for (int step = 0; step < 300; ++step) {
+          world.step(1.0 / 60);
+          double energy = 0;
+          for (const BodyId plank : planks) {
+            const Vec2d v = world.velocity(plank);
+            const double w = world.angular_velocity(plank);
+            energy += kMass * (9.81 * world.position(plank).y + dot(v, v) / 2) + kInertia * w * w / 2;
+          }
+          ASSERT_LT(energy, 1e-12 * scale) << iterations << ' ' << count << ' ' << weld << ' ' << step;
+        }
+        if (iterations == 10 && count <= 3) {
+          EXPECT_LT(std::abs(world.position(planks.back()).y), 1e-9);
+        }
+      }
+    }
+  }
+}
+
 // A heavy tip on light links: each sweep carries the load up by a link or so.
 TEST(SequentialImpulses, MoreSweepsStretchAChainLess) {
   double before = 1e9;

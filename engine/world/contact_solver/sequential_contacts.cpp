@@ -5,15 +5,13 @@
 namespace plumb {
 namespace {
 
-// Returns the minimum velocity of a point along n. A gap may close within the substep, an overlap beyond the
-// slop is fed back, and a fast impact separates with restitution times its speed.
+// Returns the minimum velocity of a point along n. A gap may close within the substep, and a fast impact
+// separates with restitution times its speed.
 template <class Real>
 Real least_rate(const ContactPair<Real>& pair, int i, const SequentialStep<Real>& step) {
   const ContactConstraint<Real>& c = pair.c;
   const Real s = pair.separation(i);
-  const Real overlap = std::max(-s - step.slop * c.push_speed, Real(0));
-  const Real wanted =
-      s > 0 ? -s * step.inverse_h : std::min(step.feedback * step.inverse_h * overlap, c.push_speed);
+  const Real wanted = -std::max(s, Real(0)) * step.inverse_h;
   const bool arrives =
       c.restitution > 0 && c.approach[i] < -step.bounce_threshold && s + step.h * c.approach[i] < 0;
   return arrives ? std::max(wanted, -c.restitution * c.approach[i]) : wanted;

@@ -11,8 +11,6 @@ template <class Real>
 struct SequentialStep {
   Real h = 0, inverse_h = 0;  ///< s, 1/s
   Real warm_start = 1;        ///< ratio of this substep's length to the last one's: impulses scale with it
-  Real feedback = 0;          ///< Baumgarte factor: fraction of an overlap that a substep removes
-  Real slop = 0;              ///< s: tolerated overlap, as a time at the depenetration speed
   Real bounce_threshold = 0;  ///< m/s; slower impacts do not bounce
 };
 

@@ -112,15 +112,22 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   return fast ? Throw::Bounce : Throw::Slide;
 }
 
-// Reports that the shapes touched; they are apart again at the end of the step.
+// Reports that the shapes touched. If they were thrown apart, they are apart again at the end of the step;
+// else the next step finds out (`update_nontouching`).
 template <class Real>
-void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c) {
+void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c,
+            bool thrown_apart) {
   const ContactReading reading = reading_of(w, contact, c);
-  const auto touches = [&](const ContactRecord& record) {
-    return record.touching && record.shape_a == contact.shape_a && record.shape_b == contact.shape_b;
-  };
-  if (!any_between(w.contacts, w.bodies[contact.body_a].first_contact, w.bodies[contact.body_b].first_contact,
-                   contact.body_a, contact.body_b, touches)) {
+  int id = kNone;
+  // Grounds have long lists.
+  const int listed = w.is_dynamic(contact.body_a) ? contact.body_a : contact.body_b;
+  for_each_edge(w.contacts, w.bodies[listed].first_contact, [&](int edge, const ContactRecord& record) {
+    if (record.shape_a == contact.shape_a && record.shape_b == contact.shape_b) id = edge / 2;
+  });
+  if (id != kNone && !thrown_apart) {
+    set_touching(w, id, true);
+    if (w.contacts[id].home == ContactHome::Graph) constraint_of(w, w.contacts[id]).touching = true;
+  } else if (id == kNone || !w.contacts[id].touching) {
     w.log().begin.push_back({reading.shape_a, reading.shape_b});
     w.log().end.push_back({reading.shape_a, reading.shape_b});
   }
@@ -153,7 +160,7 @@ SweptBody flight_of(const WorldData<Real>& w, int body, double dt) {
 template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
-  if (a.pre_solve || b.pre_solve || !(restitution_between(w, shape, other) > 0)) return false;
+  if (a.pre_solve || b.pre_solve) return false;
   return is_free(w, a.body, dt) && is_free(w, b.body, dt);
 }
 
@@ -168,7 +175,7 @@ bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int othe
   // Ends a cascade of impacts that loses energy each time.
   const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
   const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
-  if (thrown != Throw::None) report(w, contact, c);
+  if (thrown != Throw::None) report(w, contact, c, thrown == Throw::Bounce && c.restitution > 0);
   const Vec2d normal = c.normal.template as<double>();
   const auto go_on = [&](SweptBody* flight, Kept<Real>& kept) {
     if (flight == nullptr || thrown == Throw::None || !w.is_dynamic(flight->body)) return kept.restore();

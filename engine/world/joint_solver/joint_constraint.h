@@ -239,14 +239,16 @@ struct JointConstraint {
   }
 
   /// Solves all rows once. Rigid rows beside a spring are solved before and after it: the spring then sees
-  /// the velocity that they leave, and its response includes them.
+  /// the velocity that they leave, and its response includes them. Before it they hold exactly, as that
+  /// response presumes: softly held they would let go of a part of their load, for which stiff springs
+  /// overcompensate, more from substep to substep.
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
                                                 Real part) {
-    if (turn_beside_rigid()) solve_point(v, which);
-    if (point_beside_rigid()) solve_turn(v, which), solve_point(v, which);
+    if (turn_beside_rigid()) solve_point(v, kRelax);
+    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, which);
     if (axial_beside_rigid()) {
-      for (int i = 1; i < kAxial; ++i) axial[i].solve(v, which);
-      solve_block(v, step, which, part);
+      for (int i = 1; i < kAxial; ++i) axial[i].solve(v, kRelax);
+      solve_block(v, step, kRelax, part);
     }
     solve_turn(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);

@@ -72,7 +72,7 @@ struct StiffSpring {
     const Softness<Scalar<Real>>& rigid = step.softness;
     // h^2 k and h c, times the mobility.
     const Real most = rigid.impulse_scale > 0
-                          ? step.h * rigid.bias_rate * rigid.mass_scale / rigid.impulse_scale
+                          ? step.h * step.stiff_rate * rigid.mass_scale / rigid.impulse_scale
                           : step.stiffest;
     const Real elastic = step.h * spring.rate * firmness;
     const Real k = min(elastic, most);
@@ -82,7 +82,7 @@ struct StiffSpring {
     // Largest damping for which a star of a hundred is stable.
     constexpr Scalar<Real> kMostDamping = 10;
     const Real c = select(share < Real(1), Real(min(damping, Real(2 * kMostDamping * sqrt(k)))), damping);
-    const Real held = max(Real(k + c), Real(k / (step.h * rigid.bias_rate)));
+    const Real held = max(Real(k + c), Real(k / (step.h * step.stiff_rate)));
     rate = k / (step.h * held);
     mass_scale = held / (1 + held);
     impulse_scale = 1 / (1 + held);

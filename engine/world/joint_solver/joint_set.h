@@ -24,6 +24,7 @@ struct JointStep {
   Softness<Real> softness{};  ///< of rigid rows
   /// h (c + h k) times the mobility, above which springs are held like rigid rows: `stiffest_spring`.
   Real stiffest = std::numeric_limits<Real>::infinity();
+  Real stiff_rate = 0;  ///< 1/s, at which such springs close their error
   Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
 };
 

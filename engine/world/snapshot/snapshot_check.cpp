@@ -246,7 +246,7 @@ class Check {
   // Lists of shapes and joints: chains, sensors, moved shapes, breakable joints.
   void lists() const {
     Marks in_chain(w_.shapes.size());
-    int segments = 0;
+    int segments = 0, sensors = 0;
     for (int chain = 0; chain < w_.chains.size(); ++chain) {
       if (!w_.chains.used(chain)) continue;
       for (const int shape : w_.chains[chain].shapes) {
@@ -255,7 +255,9 @@ class Check {
       }
     }
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
-      if (w_.shapes.used(shape) && w_.forms[shape].chain) ++segments;
+      if (!w_.shapes.used(shape)) continue;
+      if (w_.forms[shape].chain) ++segments;
+      if (w_.forms[shape].sensor) ++sensors;
     }
     require(in_chain.count() == segments, "chains", "do not list all their segments");
     Marks sensed(w_.shapes.size()), breakable(w_.joints.size());
@@ -263,6 +265,7 @@ class Check {
       require(has_shape(sensor.shape) && w_.forms[sensor.shape].sensor && sensed.mark(sensor.shape),
               "sensors", "are not shapes that sense");
     }
+    require(sensed.count() == sensors, "sensors", "do not list all shapes that sense");
     for (const int shape : w_.move_buffer) {
       require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
     }

@@ -1,25 +1,26 @@
 #include "engine/world/contact_solver/sequential_contacts.h"
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/solvers/error_feedback.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/state/constants.h"
 
 namespace plumb {
 
-// Semi-implicit Euler: forces, then iterations over all velocity constraints, then positions.
+// Semi-implicit Euler: forces, then iterations over all velocity constraints, then feedback of position
+// errors, then positions.
 template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
-  const Real inverse_h = static_cast<Real>(1 / h), feedback = static_cast<Real>(tuning::kFeedback);
+  const Real inverse_h = static_cast<Real>(1 / h), closing = static_cast<Real>(tuning::kFeedback / h);
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
   SequentialStep<Real> contacts{.h = static_cast<Real>(h),
                                 .inverse_h = inverse_h,
                                 .warm_start = warm_start,
-                                .feedback = feedback,
-                                .slop = static_cast<Real>(tuning::kSlop / tuning::kPushSpeed),
                                 .bounce_threshold = bounce_threshold(w, h * substeps)};
   const JointStep<Real> joints{.h = static_cast<Real>(h),
                                .inverse_h = inverse_h,
-                               .softness = {feedback * inverse_h, 1, 0},
+                               .softness = {0, 1, 0},
                                .stiffest = stiffest_spring<Real>(w.settings.iterations),
+                               .stiff_rate = closing,
                                .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;
@@ -34,6 +35,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
       if (jointed) w.joint_set.solve(bodies, joints);
       sweep_contacts(bodies.motion, w.graph, contacts);
     }
+    feed_back_errors(w, closing);
     integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
     stop_arrivals(bodies.motion, w.graph, contacts);
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);

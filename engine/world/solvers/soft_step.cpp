@@ -94,12 +94,14 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       .warm_start = warm_start,
       .bounce_threshold = bounce_threshold(w, h * substeps),
       .load_push_share = Real(tuning::kLoadPushShare)};
-  JointStep<Real> joints{
-      .h = static_cast<Real>(h),
-      .inverse_h = static_cast<Real>(1 / h),
-      .softness = softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h),
-      .stiffest = stiffest_spring<Real>(1),
-      .warm_start = warm_start};
+  const Softness<Real> rigid =
+      softness<Real>(tuning::kJointFrequencyShare / h, tuning::kJointDampingRatio, h);
+  JointStep<Real> joints{.h = static_cast<Real>(h),
+                         .inverse_h = static_cast<Real>(1 / h),
+                         .softness = rigid,
+                         .stiffest = stiffest_spring<Real>(1),
+                         .stiff_rate = rigid.bias_rate,
+                         .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   prepare_direct_islands(w);
   if (jointed) w.joint_set.prepare(bodies, joints, joints_apart(w), &w.crew);

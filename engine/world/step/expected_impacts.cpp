@@ -23,11 +23,11 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Returns true if a close point neither separates nor is about to bounce.
+// Returns true if a close point neither separates nor is about to strike.
 template <class Real>
 bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
   const Real rate = rate_of(w, c, i);
-  return !(rate > 0) && !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
+  return !(rate > 0) && !(-rate > bounce_threshold(w, static_cast<double>(dt)));
 }
 
 // Returns true if a body is in free flight until its impact, or is not dynamic.
@@ -133,10 +133,10 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
-                 const ContactConstraint<Real>& c, Real dt) {
+bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!flies || !(c.restitution > 0) || contact.pre_solve) return false;
+  if (!flies || contact.pre_solve) return false;
   const Real nearest = c.count == 2
                            ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
                            : at.manifold.points[0].separation;
@@ -183,13 +183,13 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                       \
-  template bool has_held(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                    \
-  template void clear_expected_impacts(WorldData<Real>&);                                                  \
-  template bool will_bounce(const WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
-                            const ContactConstraint<Real>&, Real);                                         \
-  template void note_pressed(WorldData<Real>&, int, int);                                                  \
+#define PLUMB_FOR(Real)                                                                                 \
+  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                    \
+  template bool has_held(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                 \
+  template void clear_expected_impacts(WorldData<Real>&);                                               \
+  template bool meets_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
+                                const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
+  template void note_pressed(WorldData<Real>&, int, int);                                               \
   template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -20,11 +20,13 @@ bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real d
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w);
 
-/// Returns true if a contact's speculative contact `at` will bounce: it closes fast enough, has restitution,
-/// and no pre-solve hook. `c` is the constraint made from `at`.
+/// Returns true if a contact's speculative contact `at` may be an impact in flight, with or without
+/// restitution: it closes fast enough and has no pre-solve hook. `c` is the constraint made from `at`.
+/// Without restitution the corners of a body strike one after the other; solved together, they would take all
+/// of its spin.
 template <class Real>
-bool will_bounce(const WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
-                 const ContactConstraint<Real>& c, Real dt);
+bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt);
 
 /// Marks the two bodies of a contact that will press in this step: they are not in free flight.
 template <class Real>

@@ -102,7 +102,7 @@ template <class Real, class Found>
     record.sleep_time = 0;
   }
   w.enlarged[body] = 0;
-  if (motion.moved == Vec2<Real>{} && motion.turned == 0) return;
+  if (!expected && motion.moved == Vec2<Real>{} && motion.turned == 0) return;
   const auto note = [&](int shape, const Aabb<Real>& box) { found.leave(shape, box); };
   if (fast) {
     bool covered = true;

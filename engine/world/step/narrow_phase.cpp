@@ -202,7 +202,7 @@ void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, c
   w.scratch.begun_contacts.add(block, begun);
 }
 
-// Does the same for a predicted impact; bounces in free flight are decided later.
+// Does the same for a predicted impact; those in free flight are decided later.
 template <class Real>
 void begin_speculative_contact(WorldData<Real>& w, int block, int id, const SpeculativeContact<Real>& at,
                                Real dt) {
@@ -211,7 +211,7 @@ void begin_speculative_contact(WorldData<Real>& w, int block, int id, const Spec
   prepare_speculative_contact(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
-  if (will_bounce(w, contact, at, c, dt)) {
+  if (meets_in_flight(w, contact, at, c, dt)) {
     w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
@@ -234,20 +234,23 @@ template <class Real, class IdAt>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
 }
 
-// Updates a contact without points: starts it if it gets points.
+// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight if
+// it gets none.
 template <class Real>
 int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[id];
+  const int parted = contact.touching ? kTouchChange : 0;
   if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) return kLost;
-  if (is_out_of_reach(w, contact, dt)) return 0;
+  if (is_out_of_reach(w, contact, dt)) return parted;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
     begin_speculative_contact(w, block, id, at, dt);
-  } else if (manifold.count > 0 && at.outlook != Outlook::Misses) {
-    begin_near(w, block, id, dt, false,
-               [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
+    return 0;
   }
+  if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
+  begin_near(w, block, id, dt, false,
+             [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
   return 0;
 }
 
@@ -262,7 +265,7 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
     prepare_speculative_contact(w, contact, at, c, c.now);
     ContactConstraint<Real> settled = c;
     settled.normal_impulse[0] = c.now[0], settled.normal_impulse[1] = c.now[1];
-    if (will_bounce(w, contact, at, settled, dt)) {
+    if (meets_in_flight(w, contact, at, settled, dt)) {
       w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = settled, .in_graph = true});
     } else {
       w.scratch.found_presses.add(block, {c.body_a, c.body_b});
@@ -444,8 +447,10 @@ void collect_changes(WorldData<Real>& w) {
   scratch.found_impacts.for_each(
       [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
   const std::vector<std::uint8_t>& changes = scratch.contact_changes;
-  for (std::size_t i = 0; i < w.near.size(); ++i)
-    if (changes[i] != 0) append(scratch.lost_contacts, w.near[i]);
+  for (std::size_t i = 0; i < w.near.size(); ++i) {
+    if ((changes[i] & kLost) != 0) append(scratch.lost_contacts, w.near[i]);
+    if ((changes[i] & kTouchChange) != 0) append(scratch.parted_contacts, w.near[i]);
+  }
   constexpr int kNoted = kTouchChange | kLost | kEnded | kBounces;
   for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
     const ContactRun<Real>& run = scratch.contact_runs[block];
@@ -463,7 +468,7 @@ void collect_changes(WorldData<Real>& w) {
   }
 }
 
-// Passes predicted impacts that do not bounce in free flight to the solver.
+// Passes predicted impacts that do not happen in free flight to the solver.
 template <class Real>
 void settle_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w, dt);
@@ -487,7 +492,7 @@ void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const int id = c.contact;
   const bool touching = touches(c);
   begin_contact(w, id, c);
-  if (touching) update_touching(w, constraint_of(w, w.contacts[id]), true);
+  if (touching || w.contacts[id].touching) update_touching(w, constraint_of(w, w.contacts[id]), touching);
 }
 
 }  // namespace
@@ -496,7 +501,7 @@ template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.bouncing.clear();
+  scratch.bouncing.clear(), scratch.parted_contacts.clear();
   clear_expected_impacts(w);
   if (w.near.empty() && w.graph.empty()) return;
   try {
@@ -512,6 +517,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     update_touching(w, c, !c.touching);
   }
+  for (const int id : scratch.parted_contacts) set_touching(w, id, false);
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
   scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {

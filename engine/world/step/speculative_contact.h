@@ -30,8 +30,8 @@ struct SpeculativeContact {
 /// closest points is only a guess. It would deflect a shape that passes a corner closely, and a rotating
 /// shape hits elsewhere. So a plane that would be crossed counts only if the shapes really touch.
 ///
-/// Shapes without points are searched if they approach in a step by more than the smaller extent (half of it
-/// with restitution). Otherwise the smaller shape would be deep in the other one before they had a contact.
+/// Shapes without points are searched if they approach in a step by more than half of the smaller extent.
+/// Otherwise the smaller shape would be deep in the other one before they had a contact.
 /// Bodies that are fast for their own size are left to continuous collision (continuous.cpp).
 ///
 /// Solvers look a substep ahead, so planes count that would be crossed up to a substep after the step.

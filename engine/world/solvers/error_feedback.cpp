@@ -1,0 +1,100 @@
+#include "engine/world/solvers/error_feedback.h"
+
+#include <algorithm>
+
+#include "engine/world/contact_solver/contact_rows.h"
+#include "engine/world/state/constants.h"
+
+namespace plumb {
+namespace {
+
+// Adds a row that closes its residual at `speed`, if any of its bodies can move.
+template <class Real>
+void add_row(WorldData<Real>& w, FeedbackRow<Real> row) {
+  const BodyMotion<Real>&a = w.motion[row.body_a], &b = w.motion[row.body_b];
+  const JointRow<Real>& j = row.row;
+  const Real mobility =
+      a.inverse_mass * length_squared(j.linear_a) + a.inverse_inertia * j.angular_a * j.angular_a +
+      b.inverse_mass * length_squared(j.linear_b) + b.inverse_inertia * j.angular_b * j.angular_b;
+  if (!(mobility > 0)) return;
+  row.mass = 1 / mobility;
+  w.scratch.feedback_rows.push_back(row);
+}
+
+// Adds the rows of all joints: rigid ones, and limits that are violated. Springs and motors have no error.
+template <class Real>
+void add_joints(WorldData<Real>& w, Real rate) {
+  const SolverBodies<Real> bodies = w.solver_bodies();
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  for (int joint = 0; joint < w.joint_set.slots(); ++joint) {
+    if (!w.joint_set.contains(joint) || !w.joint_set.active(joint)) continue;
+    const auto [body_a, body_b] = w.joint_set.bodies(joint);
+    rows.clear();
+    w.joint_set.solver_rows(joint, bodies, rows);
+    for (const JointSolverRow<Real>& row : rows) {
+      const bool limit = row.role == RowRole::Limit && row.row.residual < 0;
+      if (!limit && row.role != RowRole::Rigid) continue;
+      add_row(w, {.body_a = body_a,
+                  .body_b = body_b,
+                  .row = row.row,
+                  .speed = -rate * row.row.residual,
+                  .least = limit ? Real(0) : -row.most,
+                  .most = row.most});
+    }
+  }
+}
+
+// Adds the points that overlap by more than the slop.
+template <class Real>
+void add_contacts(WorldData<Real>& w, Real rate) {
+  constexpr Real kSlop = Real(tuning::kSlop / tuning::kPushSpeed);
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    const ContactPair<Real> pair(w.motion.data(), c);
+    for (int i = 0; i < c.count; ++i) {
+      const Real overlap = -pair.separation(i) - kSlop * c.push_speed;
+      if (!(overlap > 0)) continue;
+      add_row(w, {.body_a = c.body_a,
+                  .body_b = c.body_b,
+                  .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
+                  .speed = std::min(rate * overlap, c.push_speed),
+                  .least = 0});
+    }
+  });
+}
+
+}  // namespace
+
+template <class Real>
+void feed_back_errors(WorldData<Real>& w, Real rate) {
+  std::vector<FeedbackRow<Real>>& rows = w.scratch.feedback_rows;
+  rows.clear();
+  if (w.joint_set.active_count() > 0) add_joints(w, rate);
+  add_contacts(w, rate);
+  if (rows.empty()) return;
+  std::vector<BodyVelocity<Real>>& added = w.scratch.feedback;
+  added.assign(w.bodies.size(), {});
+  for (int sweep = 0; sweep < w.settings.iterations; ++sweep) {
+    for (FeedbackRow<Real>& row : rows) {
+      BodyVelocity<Real>&a = added[row.body_a], &b = added[row.body_b];
+      const JointRow<Real>& j = row.row;
+      const Real along = dot(j.linear_a, a.velocity) + j.angular_a * a.angular_velocity +
+                         dot(j.linear_b, b.velocity) + j.angular_b * b.angular_velocity;
+      const Real before = row.impulse;
+      row.impulse = std::clamp(before + row.mass * (row.speed - along), row.least, row.most);
+      const Real d = row.impulse - before;
+      const BodyMotion<Real>&of_a = w.motion[row.body_a], &of_b = w.motion[row.body_b];
+      a.velocity += (d * of_a.inverse_mass) * j.linear_a, b.velocity += (d * of_b.inverse_mass) * j.linear_b;
+      a.angular_velocity += d * of_a.inverse_inertia * j.angular_a;
+      b.angular_velocity += d * of_b.inverse_inertia * j.angular_b;
+    }
+  }
+  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
+    w.motion[kick.body].velocity += added[kick.body].velocity;
+    w.motion[kick.body].angular_velocity += added[kick.body].angular_velocity;
+  }
+}
+
+template void feed_back_errors(WorldData<float>&, float);
+template void feed_back_errors(WorldData<double>&, double);
+
+}  // namespace plumb
