@@ -20,9 +20,11 @@ constexpr double kSlow = 1e-4;
 constexpr double kConverged = 1e-6;
 constexpr int kSweeps = 40;
 // Maximum number of contacts examined in all rounds of a substep, and of points solved in all their
-// iterations: about 2 ms. A stirred heap of 6000 bodies with e = 0.1 always reaches it; overlaps and escapes
-// are the same from 4e4 to no limit, because constraints handle the rest.
-constexpr int kLooks = 1 << 16;
+// iterations: kLooks and, for rebounds, kLooksToRebound times the largest e of the crowd; with e = 1 about 2
+// ms. Impacts beyond it are left to the constraints, which lose their rebounds: the fraction e of an
+// approach. A stirred heap of 6000 bodies with e = 0.1 reaches it in its first round. With six times as many
+// its mean overlap is smaller by 3 %, as its starts differ, and as many bodies escape.
+constexpr int kLooks = 1 << 12, kLooksToRebound = 1 << 16;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
 // An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
 // presses a body back at once.
@@ -70,6 +72,7 @@ template <class Real>
 Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces) {
   Real fastest = 0;
   for (const RestitutionContact<Real>& bounce : bounces) {
+    if (!is_struck(bounce)) continue;
     for (int i = 0; i < bounce.contact->count; ++i) {
       if (bounce.strikes[i]) fastest = std::max(fastest, -velocity_along_normal(motion, *bounce.contact, i));
     }
@@ -574,7 +577,10 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
   const Real fastest = fastest_strike(motion, bounces);
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
   const int size = static_cast<int>(room.crowd.size());
-  int looks = kLooks;
+  Real most_restitution = 0;
+  for (const int i : room.crowd)
+    most_restitution = std::max(most_restitution, bounces[i].contact->restitution);
+  int looks = kLooks + static_cast<int>(Real(kLooksToRebound) * most_restitution);
   int at_one_time = kAtOneTime + kAtOneTimeEach * size;
   int round = 0;
   room.looked = room.crowd;

@@ -41,18 +41,18 @@ bool nothing_left(const WorldData<Real>& w) {
   return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
 }
 
-// Returns marks, by record, of the contacts with an impact time of their own or a second solver, which read
-// and change them between the passes; no marks if there are none.
+// Returns marks, by record, of the contacts that have a second solver, which reads and changes them between
+// the passes, and of discs that approach fast without restitution; no marks if there are none.
 template <class Real>
 const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   std::vector<char>& apart = w.scratch.apart;
   apart.clear();
   const auto mark = [&](const ContactConstraint<Real>& c) {
-    if (c.restitution > 0) return;  // they are apart anyway
     if (apart.empty()) make_room(apart, w.contacts.size());
     apart[c.contact] = 1;
   };
-  for (const RestitutionContact<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
+  for (const RestitutionContact<Real>& bounce : w.scratch.bounces)
+    if (!(bounce.contact->restitution > 0)) mark(*bounce.contact);
   for (int i = 0; i < w.scratch.jointed_count; ++i)
     for (const ContactConstraint<Real>* c : w.scratch.jointed[i].contacts) mark(*c);
   return apart;
@@ -106,6 +106,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
+  const bool bounces = !w.scratch.bounces.empty();
   bool strikes = false;
   const auto place = [&] {
     strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
@@ -114,6 +115,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
+    if (bounces) passes.show_bounces();
     const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
@@ -127,9 +129,10 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (place_first) place();
     if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints, &w.crew);
-    if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (!place_first) place();
     let_pass(w.scratch.bounces);
+    if (bounces) passes.take_bounces(bodies.motion);
+    if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (jointed) w.joint_set.solve(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, true);
     passes.solve(bodies.motion, contacts);
