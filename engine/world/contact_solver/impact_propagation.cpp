@@ -100,6 +100,8 @@ void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScra
     const std::size_t points = room.next.size();
     ensure_room(room.struck, points), ensure_room(room.grouped, points);
     ensure_room(room.following, points), ensure_room(room.latest, points);
+    ensure_room(room.crowd, room.in_list.size()), ensure_room(room.looked, room.in_list.size());
+    ensure_room(room.groups, points);
   }
   for (const RestitutionContact<Real>& bounce : bounces) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
@@ -126,7 +128,7 @@ void reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Imp
     const int group = group_of(room, body);
     if (!has_mass(motion[body]) || room.reached[group]) continue;
     room.reached[group] = 1;
-    append(room.groups, group);
+    room.groups.push_back(group);
   }
 }
 
@@ -157,15 +159,15 @@ void find_crowd(const BodyMotion<Real>* motion, std::vector<RestitutionContact<R
   for (int i = 0; i < contacts; ++i) {
     if (room.in_list[i] == 0) continue;
     room.in_list[i] = 0;
-    append(room.crowd, i);
+    room.crowd.push_back(i);
   }
 }
 
-// Adds an item to a list, unless it is in there.
+// Adds an item to a list, unless it is in there. Lists have room for all (`clear_room`).
 inline void note(std::vector<int>& list, std::vector<char>& noted, int item) {
   if (noted[item]) return;
   noted[item] = 1;
-  append(list, item);
+  list.push_back(item);
 }
 
 // Finds the time of the next impact of each point of a contact, for the present motion of its bodies.
@@ -174,7 +176,7 @@ void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, R
              const ImpactScratch<Real>& room, ComingImpact<Real>& coming) {
   ContactConstraint<Real>& c = *bounce.contact;
   const Real start = std::max(room.last[group_of(room, c.body_a)], room.last[group_of(room, c.body_b)]);
-  face(motion, bounce, h, std::min(start, h));
+  if (bounce.radii != 0) face(motion, bounce, h, std::min(start, h));
   for (int i = 0; i < 2; ++i) {
     coming.time[i] = kNever<Real>;
     if (i >= c.count) continue;
@@ -221,7 +223,7 @@ void arrange_looked(ImpactScratch<Real>& room) {
   for (const int i : room.crowd) {
     if (room.in_list[i] == 0) continue;
     room.in_list[i] = 0;
-    append(room.looked, i);
+    room.looked.push_back(i);
   }
 }
 
@@ -262,8 +264,8 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     until += Real(kAtOnce) * h;
     for (int k = 0; k < c.count; ++k) {
       if (coming.time[k] == kNever<Real> || coming.time[k] > until) continue;
-      append(room.struck,
-             StruckPoint<Real>{&bounces[i], k, coming.time[k], coming.wanted[k], coming.before[k], 0});
+      room.struck.push_back(
+          StruckPoint<Real>{&bounces[i], k, coming.time[k], coming.wanted[k], coming.before[k], 0});
     }
   }
   room.looked.clear();

@@ -111,8 +111,8 @@ template <class Real>
                                                               const BodyMotion<Real>* motion,
                                                               const std::vector<char>& apart) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-  const bool stays_alone = c.hardness == ContactHardness::Rigid || stopped_rolling ||
-                           (!apart.empty() && apart[c.contact]);
+  const bool stays_alone =
+      c.hardness == ContactHardness::Rigid || stopped_rolling || (!apart.empty() && apart[c.contact]);
   if (stays_alone) return kAlone;
   const int kind = (c.count == 2) + 2 * rolls(c);
   if (c.hardness == ContactHardness::Soft) return kind;

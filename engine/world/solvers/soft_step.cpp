@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <span>
 #include <vector>
 
 #include "engine/core/room.h"
@@ -72,6 +74,20 @@ const std::vector<char>& joints_apart(WorldData<Real>& w) {
   return apart;
 }
 
+// Contacts with restitution that a thread takes at a time: some microseconds of work.
+constexpr int kBouncesOfTask = 128;
+
+// Calls `run(bounces)` for parts of the contacts with restitution. Returns true if it did for one.
+template <class Real, class Run>
+bool any_bounce(WorldData<Real>& w, const Run& run) {
+  const std::span<RestitutionContact<Real>> all(w.scratch.bounces);
+  std::atomic<bool> any = false;
+  w.crew.ranges(static_cast<int>(all.size()), kBouncesOfTask, [&](int first, int last) {
+    if (run(all.subspan(first, last - first))) any.store(true, std::memory_order_relaxed);
+  });
+  return any;
+}
+
 }  // namespace
 
 template <class Real>
@@ -106,17 +122,20 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
+  using Bounce = RestitutionContact<Real>;
   const bool bounces = !w.scratch.bounces.empty();
   bool strikes = false;
   const auto place = [&] {
-    strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
+    strikes = any_bounce(
+        w, [&](std::span<Bounce> some) { return schedule_impacts(bodies.motion, some, contacts); });
     if (!strikes) return;
     propagate_impacts(w, contacts);
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
     if (bounces) passes.show_bounces();
-    const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    const bool parted =
+        any_bounce(w, [&](std::span<Bounce> some) { return note_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
@@ -130,7 +149,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints, &w.crew);
     if (!place_first) place();
-    let_pass(w.scratch.bounces);
+    let_pass(std::span<Bounce>(w.scratch.bounces));
     if (bounces) passes.take_bounces(bodies.motion);
     if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (jointed) w.joint_set.solve(bodies, joints, &w.crew);
@@ -143,7 +162,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
-    hold_again(w.scratch.bounces);
+    hold_again(std::span<Bounce>(w.scratch.bounces));
     contacts.warm_start = joints.warm_start = 1;
   }
   passes.finish();
