@@ -36,6 +36,7 @@ struct ContactBlock {
   std::uint8_t count;             ///< points
   bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
   Watch watched;                  ///< the most of any
+  bool bounces;                   ///< at least one has restitution
   bool rolls;                     ///< all have rolling resistance
   Number rolling_arm, rolling_impulse, peak_impulse[2];
   Constraint* contact[kLanes];
@@ -93,12 +94,13 @@ template <class Number, class Real>
   const ContactRows<Number> rows{block};
   for (int k = 0; k < kRows; k += 4) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
 
-  block.watched = Watch::Off;
+  block.watched = Watch::Off, block.bounces = false;
   for (int i = 0; i < Block::kLanes; ++i) {
     const Constraint& c = *block.contact[i];
     block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_a);
     block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(c.body_b);
     block.watched = std::max(block.watched, c.watched);
+    block.bounces |= c.restitution > 0;
   }
   load_masses(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
   load_masses(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
@@ -118,12 +120,18 @@ template <class Number, class Real>
 template <class Number>
 [[gnu::always_inline]] inline void scatter(ContactBlock<Number>& block) {
   using Block = ContactBlock<Number>;
-  using Constraint = ContactConstraint<typename Number::Number>;
+  using Real = typename Number::Number;
+  using Constraint = ContactConstraint<Real>;
   const ContactRows<Number> rows{block};
+  // From `now` to `tangent_impulse`; not the masses, which a contact with restitution may have got back.
+  constexpr std::size_t kLast = offsetof(Constraint, normal_impulse) + sizeof(Real),
+                        kLastRow = offsetof(Block, normal_impulse) + sizeof(Number);
+  static_assert(offsetof(Constraint, tangent_impulse) == kLast + 3 * sizeof(Real) &&
+                offsetof(Block, tangent_impulse) == kLastRow + 3 * sizeof(Number));
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
-  rows.store(offsetof(Constraint, load_estimate), offsetof(Block, load_estimate));
+  rows.store(kLast, kLastRow);
   if (block.watched == Watch::Off && !block.rolls) return;
-  typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
+  Real rolling[Block::kLanes], peaks[2][Block::kLanes];
   block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
       block.peak_impulse[1].store(peaks[1]);
   for (int i = 0; i < Block::kLanes; ++i) {

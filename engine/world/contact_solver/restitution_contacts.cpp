@@ -49,12 +49,12 @@ void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real
 }
 
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                      const ContactStep<Real>& step) {
   bool parted = false;
   for (RestitutionContact<Real>& bounce : bounces) {
     ContactConstraint<Real>& c = *bounce.contact;
-    face(motion, bounce, step.h, Real(0));
+    if (bounce.radii != 0) face(motion, bounce, step.h, Real(0));
     bool parts = c.restitution > 0;
     for (int i = 0; i < c.count; ++i) {
       bounce.before[i] = velocity_along_normal(motion, c, i);
@@ -68,7 +68,7 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionCont
 }
 
 template <class Real>
-bool schedule_impacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                       const ContactStep<Real>& step) {
   const Real h = step.h;
   bool any = false;
@@ -99,7 +99,7 @@ bool schedule_impacts(const BodyMotion<Real>* motion, std::vector<RestitutionCon
 }
 
 template <class Real>
-void let_pass(std::vector<RestitutionContact<Real>>& bounces) {
+void let_pass(std::span<RestitutionContact<Real>> bounces) {
   for (RestitutionContact<Real>& bounce : bounces) {
     const ContactConstraint<Real>& c = *bounce.contact;
     bounce.passes = bounce.closes && !bounce.strikes[0] && !bounce.strikes[1] && c.normal_impulse[0] == 0 &&
@@ -109,7 +109,7 @@ void let_pass(std::vector<RestitutionContact<Real>>& bounces) {
 }
 
 template <class Real>
-void hold_again(std::vector<RestitutionContact<Real>>& bounces) {
+void hold_again(std::span<RestitutionContact<Real>> bounces) {
   for (RestitutionContact<Real>& bounce : bounces) {
     if (!bounce.passes) continue;
     bounce.passes = false;
@@ -117,14 +117,14 @@ void hold_again(std::vector<RestitutionContact<Real>>& bounces) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                           \
-  template void face(const BodyMotion<Real>*, RestitutionContact<Real>&, Real, Real);             \
-  template bool note_approaches(const BodyMotion<Real>*, std::vector<RestitutionContact<Real>>&,  \
-                                const ContactStep<Real>&);                                        \
-  template bool schedule_impacts(const BodyMotion<Real>*, std::vector<RestitutionContact<Real>>&, \
-                                 const ContactStep<Real>&);                                       \
-  template void let_pass(std::vector<RestitutionContact<Real>>&);                                 \
-  template void hold_again(std::vector<RestitutionContact<Real>>&);
+#define PLUMB_FOR(Real)                                                                        \
+  template void face(const BodyMotion<Real>*, RestitutionContact<Real>&, Real, Real);          \
+  template bool note_approaches(const BodyMotion<Real>*, std::span<RestitutionContact<Real>>,  \
+                                const ContactStep<Real>&);                                     \
+  template bool schedule_impacts(const BodyMotion<Real>*, std::span<RestitutionContact<Real>>, \
+                                 const ContactStep<Real>&);                                    \
+  template void let_pass(std::span<RestitutionContact<Real>>);                                 \
+  template void hold_again(std::span<RestitutionContact<Real>>);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/contact_step.h"
@@ -46,10 +46,12 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 template <class Real>
 void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 
+/// The functions below treat each contact by itself: threads may share them.
+
 /// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
 /// be warm started: returns true if one of these had an impulse.
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                      const ContactStep<Real>& step);
 
 /// Sets when and how fast each contact bounces in the substep, once the bodies' accelerations are known.
@@ -59,16 +61,16 @@ bool note_approaches(const BodyMotion<Real>* motion, std::vector<RestitutionCont
 /// after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c - a
 /// (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
 template <class Real>
-bool schedule_impacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                       const ContactStep<Real>& step);
 
 /// Disables, before any iteration, contacts that will bounce but stay open in this substep. The solver would
 /// slow them, and the momentum passed on to other bodies could not be recovered.
 template <class Real>
-void let_pass(std::vector<RestitutionContact<Real>>& bounces);
+void let_pass(std::span<RestitutionContact<Real>> bounces);
 
 /// Enables the contacts again that `let_pass` disabled. Called after relax_contacts.
 template <class Real>
-void hold_again(std::vector<RestitutionContact<Real>>& bounces);
+void hold_again(std::span<RestitutionContact<Real>> bounces);
 
 }  // namespace plumb

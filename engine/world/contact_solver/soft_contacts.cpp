@@ -111,8 +111,8 @@ template <class Real>
                                                               const BodyMotion<Real>* motion,
                                                               const std::vector<char>& apart) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-  const bool stays_alone = c.hardness == ContactHardness::Rigid || c.restitution > 0 || stopped_rolling ||
-                           (!apart.empty() && apart[c.contact]);
+  const bool stays_alone =
+      c.hardness == ContactHardness::Rigid || stopped_rolling || (!apart.empty() && apart[c.contact]);
   if (stays_alone) return kAlone;
   const int kind = (c.count == 2) + 2 * rolls(c);
   if (c.hardness == ContactHardness::Soft) return kind;
@@ -318,6 +318,36 @@ void SoftContacts<Real>::solve(BodyMotion<Real>* motion, const ContactStep<Real>
 template <class Real>
 void SoftContacts<Real>::relax(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
   if (!graph_->empty()) sweep<Relax>(motion, step);
+}
+
+template <class Real>
+template <int kBytes>
+void SoftContacts<Real>::show_bounces(Blocks<kBytes>& blocks) {
+  crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+    for (Block<kBytes>* block = blocks.list.data() + first; block != blocks.list.data() + last; ++block)
+      if (block->bounces) Loops<Number<kBytes>, Real>::scatter(block, block + 1);
+  });
+}
+
+template <class Real>
+void SoftContacts<Real>::show_bounces() {
+  if (width_ == VectorWidth::Bytes16) show_bounces(blocks16_);
+  if (width_ == VectorWidth::Bytes32) show_bounces(blocks32_);
+}
+
+template <class Real>
+template <int kBytes>
+void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion) {
+  crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+    for (Block<kBytes>* block = blocks.list.data() + first; block != blocks.list.data() + last; ++block)
+      if (block->bounces) Loops<Number<kBytes>, Real>::gather(*block, motion);
+  });
+}
+
+template <class Real>
+void SoftContacts<Real>::take_bounces(const BodyMotion<Real>* motion) {
+  if (width_ == VectorWidth::Bytes16) take_bounces(blocks16_, motion);
+  if (width_ == VectorWidth::Bytes32) take_bounces(blocks32_, motion);
 }
 
 template <class Real>

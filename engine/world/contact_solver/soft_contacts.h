@@ -17,8 +17,8 @@ template <class Real>
 class SoftContacts {
  public:
   /// Prepares the passes of a step: gathers contacts into blocks. Contacts that other code reads or changes
-  /// before `finish` stay single: with restitution, rigid, or marked in `apart` (by record). `crew` shares
-  /// the passes, colour by colour.
+  /// before `finish` stay single: rigid, or marked in `apart` (by record). Those with restitution may be read
+  /// and changed between `show_bounces` and `take_bounces`. `crew` shares the passes, colour by colour.
   void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
              Crew& crew);
 
@@ -30,6 +30,12 @@ class SoftContacts {
 
   /// Solves normal impulses without bias, friction and rolling resistance: corrects velocities.
   void relax(BodyMotion<Real>* motion, const ContactStep<Real>& step);
+
+  /// Writes separations and impulses back to the contacts with restitution.
+  void show_bounces();
+
+  /// Reads the contacts with restitution again, which may have changed since `show_bounces`.
+  void take_bounces(const BodyMotion<Real>* motion);
 
   /// Writes the impulses back to the contacts.
   void finish();
@@ -86,6 +92,10 @@ class SoftContacts {
   template <class Pass, int kBytes>
   void share_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
                     const ContactStep<Real>& step);
+  template <int kBytes>
+  void show_bounces(Blocks<kBytes>& blocks);
+  template <int kBytes>
+  void take_bounces(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion);
   template <class Pass>
   void sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <span>
 #include <vector>
 
 #include "engine/core/room.h"
@@ -41,18 +43,18 @@ bool nothing_left(const WorldData<Real>& w) {
   return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
 }
 
-// Returns marks, by record, of the contacts with an impact time of their own or a second solver, which read
-// and change them between the passes; no marks if there are none.
+// Returns marks, by record, of the contacts that have a second solver, which reads and changes them between
+// the passes, and of discs that approach fast without restitution; no marks if there are none.
 template <class Real>
 const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   std::vector<char>& apart = w.scratch.apart;
   apart.clear();
   const auto mark = [&](const ContactConstraint<Real>& c) {
-    if (c.restitution > 0) return;  // they are apart anyway
     if (apart.empty()) make_room(apart, w.contacts.size());
     apart[c.contact] = 1;
   };
-  for (const RestitutionContact<Real>& bounce : w.scratch.bounces) mark(*bounce.contact);
+  for (const RestitutionContact<Real>& bounce : w.scratch.bounces)
+    if (!(bounce.contact->restitution > 0)) mark(*bounce.contact);
   for (int i = 0; i < w.scratch.jointed_count; ++i)
     for (const ContactConstraint<Real>* c : w.scratch.jointed[i].contacts) mark(*c);
   return apart;
@@ -70,6 +72,20 @@ const std::vector<char>& joints_apart(WorldData<Real>& w) {
     }
   }
   return apart;
+}
+
+// Contacts with restitution that a thread takes at a time: some microseconds of work.
+constexpr int kBouncesOfTask = 128;
+
+// Calls `run(bounces)` for parts of the contacts with restitution. Returns true if it did for one.
+template <class Real, class Run>
+bool any_bounce(WorldData<Real>& w, const Run& run) {
+  const std::span<RestitutionContact<Real>> all(w.scratch.bounces);
+  std::atomic<bool> any = false;
+  w.crew.ranges(static_cast<int>(all.size()), kBouncesOfTask, [&](int first, int last) {
+    if (run(all.subspan(first, last - first))) any.store(true, std::memory_order_relaxed);
+  });
+  return any;
 }
 
 }  // namespace
@@ -108,15 +124,20 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
+  using Bounce = RestitutionContact<Real>;
+  const bool bounces = !w.scratch.bounces.empty();
   bool strikes = false;
   const auto place = [&] {
-    strikes = schedule_impacts(bodies.motion, w.scratch.bounces, contacts);
+    strikes = any_bounce(
+        w, [&](std::span<Bounce> some) { return schedule_impacts(bodies.motion, some, contacts); });
     if (!strikes) return;
     propagate_impacts(w, contacts);
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
-    const bool parted = note_approaches(bodies.motion, w.scratch.bounces, contacts);
+    if (bounces) passes.show_bounces();
+    const bool parted =
+        any_bounce(w, [&](std::span<Bounce> some) { return note_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
@@ -129,9 +150,10 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (place_first) place();
     if (strikes) note_blows(w);
     if (jointed) w.joint_set.warm_start(bodies, joints, &w.crew);
-    if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (!place_first) place();
-    let_pass(w.scratch.bounces);
+    let_pass(std::span<Bounce>(w.scratch.bounces));
+    if (bounces) passes.take_bounces(bodies.motion);
+    if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (jointed) w.joint_set.solve(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, true);
     passes.solve(bodies.motion, contacts);
@@ -142,7 +164,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
-    hold_again(w.scratch.bounces);
+    hold_again(std::span<Bounce>(w.scratch.bounces));
     contacts.warm_start = joints.warm_start = 1;
   }
   passes.finish();
