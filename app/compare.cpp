@@ -117,7 +117,11 @@ int start(const Options& options) {
   if (options.format == "console") {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     const std::vector<harness::Agreement> agreements = harness::agreements(comparison.results);
-    print(harness::agreement_text(agreements, style) + "\n" + harness::summary(comparison.results, style) +
+    // A few cases fit a screen with all names.
+    const bool few = agreements.size() <= 3;
+    print(harness::agreement_text(
+              agreements, few ? harness::AgreementDetail::Full : harness::AgreementDetail::Brief, style) +
+          "\n" + harness::summary(comparison.results, style) +
           harness::conclusion(comparison.results, style) +
           fmt::format("compared in {:.0f} s\n", took.count()));
   }

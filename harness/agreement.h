@@ -57,8 +57,13 @@ struct Agreement {
 /// result.
 std::vector<Agreement> agreements(std::span<const Result> results);
 
+enum class AgreementDetail {
+  Brief,  ///< of each case how many agree, and which miss by how much
+  Full,   ///< also the names of those that agree, with the truth and with each other
+};
+
 /// Formats them for people: cases with misses one by one, the others together, the reasons once each.
-std::string agreement_text(std::span<const Agreement> cases, const Style& style);
+std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style);
 
 /// A case a line. `agreement_from_json` reads one; it throws `Error` (Syntax).
 std::string agreement_json(const Agreement& one);

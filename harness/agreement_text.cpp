@@ -75,7 +75,7 @@ std::string times_text(const Miss& miss) {
   return times < 99.5 ? fmt::format("{:.2g} x", times) : figure(times) + " x";
 }
 
-std::string agreement_text(std::span<const Agreement> cases, const Style& style) {
+std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style) {
   std::string out = style.paint("Which engines agree", Ink::Bold) + "\n";
   std::vector<std::string> unanimous;
   for (const Agreement& one : cases)
@@ -91,13 +91,23 @@ std::string agreement_text(std::span<const Agreement> cases, const Style& style)
   Reasons reasons;
   for (const Agreement& one : cases) {
     if (is_unanimous(one)) continue;
+    std::vector<std::string> missed;
+    for (const Dissent& dissent : one.dissents) missed.push_back(dissent_text(dissent, reasons));
+    if (detail == AgreementDetail::Brief) {
+      for (const Absence& absence : one.absent)
+        if (absence.broke) missed.push_back(fmt::format("{} (no result)", absence.engine));
+      out += "  " +
+             wrap(fmt::format("{}: {} of {} with the truth{}{}", one.label, one.agree.size(), one.ran(),
+                              missed.empty() ? "" : "; not ", joined(missed, "; ")),
+                  style.width - 2, 4) +
+             "\n";
+      continue;
+    }
     out += "  " + style.paint(one.label, Ink::Bold) + "\n";
     const auto line = [&](const std::string& text) { out += "    " + wrap(text, style.width - 4, 6) + "\n"; };
     line(fmt::format("with the truth: {}", one.agree.empty() ? "none"
                                                              : fmt::format("{} ({} of {})", joined(one.agree),
                                                                            one.agree.size(), one.ran())));
-    std::vector<std::string> missed;
-    for (const Dissent& dissent : one.dissents) missed.push_back(dissent_text(dissent, reasons));
     if (!missed.empty()) line("not: " + joined(missed, "; "));
     if (one.ran() > 1) line("with each other: " + groups_text(one));
     for (const Absence& absence : one.absent)

@@ -31,6 +31,11 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 // Escapes `text` for a cell of a table.
 std::string in_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
@@ -52,8 +57,6 @@ bool starts_section(const CatalogueEntry* before, const CatalogueEntry& entry) {
          before->topic != entry.topic;
 }
 
-bool is_second_row(std::string_view engine) { return engine.ends_with("-default"); }
-
 /// Notes of a page, numbered in the order of their first use.
 struct Notes {
   std::vector<std::string> all{};
@@ -67,33 +70,21 @@ struct Notes {
 
 std::string agreeing_cell(const Agreement& one) {
   std::string names;
-  std::size_t agree = 0, ran = 0;
-  for (const std::string& engine : one.agree) {
-    if (is_second_row(engine)) continue;
-    names += (names.empty() ? "" : ", ") + engine;
-    ++agree;
-    ++ran;
-  }
-  for (const Dissent& dissent : one.dissents) ran += is_second_row(dissent.engine) ? 0 : 1;
-  return fmt::format("{} of {}{}{}", agree, ran, names.empty() ? "" : ": ", names);
+  for (const std::string& engine : one.agree) names += (names.empty() ? ": " : ", ") + engine;
+  return fmt::format("{} of {}{}", one.agree.size(), one.ran(), names);
 }
 
 // Lists the engines that miss: the check missed by the most, how many others they agree with, the reason.
 std::string missing_cell(const Agreement& one, Notes& reasons) {
   std::string out;
   for (const Dissent& dissent : one.dissents) {
-    if (is_second_row(dissent.engine)) continue;
-    std::size_t partners = 0, others = 0;
-    for (const std::string& other : one.partners(dissent.engine)) partners += is_second_row(other) ? 0 : 1;
-    for (const std::string& other : one.agree) others += is_second_row(other) ? 0 : 1;
-    for (const Dissent& other : one.dissents) others += is_second_row(other.engine) ? 0 : 1;
     out += (out.empty() ? "" : "; ") + dissent.engine + " ";
     out += dissent.misses.empty()
                ? "diverges"
                : fmt::format("{} {} ({})", dissent.misses.front().check, figure(dissent.misses.front().value),
                              times_text(dissent.misses.front()));
-    out += fmt::format(", with {} of {} others [{}](#reasons)", partners, others - 1,
-                       reasons.number_of(dissent.reason));
+    out += fmt::format(", with {} of {} others [{}](#reasons)", one.partners(dissent.engine).size(),
+                       one.ran() - 1, reasons.number_of(dissent.reason));
   }
   return out;
 }
@@ -153,9 +144,7 @@ std::string catalogue_page(std::span<const Agreement> agreement) {
   for (const Agreement& one : agreement) {
     by_label[one.label] = &one;
     for (const std::string& version : one.versions)
-      if (!is_second_row(version.substr(0, version.find(' '))) &&
-          std::ranges::find(versions, version) == versions.end())
-        versions.push_back(version);
+      if (std::ranges::find(versions, version) == versions.end()) versions.push_back(version);
   }
   std::string engines;
   for (const std::string& version : versions) engines += (engines.empty() ? "" : ", ") + version;
@@ -178,7 +167,7 @@ test compares both with the scenarios. What engines agree on comes from results:
 
 ```sh
 plumb compare --engine all --no-cost --out all        # after plumb engines --install, for those from npm
-plumb agreement all --format json > docs/agreement.jsonl
+plumb agreement all --without '*-default' --format json > docs/agreement.jsonl
 ```
 )",
                   entries.size(), scenarios::all().size(), engines.empty() ? "no engine" : engines);
@@ -186,9 +175,7 @@ plumb agreement all --format json > docs/agreement.jsonl
   const CatalogueEntry* before = nullptr;
   for (const CatalogueEntry& entry : entries) {
     if (before == nullptr || before->topic != entry.topic) {
-      std::string heading(name_of(entry.topic));
-      heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
-      page += fmt::format("\n## {}\n", heading);
+      page += fmt::format("\n## {}\n", capitalised(std::string(name_of(entry.topic))));
     }
     if (starts_section(before, entry)) {
       std::set<std::string> needed;
@@ -198,10 +185,11 @@ plumb agreement all --format json > docs/agreement.jsonl
       for (const std::string& name : all_needs())
         if (needed.contains(name)) needs += (needs.empty() ? "" : ", ") + name;
       page += fmt::format(
-          "\n### {0}\n\n{1}. Needs: {2}.\n\n![{1}](pictures/scenarios/{3})\n\n"
+          "\n### {0}\n\n{4}. Needs: {2}.\n\n![{1}](pictures/scenarios/{3})\n\n"
           "| case | truth | source | agree with it | miss |\n|---|---|---|---|---|\n",
           entry.instance.scenario->name, entry.instance.scenario->summary,
-          needs.empty() ? "gravity alone" : needs, picture_name(entry));
+          needs.empty() ? "gravity alone" : needs, picture_name(entry),
+          capitalised(entry.instance.scenario->summary));
     }
     const auto found = by_label.find(entry.instance.label());
     page += fmt::format("| `{}` | {} | {} | {} | {} |\n", entry.instance.label(), name_of(entry.kind),

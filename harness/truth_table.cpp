@@ -52,8 +52,8 @@ double TruthTable::fine_time(long index) const {
 
 namespace {
 
-// Returns the sum of the largest accelerations that the force laws give to their bodies: constant and sinusoidal
-// forces, springs and attractions by their lengths at the start, m/s^2.
+// Returns the sum of the largest accelerations that the force laws give to their bodies: constant and
+// sinusoidal forces, springs and attractions by their lengths at the start, m/s^2.
 double largest_push(const Scene& scene) {
   const auto mass_of = [&](const std::string& name) {
     const auto index = find_body(scene, name);

@@ -80,7 +80,8 @@ TEST(Agreement, AnEngineThatDidNotRunNeitherAgreesNorMisses) {
   ASSERT_EQ(one.absent.size(), 2u);
   EXPECT_FALSE(one.absent[0].broke);
   EXPECT_TRUE(one.absent[1].broke);
-  EXPECT_THAT(agreement_text(std::vector{one}, {}), HasSubstr("no result: b: signal 11"));
+  EXPECT_THAT(agreement_text(std::vector{one}, AgreementDetail::Full, {}),
+              HasSubstr("no result: b: signal 11"));
 }
 
 TEST(Agreement, AMissWithoutAReasonSaysSo) {
@@ -101,7 +102,7 @@ TEST(Agreement, TextHasEachReasonOnceAndCasesWithoutMissesTogether) {
   Result alone = run("a", 0, {});
   alone.label = "rest";
   results.push_back(alone);
-  const std::string text = agreement_text(agreements(results), {});
+  const std::string text = agreement_text(agreements(results), AgreementDetail::Full, {});
   EXPECT_THAT(text, HasSubstr("in 1 of 3: rest (1)"));
   EXPECT_THAT(text, HasSubstr("with the truth: a, b (2 of 3)"));
   EXPECT_THAT(text, HasSubstr("not: c energy_drift 5, 50 x of its bound and 1 more (1)"));
@@ -109,6 +110,9 @@ TEST(Agreement, TextHasEachReasonOnceAndCasesWithoutMissesTogether) {
   const std::size_t first = text.find("c rounds to a metre.");
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(text.find("c rounds to a metre.", first + 1), std::string::npos);
+  EXPECT_THAT(
+      agreement_text(agreements(results), AgreementDetail::Brief, {}),
+      HasSubstr("drop: 2 of 3 with the truth; not c energy_drift 5, 50 x of its bound and 1 more (1)\n"));
 }
 
 TEST(Agreement, JsonReadsBackAndCsvHasALineAMiss) {

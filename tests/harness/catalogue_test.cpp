@@ -44,11 +44,13 @@ TEST(Catalogue, TheDocumentsSayOfEachCaseWhoAgreesAsTheKnownLimitsDo) {
     EXPECT_EQ(cases.erase(one.label), 1u) << one.label << " is not a case, or is there twice";
     EXPECT_GE(one.ran(), 2u) << one.label;
     for (const std::string& engine : one.agree)
-      EXPECT_THAT(find_known_limit(known_limits(), engine, one.label, "position_error", true), testing::IsNull())
+      EXPECT_THAT(find_known_limit(known_limits(), engine, one.label, "position_error", true),
+                  testing::IsNull())
           << one.label << " on " << engine;
     for (const Dissent& dissent : one.dissents) {
       EXPECT_NE(dissent.reason, "no reason is declared") << one.label << " on " << dissent.engine;
-      if (reference::find_backend(dissent.engine).identity().guest) continue;  // its own sentence is the reason
+      if (reference::find_backend(dissent.engine).identity().guest)
+        continue;  // its own sentence is the reason
       for (const Miss& miss : dissent.misses)
         EXPECT_THAT(find_known_limit(known_limits(), dissent.engine, one.label, miss.check, true),
                     testing::NotNull())
@@ -91,7 +93,9 @@ TEST(Catalogue, EachScenarioHasItsPictureInTheDocuments) {
 }
 
 TEST(Catalogue, SaysWhatASceneNeeds) {
-  const auto needs = [](std::string_view label) { return needs_of(scenarios::select(label).front().build().scene); };
+  const auto needs = [](std::string_view label) {
+    return needs_of(scenarios::select(label).front().build().scene);
+  };
   EXPECT_THAT(needs("harmonic_oscillator"), ElementsAre("spring force"));
   EXPECT_THAT(needs("conveyor"), ElementsAre("box", "contacts", "friction", "surface_speed"));
   EXPECT_THAT(needs("hinge_limit"), ElementsAre("revolute joint", "limits"));
