@@ -46,8 +46,8 @@ std::string dissent_text(const Dissent& dissent, Reasons& reasons) {
   const std::size_t number = reasons.number_of(dissent.reason);
   if (dissent.misses.empty()) return fmt::format("{} ({})", dissent.engine, number);
   const Miss& worst = dissent.misses.front();
-  std::string out = fmt::format("{} {} {}, {} of its bound", dissent.engine, worst.check, figure(worst.value),
-                                times_text(worst));
+  std::string out = fmt::format("{} {} {}, {}{}", dissent.engine, worst.check, figure(worst.value),
+                                times_text(worst), std::isfinite(worst.times()) ? " its bound" : "");
   if (dissent.misses.size() > 1) out += fmt::format(" and {} more", dissent.misses.size() - 1);
   return out + fmt::format(" ({})", number);
 }
@@ -71,7 +71,7 @@ double number(const Json& json) {
 
 std::string times_text(const Miss& miss) {
   const double times = miss.times();
-  if (!std::isfinite(times)) return "beyond any multiple";
+  if (!std::isfinite(times)) return "beyond any bound";
   return times < 99.5 ? fmt::format("{:.2g} x", times) : figure(times) + " x";
 }
 

@@ -89,7 +89,7 @@ TEST(Agreement, AMissWithoutAReasonSaysSo) {
 }
 
 TEST(Agreement, ABoundOfZeroIsExceededByNoFiniteMultiple) {
-  EXPECT_EQ(times_text({"joint_gap", 0.1, 0}), "beyond any multiple");
+  EXPECT_EQ(times_text({"joint_gap", 0.1, 0}), "beyond any bound");
   EXPECT_EQ(times_text({"joint_gap", 0.3, 0.2}), "1.5 x");
 }
 
@@ -105,14 +105,14 @@ TEST(Agreement, TextHasEachReasonOnceAndCasesWithoutMissesTogether) {
   const std::string text = agreement_text(agreements(results), AgreementDetail::Full, {});
   EXPECT_THAT(text, HasSubstr("in 1 of 3: rest (1)"));
   EXPECT_THAT(text, HasSubstr("with the truth: a, b (2 of 3)"));
-  EXPECT_THAT(text, HasSubstr("not: c energy_drift 5, 50 x of its bound and 1 more (1)"));
+  EXPECT_THAT(text, HasSubstr("not: c energy_drift 5, 50 x its bound and 1 more (1)"));
   EXPECT_THAT(text, HasSubstr("with each other: a, b; b, c"));
   const std::size_t first = text.find("c rounds to a metre.");
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(text.find("c rounds to a metre.", first + 1), std::string::npos);
   EXPECT_THAT(
       agreement_text(agreements(results), AgreementDetail::Brief, {}),
-      HasSubstr("drop: 2 of 3 with the truth; not c energy_drift 5, 50 x of its bound and 1 more (1)\n"));
+      HasSubstr("drop: 2 of 3 with the truth; not c energy_drift 5, 50 x its bound and 1 more (1)\n"));
 }
 
 TEST(Agreement, JsonReadsBackAndCsvHasALineAMiss) {
