@@ -34,6 +34,7 @@ void add_gather(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_submit(CLI::App& app, Action& chosen);
 void add_report(CLI::App& app, Action& chosen);
+void add_agreement(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app);
 void add_window(CLI::App& app);  ///< demo and view
 

@@ -19,6 +19,7 @@
 #include "app/source.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
+#include "harness/agreement.h"
 #include "harness/interrupt.h"
 #include "harness/junit.h"
 #include "harness/plain_words.h"
@@ -115,7 +116,13 @@ int start(const Options& options) {
   progress.clear();
   if (options.format == "console") {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    print(harness::summary(comparison.results, style) + harness::conclusion(comparison.results, style) +
+    const std::vector<harness::Agreement> agreements = harness::agreements(comparison.results);
+    // A few cases fit a screen with all names.
+    const bool few = agreements.size() <= 3;
+    print(harness::agreement_text(
+              agreements, few ? harness::AgreementDetail::Full : harness::AgreementDetail::Brief, style) +
+          "\n" + harness::summary(comparison.results, style) +
+          harness::conclusion(comparison.results, style) +
           fmt::format("compared in {:.0f} s\n", took.count()));
   }
   flush();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,9 @@
 #include "harness/case_file/case_file.h"
 #include "harness/catalogue.h"
 #include "harness/known_limits_page.h"
+#include "harness/needs.h"
 #include "harness/style.h"
+#include "harness/text_file.h"
 #include "scenarios/scenario.h"
 
 namespace plumb::app {
@@ -58,6 +61,15 @@ std::string as_text(const CatalogueFilter& filter, const Style& style) {
     out += "  " + harness::wrap(scenario.summary, style.width - 2, 2) + "\n";
     if (scenario.variants.size() > 1)
       out += "  " + harness::wrap("variants: " + joined(variants), style.width - 2, 12) + "\n";
+    std::vector<std::string> needs;
+    for (const std::string& name : harness::all_needs())
+      for (std::size_t k = i; k < entries.size() && entries[k].topic == entry.topic; ++k)
+        if (entries[k].instance.scenario == &scenario &&
+            std::ranges::find(entries[k].needs, name) != entries[k].needs.end()) {
+          needs.push_back(name);
+          break;
+        }
+    if (!needs.empty()) out += "  " + harness::wrap("needs: " + joined(needs), style.width - 2, 9) + "\n";
     if (scenario.scales)
       out += "  " + harness::wrap("sizes: " + sizes_text(scenario) + ", or any", style.width - 2, 9) + "\n";
   }
@@ -75,7 +87,8 @@ std::string as_json(const CatalogueFilter& filter) {
         cases.push_back({{"label", entry.instance.label()},
                          {"topic", harness::name_of(entry.topic)},
                          {"truth", harness::name_of(entry.kind)},
-                         {"source", entry.source}});
+                         {"source", entry.source},
+                         {"needs", entry.needs}});
     if (cases.empty()) continue;
     out.push_back({{"name", scenario.name},
                    {"summary", scenario.summary},
@@ -115,7 +128,8 @@ void add_list(CLI::App& app, Action& chosen) {
     std::string format = "console";
     CatalogueFilter filter{};
     std::vector<std::string> files;
-    bool limits = false, page = false;
+    std::string page, pictures;
+    bool limits = false;
   };
   CLI::App* command = app.add_subcommand("list", "the scenarios by topic, with their variants and sizes");
   auto options = std::make_shared<Options>();
@@ -127,20 +141,38 @@ void add_list(CLI::App& app, Action& chosen) {
       ->type_name("TEXT");
   command->add_option("--truth", options->filter.truth, "cases whose truth is of this kind")
       ->check(CLI::IsMember({"closed_form", "integrated", "equilibrium"}));
+  command
+      ->add_option("--needs", options->filter.needs,
+                   "cases that need each of these: kinds of shapes, joints and forces, and features")
+      ->delimiter(',')
+      ->check(CLI::IsMember(harness::all_needs()))
+      ->type_name("NAME,...");
   command->add_flag("--known-limits", options->limits,
                     "the bounds that engines are known to miss, as docs/known-limits.md");
-  command->add_flag("--page", options->page, "every case with its source, as docs/scenarios.md");
+  command
+      ->add_option("--page", options->page,
+                   "every case with its source and who agrees, as docs/scenarios.md: from a file that\n"
+                   "`plumb agreement --format json` wrote")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  command->add_option("--pictures", options->pictures, "draw each scenario into this folder, as SVG")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
   command->footer(
-      "Examples:\n  plumb list\n  plumb list --filter friction --truth closed_form\n  plumb list --format "
-      "json");
+      "Examples:\n  plumb list\n  plumb list --filter friction --truth closed_form\n"
+      "  plumb list --needs contacts,restitution\n  plumb list --format json\n"
+      "  plumb list --page docs/agreement.jsonl > docs/scenarios.md");
   command->callback([&chosen, options] {
     chosen = [options] {
       if (!options->files.empty()) {
         print(cases_as_text(options->files, Style::of_file(STDOUT_FILENO)));
       } else if (options->limits) {
         print(harness::known_limits_page());
-      } else if (options->page) {
-        print(harness::catalogue_page());
+      } else if (!options->pictures.empty()) {
+        for (const auto& [name, text] : harness::catalogue_pictures())
+          harness::write_whole((std::filesystem::path(options->pictures) / name).string(), text);
+      } else if (!options->page.empty()) {
+        print(harness::catalogue_page(harness::read_agreements(options->page)));
       } else if (options->format == "json") {
         print(as_json(options->filter));
       } else {

@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
   add_limits(app, action);
   add_reality(app, action);
   add_report(app, action);
+  add_agreement(app, action);
   add_plan(app, action);
   add_submit(app, action);
   add_work(app, action);

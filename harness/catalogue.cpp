@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
+
+#include "harness/needs.h"
+#include "harness/scene_picture.h"
 
 namespace plumb::harness {
 namespace {
@@ -26,6 +31,11 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 // Escapes `text` for a cell of a table.
 std::string in_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
@@ -33,8 +43,56 @@ std::string in_cell(std::string text) {
   return text;
 }
 
+// Returns the name of the picture of a case, which stands for its scenario in its topic.
+std::string picture_name(const CatalogueEntry& entry) {
+  std::string name = entry.instance.label();
+  std::erase(name, ']');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '/' || c == '['; }, '_');
+  return name + ".svg";
+}
+
+bool starts_section(const CatalogueEntry* before, const CatalogueEntry& entry) {
+  return before == nullptr || before->instance.scenario != entry.instance.scenario ||
+         before->topic != entry.topic;
+}
+
+/// Notes of a page, numbered in the order of their first use.
+struct Notes {
+  std::vector<std::string> all{};
+  std::size_t number_of(const std::string& text) {
+    const auto found = std::ranges::find(all, text);
+    if (found != all.end()) return static_cast<std::size_t>(found - all.begin()) + 1;
+    all.push_back(text);
+    return all.size();
+  }
+};
+
+std::string agreeing_cell(const Agreement& one) {
+  std::string names;
+  for (const std::string& engine : one.agree) names += (names.empty() ? ": " : ", ") + engine;
+  return fmt::format("{} of {}{}", one.agree.size(), one.ran(), names);
+}
+
+// Lists the engines that miss: the check missed by the most, how many others they agree with, the reason.
+std::string missing_cell(const Agreement& one, Notes& reasons) {
+  std::string out;
+  for (const Dissent& dissent : one.dissents) {
+    out += (out.empty() ? "" : "; ") + dissent.engine + " ";
+    out += dissent.misses.empty()
+               ? "diverges"
+               : fmt::format("{} {} ({})", dissent.misses.front().check, figure(dissent.misses.front().value),
+                             times_text(dissent.misses.front()));
+    out += fmt::format(", with {} of {} others [{}](#reasons)", one.partners(dissent.engine).size(),
+                       one.ran() - 1, reasons.number_of(dissent.reason));
+  }
+  return out;
+}
+
 bool passes(const CatalogueEntry& entry, const CatalogueFilter& filter) {
   if (!filter.truth.empty() && filter.truth != name_of(entry.kind)) return false;
+  for (const std::string& need : filter.needs)
+    if (std::ranges::find(entry.needs, need) == entry.needs.end()) return false;
   const std::string all =
       entry.instance.label() + "\n" + entry.instance.scenario->summary + "\n" + entry.source;
   return lower(all).find(lower(filter.text)) != std::string::npos;
@@ -58,7 +116,8 @@ std::vector<CatalogueEntry> catalogue(const CatalogueFilter& filter) {
   for (const scenarios::Scenario& scenario : scenarios::all()) {
     for (const scenarios::Instance& instance : scenarios::select(scenario.name)) {
       const Problem problem = instance.build();
-      CatalogueEntry entry{instance, topic_of(problem), problem.truth.kind, problem.truth.source};
+      CatalogueEntry entry{instance, topic_of(problem), problem.truth.kind, problem.truth.source,
+                           needs_of(problem.scene)};
       if (passes(entry, filter)) entries.push_back(std::move(entry));
     }
   }
@@ -67,28 +126,79 @@ std::vector<CatalogueEntry> catalogue(const CatalogueFilter& filter) {
   return entries;
 }
 
-std::string catalogue_page() {
+std::map<std::string, std::string> catalogue_pictures() {
+  std::map<std::string, std::string> out;
   const std::vector<CatalogueEntry> entries = catalogue();
-  std::string page = fmt::format(R"(# Scenarios
+  const CatalogueEntry* before = nullptr;
+  for (const CatalogueEntry& entry : entries) {
+    if (starts_section(before, entry))
+      out[picture_name(entry)] = scene_picture(entry.instance.build(), entry.instance.label());
+    before = &entry;
+  }
+  return out;
+}
+
+std::string catalogue_page(std::span<const Agreement> agreement) {
+  std::map<std::string, const Agreement*> by_label;
+  std::vector<std::string> versions;
+  for (const Agreement& one : agreement) {
+    by_label[one.label] = &one;
+    for (const std::string& version : one.versions)
+      if (std::ranges::find(versions, version) == versions.end()) versions.push_back(version);
+  }
+  std::string engines;
+  for (const std::string& version : versions) engines += (engines.empty() ? "" : ", ") + version;
+  const std::vector<CatalogueEntry> entries = catalogue();
+  std::string page =
+      fmt::format(R"(# Scenarios
 
 {} cases in {} files, each with an answer that no engine computed. `plumb compare NAME` runs one on every engine;
-`plumb list --filter TEXT --truth KIND` searches them. The truth is a `closed_form`, the equations of motion in
-independent coordinates, `integrated` to about 15 digits, or an `equilibrium` by statics.
+`plumb list --filter TEXT --truth KIND --needs NAME` searches them. The truth is a `closed_form`, the equations of
+motion in independent coordinates, `integrated` to about 15 digits, or an `equilibrium` by statics. A picture shows
+the start dashed, the end filled, and the true paths between.
 
-`plumb list --page` generates this page; a test compares it with the scenarios.
+An engine *agrees* if each of its checks is within its derived bound ([which](formats.md#checks)), at dt = 1/60 s and
+default settings. Of the others, the table has the check that is missed by the largest multiple of its bound, how many
+of the other engines they agree with (within the sum of both bounds), and the number of [the reason](#reasons). The
+figures were made with {}.
+
+`plumb list --page docs/agreement.jsonl` generates this page, and `--pictures docs/pictures/scenarios` its pictures; a
+test compares both with the scenarios. What engines agree on comes from results:
+
+```sh
+plumb compare --engine all --no-cost --out all        # after plumb engines --install, for those from npm
+plumb agreement all --without '*-default' --format json > docs/agreement.jsonl
+```
 )",
-                                 entries.size(), scenarios::all().size());
+                  entries.size(), scenarios::all().size(), engines.empty() ? "no engine" : engines);
+  Notes reasons;
   const CatalogueEntry* before = nullptr;
   for (const CatalogueEntry& entry : entries) {
     if (before == nullptr || before->topic != entry.topic) {
-      std::string heading(name_of(entry.topic));
-      heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
-      page += fmt::format("\n## {}\n\n| case | what | truth | source |\n|---|---|---|---|\n", heading);
+      page += fmt::format("\n## {}\n", capitalised(std::string(name_of(entry.topic))));
     }
-    page += fmt::format("| `{}` | {} | {} | {} |\n", entry.instance.label(), entry.instance.scenario->summary,
-                        name_of(entry.kind), in_cell(entry.source));
+    if (starts_section(before, entry)) {
+      std::set<std::string> needed;
+      for (const CatalogueEntry& other : entries)
+        if (!starts_section(&entry, other)) needed.insert(other.needs.begin(), other.needs.end());
+      std::string needs;
+      for (const std::string& name : all_needs())
+        if (needed.contains(name)) needs += (needs.empty() ? "" : ", ") + name;
+      page += fmt::format(
+          "\n### {0}\n\n{4}. Needs: {2}.\n\n![{1}](pictures/scenarios/{3})\n\n"
+          "| case | truth | source | agree with it | miss |\n|---|---|---|---|---|\n",
+          entry.instance.scenario->name, entry.instance.scenario->summary,
+          needs.empty() ? "gravity alone" : needs, picture_name(entry),
+          capitalised(entry.instance.scenario->summary));
+    }
+    const auto found = by_label.find(entry.instance.label());
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", entry.instance.label(), name_of(entry.kind),
+                        in_cell(entry.source), found == by_label.end() ? "" : agreeing_cell(*found->second),
+                        found == by_label.end() ? "" : in_cell(missing_cell(*found->second, reasons)));
     before = &entry;
   }
+  page += "\n## Reasons\n\n";
+  for (std::size_t i = 0; i < reasons.all.size(); ++i) page += fmt::format("{}. {}\n", i + 1, reasons.all[i]);
   return page;
 }
 

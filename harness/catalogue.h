@@ -1,9 +1,12 @@
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "harness/agreement.h"
 #include "scenarios/scenario.h"
 
 namespace plumb::harness {
@@ -21,18 +24,25 @@ struct CatalogueEntry {
   Topic topic{};
   scenarios::TruthKind kind{};
   std::string source;
+  std::vector<std::string> needs{};  ///< see `needs_of`
 };
 
 /// Which cases to list.
 struct CatalogueFilter {
-  std::string text{};   ///< of the label, the summary or the source, in any case; empty: all
-  std::string truth{};  ///< name of a kind; empty: all
+  std::string text{};                ///< of the label, the summary or the source, in any case; empty: all
+  std::string truth{};               ///< name of a kind; empty: all
+  std::vector<std::string> needs{};  ///< names from `all_needs`: cases that need each of them
 };
 
 /// Returns the cases that pass `filter`, by topic and then by name.
 std::vector<CatalogueEntry> catalogue(const CatalogueFilter& filter = {});
 
-/// Returns docs/scenarios.md: every case with its source, in Markdown.
-std::string catalogue_page();
+/// Returns docs/scenarios.md: every case with its picture, its source and the engines that agree on it, in
+/// Markdown. `agreement` says which do; cases that it leaves out have none. Second rows of engines, with
+/// names that end in "-default", are left out.
+std::string catalogue_page(std::span<const Agreement> agreement);
+
+/// Returns the pictures that the page shows, by their file names.
+std::map<std::string, std::string> catalogue_pictures();
 
 }  // namespace plumb::harness

@@ -55,9 +55,10 @@ std::string test(const Result& result) {
   std::string misses;
   for (const Check& check : result.checks)
     if (!check.pass && !check.known_limit.empty())
-      misses += fmt::format("{} is {:.3g}, its bound is {:.3g}: {}\n", check.name, check.value,
-                            check.tolerance, check.known_limit);
-  if (!misses.empty()) out += fmt::format("      <system-out>{}</system-out>\n", escaped(misses));
+      misses += escaped(fmt::format("{} is {:.3g}, its bound is {:.3g}: {}", check.name, check.value,
+                                    check.tolerance, check.known_limit)) +
+                "\n";
+  if (!misses.empty()) out += fmt::format("      <system-out>{}</system-out>\n", misses);
   return out + "    </testcase>\n";
 }
 

@@ -1,5 +1,6 @@
 #include "harness/result.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -77,6 +78,7 @@ Json result_json(const Result& result) {
     const auto& value = result.metrics.*field.value;
     metrics[std::string(field.name)] = value ? Json(*value) : Json(nullptr);
   }
+  const std::optional<bool> agrees = result.agrees_with_truth();
   Json json{{"scenario", result.scenario},
             {"variant", result.variant},
             {"size", result.size},
@@ -94,6 +96,7 @@ Json result_json(const Result& result) {
             {"metrics", metrics},
             {"cost", result.cost ? cost_json(*result.cost) : Json(nullptr)},
             {"checks", checks_json(result.checks)},
+            {"agrees_with_truth", agrees ? Json(*agrees) : Json(nullptr)},
             {"agrees_with", result.agrees_with},
             {"disagrees_with", result.disagrees_with},
             {"unexpected", result.unexpected}};
@@ -160,6 +163,11 @@ const Check* Result::find_check(std::string_view name) const {
   for (const Check& check : checks)
     if (check.name == name) return &check;
   return nullptr;
+}
+
+std::optional<bool> Result::agrees_with_truth() const {
+  if (!ran()) return std::nullopt;
+  return status == Status::Ok && std::ranges::all_of(checks, [](const Check& check) { return check.pass; });
 }
 
 std::string to_json(const Result& result) { return dump(result_json(result)); }

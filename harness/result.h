@@ -61,6 +61,9 @@ struct Result {
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;
+
+  /// Returns true if it ran and every check is within its bound; nothing if it did not run.
+  std::optional<bool> agrees_with_truth() const;
 };
 
 /// Lists the deviations of `result` from the declarations: checks missed without a declared limit, and a run

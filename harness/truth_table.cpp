@@ -5,10 +5,12 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <variant>
 
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
 #include "harness/magnitude.h"
+#include "reference/support/plain_scene.h"
 
 namespace plumb::harness {
 namespace {
@@ -48,6 +50,42 @@ double TruthTable::fine_time(long index) const {
   return static_cast<double>(whole) * dt_ + dt_ * static_cast<double>(part) / refinement_;
 }
 
+namespace {
+
+// Returns the sum of the largest accelerations that the force laws give to their bodies: constant and
+// sinusoidal forces, springs and attractions by their lengths at the start, m/s^2.
+double largest_push(const Scene& scene) {
+  const auto mass_of = [&](const std::string& name) {
+    const auto index = find_body(scene, name);
+    const bool moves = index && scene.bodies[*index].type == BodyType::Dynamic;
+    return moves ? scene.bodies[*index].mass : std::numeric_limits<double>::infinity();
+  };
+  const auto apart = [&](const std::string& a, Vec2d at_a, const std::string& b, Vec2d at_b) {
+    return magnitude(reference::anchor_in_world(scene, b, at_b) - reference::anchor_in_world(scene, a, at_a));
+  };
+  double sum = 0;
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* push = std::get_if<PointForce>(&law)) {
+      sum += magnitude(push->force) / mass_of(push->body);
+    } else if (const auto* swing = std::get_if<SinusoidalForce>(&law)) {
+      sum += magnitude(swing->amplitude) / mass_of(swing->body);
+    } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
+      const double length = apart(spring->body_a, spring->anchor_a, spring->body_b, spring->anchor_b);
+      sum += spring->stiffness * std::abs(length - spring->rest_length) /
+             std::min(mass_of(spring->body_a), mass_of(spring->body_b));
+    } else if (const auto* pull = std::get_if<AttractionForce>(&law)) {
+      const double distance = apart(pull->body, {}, pull->centre_body, pull->centre);
+      const double mass = mass_of(pull->body);
+      if (distance > 0 && std::isfinite(mass))
+        sum += std::abs(pull->strength) * std::pow(distance, -pull->exponent) *
+               std::max(1.0, mass / mass_of(pull->centre_body));
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 void TruthTable::measure(const Scene& scene) {
   scale_.duration = steps_ * dt_;
   scale_.angle = std::numbers::pi;
@@ -67,11 +105,11 @@ void TruthTable::measure(const Scene& scene) {
   for (std::size_t i = 0; i < bodies_; ++i) include(i, initial_state(scene.bodies[i]));
   for (std::size_t k = 0; k < states_.size(); ++k) include(k % bodies_, states_[k]);
   if (!known()) {
-    // Without a truth, use the length and speed that gravity and the initial speeds can reach.
+    // Without a truth, use the length and speed that gravity, forces and the initial speeds can reach.
     double pulled = 0;
     for (const Body& body : scene.bodies) pulled = std::max(pulled, std::abs(body.gravity_scale));
     scale_.speed += pulled * magnitude(scene.gravity) * scale_.duration;
-    high += Vec2d{scale_.speed * scale_.duration, 0};
+    high += Vec2d{(scale_.speed + largest_push(scene) * scale_.duration) * scale_.duration, 0};
   }
   scale_.extent = std::max(magnitude(high - low), 1e-3);
   measure_joints(scene);

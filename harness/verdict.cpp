@@ -66,10 +66,8 @@ std::string_view name_of(Ruling ruling) {
 Ruling ruling_on(const Result& result) {
   if (result.status == Status::Skipped)
     return result.reason == kOutOfTime ? Ruling::NotReached : Ruling::Unsupported;
-  if (result.status != Status::Ok && result.status != Status::Diverged) return Ruling::Broke;
-  const bool all =
-      std::all_of(result.checks.begin(), result.checks.end(), [](const Check& check) { return check.pass; });
-  return all && result.status == Status::Ok ? Ruling::Agrees : Ruling::Misses;
+  const std::optional<bool> agrees = result.agrees_with_truth();
+  return !agrees ? Ruling::Broke : *agrees ? Ruling::Agrees : Ruling::Misses;
 }
 
 Score score_of(std::span<const Result> results) {

@@ -21,6 +21,7 @@
 #include "reference/bullet/turns.h"
 #include "reference/guests.h"
 #include "reference/support/applied_forces.h"
+#include "reference/support/plain_scene.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"
 
@@ -247,14 +248,9 @@ class V3Backend final : public Backend {
     read_settings(settings);
     for (const Body& body : scene.bodies) {
       if (body.lock_x || body.lock_y) return "locked axes are not mapped";
-      for (const Shape& shape : body.shapes)
-        if (!std::holds_alternative<Circle>(shape.geometry) && !std::holds_alternative<Box>(shape.geometry))
-          return "body " + plumb::quoted(body.name) + ": shapes but circles and boxes are not mapped";
+      if (std::string reason = not_circles_and_boxes(body); !reason.empty()) return reason;
     }
-    for (const Joint& joint : scene.joints)
-      if (std::string reason = std::visit([](const auto& j) { return missing_joint(j); }, joint);
-          !reason.empty())
-        return reason;
+    if (std::string reason = not_plain_joints(scene); !reason.empty()) return reason;
     return out_of_range(scene, kFloatRange);
   }
 
@@ -280,19 +276,6 @@ class V3Backend final : public Backend {
   }
 
  private:
-  static std::string missing_joint(const RevoluteJoint& joint) {
-    return joint.limits || joint.motor || joint.spring ? "limits, motors and springs of hinges are not mapped"
-                                                       : "";
-  }
-  static std::string missing_joint(const DistanceJoint& joint) {
-    return joint.range || joint.motor || joint.spring ? "ranges, motors and springs of rods are not mapped"
-                                                      : "";
-  }
-  template <class Other>
-  static std::string missing_joint(const Other& joint) {
-    return "joint " + plumb::quoted(joint.name) + " is neither a hinge nor a rod";
-  }
-
   V3Settings read_settings(const StepSettings& settings) const {
     check_steps(name(), settings, Stepping::Fixed);
     const OptionReader given(name(), settings, options());

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "engine/core/text.h"
-#include "engine/math/trigonometry.h"
 #include "reference/backend.h"
 #include "reference/guests.h"
 #include "reference/support/applied_forces.h"
+#include "reference/support/plain_scene.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"
 
@@ -249,10 +249,7 @@ class ChipmunkBackend final : public Backend {
     for (const Body& body : scene.bodies)
       if (const std::string reason = missing(body); !reason.empty())
         return "body " + plumb::quoted(body.name) + ": " + reason;
-    for (const Joint& joint : scene.joints)
-      if (std::string reason = std::visit([](const auto& j) { return missing_joint(j); }, joint);
-          !reason.empty())
-        return reason;
+    if (std::string reason = not_plain_joints(scene); !reason.empty()) return reason;
     return out_of_range(scene, kDoubleRange);
   }
 
@@ -290,19 +287,6 @@ class ChipmunkBackend final : public Backend {
         return "Chipmunk's chains of segments are not mapped";
     }
     return "";
-  }
-
-  static std::string missing_joint(const RevoluteJoint& joint) {
-    return joint.limits || joint.motor || joint.spring ? "limits, motors and springs of hinges are not mapped"
-                                                       : "";
-  }
-  static std::string missing_joint(const DistanceJoint& joint) {
-    return joint.range || joint.motor || joint.spring ? "ranges, motors and springs of rods are not mapped"
-                                                      : "";
-  }
-  template <class Other>
-  static std::string missing_joint(const Other& joint) {
-    return "joint " + plumb::quoted(joint.name) + " is neither a hinge nor a rod";
   }
 
   ChipmunkSettings read_settings(const StepSettings& settings) const {

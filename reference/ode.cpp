@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "engine/core/text.h"
-#include "engine/math/trigonometry.h"
 #include "reference/backend.h"
 #include "reference/bullet/turns.h"
 #include "reference/guests.h"
 #include "reference/support/applied_forces.h"
+#include "reference/support/plain_scene.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"
 
@@ -204,7 +204,7 @@ class OdeSimulator final : public Simulator {
       dGeomSetOffsetRotation(out, rotation);
       return;
     }
-    const Vec2d place = of.position + rotation_of(of.angle) * shape.position;
+    const Vec2d place = anchor_in_world(scene_, of.name, shape.position);
     dRFromAxisAndAngle(rotation, 0, 0, 1, of.angle + shape.angle);
     dGeomSetPosition(out, place.x, place.y, 0);
     dGeomSetRotation(out, rotation);
@@ -215,25 +215,19 @@ class OdeSimulator final : public Simulator {
     return index ? bodies_[*index] : nullptr;
   }
 
-  Vec2d place_of(const std::string& name, Vec2d anchor) const {
-    const auto index = find_body(scene_, name);
-    if (!index) return anchor;
-    const Body& body = scene_.bodies[*index];
-    return body.position + rotation_of(body.angle) * anchor;
-  }
-
   // ODE's joints take one place in the world; a joint that starts open cannot be made so.
   void add_joint(const RevoluteJoint& joint) {
     dBodyID a = body_called(joint.body_a), b = body_called(joint.body_b);
     dJointID out = dJointCreateBall(world_, nullptr);
     dJointAttach(out, b, a);
-    const Vec2d place = place_of(joint.body_b, joint.anchor_b);
+    const Vec2d place = anchor_in_world(scene_, joint.body_b, joint.anchor_b);
     dJointSetBallAnchor(out, place.x, place.y, 0);
     if (!joint.collide) apart_.emplace_back(a, b);
   }
   void add_joint(const DistanceJoint& joint) {
     dBodyID a = body_called(joint.body_a), b = body_called(joint.body_b);
-    const Vec2d at_a = place_of(joint.body_a, joint.anchor_a), at_b = place_of(joint.body_b, joint.anchor_b);
+    const Vec2d at_a = anchor_in_world(scene_, joint.body_a, joint.anchor_a);
+    const Vec2d at_b = anchor_in_world(scene_, joint.body_b, joint.anchor_b);
     dJointID out = dJointCreateDBall(world_, nullptr);
     dJointAttach(out, a == nullptr ? b : a, a == nullptr ? a : b);
     if (a == nullptr) {
@@ -300,13 +294,16 @@ class OdeBackend final : public Backend {
 
   std::string unsupported(const Scene& scene, const StepSettings& settings) const override {
     read_settings(settings);
-    for (const Body& body : scene.bodies)
+    for (const Body& body : scene.bodies) {
       if (const std::string reason = missing(body); !reason.empty())
         return "body " + plumb::quoted(body.name) + ": " + reason;
+      if (std::string reason = not_circles_and_boxes(body); !reason.empty()) return reason;
+    }
+    if (std::string reason = not_plain_joints(scene); !reason.empty()) return reason;
     for (const Joint& joint : scene.joints)
-      if (std::string reason = std::visit([&](const auto& j) { return missing_joint(scene, j); }, joint);
-          !reason.empty())
-        return reason;
+      if (const auto* hinge = std::get_if<RevoluteJoint>(&joint);
+          hinge != nullptr && starts_open(scene, *hinge))
+        return "ODE's joints start closed";
     return out_of_range(scene, kDoubleRange);
   }
 
@@ -338,32 +335,16 @@ class OdeBackend final : public Backend {
     for (const Shape& shape : body.shapes) {
       if (shape.rolling_resistance != 0 || shape.surface_speed != 0)
         return "rolling resistance and surface speeds are not mapped";
-      if (!std::holds_alternative<Circle>(shape.geometry) && !std::holds_alternative<Box>(shape.geometry))
-        return "shapes but circles and boxes are not mapped";
     }
     return "";
   }
 
-  static std::string missing_joint(const Scene& scene, const RevoluteJoint& joint) {
-    if (joint.limits || joint.motor || joint.spring)
-      return "limits, motors and springs of hinges are not mapped";
-    const auto place = [&](const std::string& name, Vec2d anchor) {
-      const auto index = find_body(scene, name);
-      return index ? scene.bodies[*index].position + rotation_of(scene.bodies[*index].angle) * anchor
-                   : anchor;
-    };
-    const Vec2d gap = place(joint.body_a, joint.anchor_a) - place(joint.body_b, joint.anchor_b);
-    constexpr double kClosed = 1e-9;  // m; above the rounding of any scene within a kilometre
-    if (std::hypot(gap.x, gap.y) > kClosed) return "ODE's joints start closed";
-    return "";
-  }
-  static std::string missing_joint(const Scene&, const DistanceJoint& joint) {
-    return joint.range || joint.motor || joint.spring ? "ranges, motors and springs of rods are not mapped"
-                                                      : "";
-  }
-  template <class Other>
-  static std::string missing_joint(const Scene&, const Other& joint) {
-    return "joint " + plumb::quoted(joint.name) + " is neither a hinge nor a rod";
+  // Returns true if the hinge's anchors are apart by more than the rounding of a scene within a kilometre.
+  static bool starts_open(const Scene& scene, const RevoluteJoint& hinge) {
+    const Vec2d gap = anchor_in_world(scene, hinge.body_a, hinge.anchor_a) -
+                      anchor_in_world(scene, hinge.body_b, hinge.anchor_b);
+    constexpr double kClosed = 1e-9;  // m
+    return std::hypot(gap.x, gap.y) > kClosed;
   }
 
   OdeSettings read_settings(const StepSettings& settings) const {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/json.h"
+#include "harness/agreement.h"
 #include "harness/report/shown_rows.h"
 #include "harness/report/stage.h"
 #include "harness/report/standing.h"
@@ -262,6 +263,8 @@ Json scene_json(std::span<const Result> rows, const std::map<std::string, std::s
     if (engine.order)
       orders.push_back(
           {{"engine", engine.engine}, {"order", engine.order->order}, {"pairs", engine.order->pairs}});
+  if (const std::vector<Agreement> agreement = agreements(rows); !agreement.empty())
+    json["agreement"] = Json::parse(agreement_json(agreement.front()));
   json["rows"] = list;
   json["orders"] = orders;
   if (std::optional<Stage> stage = stage_of(trade.label, 2)) {

@@ -97,6 +97,27 @@ function convergence(scene) {
       {name: "pairs of steps", number: true, text: (row) => String(row.pairs), value: (row) => row.pairs}], scene.orders)));
 }
 
+// The engines that agree with the truth and with each other, and what the others miss by how much and why.
+function agreement(scene) {
+  if (!scene.agreement) return null;
+  const {agree, dissents, groups} = scene.agreement, ran = agree.length + dissents.length;
+  if (ran === 0) return null;
+  const others = groups.length === 1 && groups[0].length === ran ? `all ${ran}` : groups.map((names) => names.join(", ")).join("; ");
+  const box = make("div", {"data-part": "agreement"}, make("h3", {text: "Who agrees"}),
+    make("p", {text: `With the truth, each check within its bound: ${agree.length ? agree.join(", ") : "none"} (${agree.length} of ${ran}).`}));
+  if (ran > 1 && groups.length) box.append(make("p", {text: `With each other, within the sum of both bounds: ${others}.`}));
+  if (dissents.length === 0) return box;
+  box.append(make("div", {class: "scroll"}, table([
+    {name: "engine", text: (row) => row.engine},
+    {name: "misses most", text: (row) => (row.misses[0] ? words(row.misses[0].check) : "diverged")},
+    {name: "by", number: true, text: (row) => (row.misses[0] ? figure(row.misses[0].value) : ""), value: (row) => row.misses[0]?.value},
+    {name: "of its bound", number: true, text: (row) => (row.misses[0] ? times(row.misses[0].times) : ""),
+      value: (row) => row.misses[0]?.times ?? Infinity},
+    {name: "also", text: (row) => row.misses.slice(1).map((miss) => words(miss.check)).join(", ")},
+    {name: "reason", wide: true, text: (row) => row.reason}], dissents)));
+  return box;
+}
+
 function checks(scene) {
   const missed = scene.rows.flatMap((row) => row.missed.map((check) => ({...check, engine: row.engine, asked: row.asked,
     unexpected: row.unexpected.length > 0})));
@@ -180,6 +201,6 @@ function fillScene(box, scene, data, look) {
   box.append(make("p", {text: `${scene.summary ? `${scene.summary}; ` : ""}${Number(scene.duration.toPrecision(6))} s. ` +
     `Truth: ${scene.truth || "not known"}. Judged by ${words(scene.metric)}.`}),
     legend(engines, look, hidden, drawAll), pictures, charts);
-  for (const part of [failures(scene), checks(scene), convergence(scene), runs(scene, data.metrics)]) if (part) box.append(part);
+  for (const part of [failures(scene), agreement(scene), checks(scene), convergence(scene), runs(scene, data.metrics)]) if (part) box.append(part);
   drawAll();
 }

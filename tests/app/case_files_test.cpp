@@ -149,10 +149,43 @@ TEST(CaseFiles, EnginesThatNeedNotPassFailNothing) {
   const std::string file =
       folder.write("fine.json", fall(R"({"of": "ball.y", "is": "5 - 5*t^2", "tolerance": 1e-6})",
                                      R"(, "must_pass": ["plumb-precise"])"));
-  const Ran ran =
-      plumb({"compare", file, "--engine", "plumb-precise,box2d", "--no-cost", "--out", folder.path("r")});
+  const Ran ran = plumb({"compare", file, "--engine", "plumb-precise,box2d", "--no-cost", "--out",
+                         folder.path("r"), "--junit", folder.path("report.xml")});
   EXPECT_EQ(ran.code, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("the case does not ask this engine to pass"));
+  EXPECT_THAT(folder.read("report.xml"), HasSubstr("to pass\n</system-out>")) << "a line a miss";
+}
+
+// Nothing in the scene at the start tells how far it goes but the force.
+TEST(CaseFiles, ABodyWithoutShapesThatAForceMovesFromRestHasNotDiverged) {
+  const Folder folder;
+  const std::string file =
+      folder.write("push.json", R"({"plumb_case": 1, "source": "x = F/m t^2/2, Newton", "duration": 10,
+        "expect": [{"of": "cart.x", "is": "4/cart.mass*t^2/2", "tolerance": 1e-6}],
+        "scene": {"gravity": [0, 0], "bodies": [{"name": "cart", "mass": 2, "inertia": 1}],
+          "forces": [{"type": "point_force", "body": "cart", "force": [4, 0]}]}})");
+  const Ran ran =
+      plumb({"compare", file, "--engine", "plumb-precise", "--no-cost", "--out", folder.path("r")});
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+}
+
+TEST(Agreement, IsPrintedAtTheEndOfAComparisonAndFromItsResults) {
+  const Folder folder;
+  const Ran ran = plumb({"compare", "pendulum_chain[20]", "--engine", "plumb,plumb-precise,box2d",
+                         "--no-cost", "--no-report", "--out", folder.path("r")});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Ran text = plumb({"agreement", folder.path("r")});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("with the truth: plumb, plumb-precise (2 of 3)"));
+  EXPECT_THAT(text.out, HasSubstr("not: box2d velocity_error"));
+  EXPECT_THAT(text.out, HasSubstr("Each of Box2D's 8 iterations"));
+  EXPECT_THAT(ran.out, HasSubstr(text.out)) << "the same, derived anew";
+  const Json json = Json::parse(plumb({"agreement", folder.path("r"), "--format", "json"}).out);
+  EXPECT_EQ(json["agree"], Json({"plumb", "plumb-precise"}));
+  EXPECT_GT(json["dissents"][0]["misses"][0]["times"].get<double>(), 1);
+  const Ran without = plumb({"agreement", folder.path("r"), "--without", "box*"});
+  EXPECT_THAT(without.out, HasSubstr("in 1 of 1: pendulum_chain[20] (2)"));
+  EXPECT_EQ(plumb({"agreement", folder.path("nowhere")}).code, 2);
 }
 
 TEST(CaseFiles, BadFilesNameFileMemberAndValue) {

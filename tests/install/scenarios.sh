@@ -39,6 +39,10 @@ grep -q 'Total Tests: 2' out || { cat out && exit 1; }
 ctest --test-dir build -N -L planted >out
 grep -q 'Total Tests: 1' out || { cat out && exit 1; }
 
+# Engines from npm can be installed with it.
+"$work/prefix/bin/plumb" engines >out
+grep -q '^rapier ' out || { cat out && exit 1; }
+
 # The program by itself knows nothing of them, takes several modules, and refuses what is none.
 program=$work/prefix/bin/plumb
 "$program" list >out

@@ -1,0 +1,64 @@
+#include "harness/agreement.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/output.h"
+#include "harness/known_limits.h"
+#include "harness/sweep/rows.h"
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+  std::string folder = "results", format = "console", without;
+};
+
+int start(const Options& options) {
+  std::vector<harness::Result> rows = harness::sweep::read_rows(options.folder);
+  if (!options.without.empty())
+    std::erase_if(rows,
+                  [&](const harness::Result& row) { return harness::matches(options.without, row.engine); });
+  const std::vector<harness::Agreement> cases = harness::agreements(rows);
+  if (options.format == "json") {
+    for (const harness::Agreement& one : cases) print(harness::agreement_json(one) + "\n");
+  } else if (options.format == "csv") {
+    print(harness::agreement_csv(cases));
+  } else {
+    print(harness::agreement_text(cases, harness::AgreementDetail::Full,
+                                  harness::Style::of_file(STDOUT_FILENO)));
+  }
+  flush();
+  return kOk;
+}
+
+}  // namespace
+
+void add_agreement(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "agreement",
+      "case by case: the engines that agree with the truth, with each other, and what misses by\n"
+      "how much and why, from results");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("results", options->folder,
+                   "a folder that `plumb compare` wrote, or a results.jsonl (default results)")
+      ->type_name("DIR");
+  command->add_option("--format", options->format, "console, json (a case a line) or csv (a miss a line)")
+      ->check(CLI::IsMember({"console", "json", "csv"}));
+  command
+      ->add_option("--without", options->without,
+                   "leave these engines out: '*' stands for anything, '|' separates alternatives")
+      ->type_name("NAME");
+  command->footer(
+      "Examples:\n  plumb agreement\n  plumb agreement results --without '*-default' --format json\n"
+      "Exit codes: 0 written, 2 usage, or results that cannot be read.");
+  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/result.h"
+#include "harness/style.h"
+
+namespace plumb::harness {
+
+/// A check that one engine missed in one case.
+struct Miss {
+  std::string check;  ///< "position_error"
+  double value = 0;   ///< measured
+  double bound = 0;   ///< derived
+
+  /// Returns value/bound; infinity for a bound of zero or a value that is not a number.
+  double times() const;
+};
+
+/// Formats a miss as a multiple of its bound: "12 x".
+std::string times_text(const Miss& miss);
+
+/// An engine that ran a case and missed checks.
+struct Dissent {
+  std::string engine;
+  std::vector<Miss> misses;  ///< the largest multiple of its bound first
+  std::string reason;        ///< the declared reasons, joined; says so if there is none
+};
+
+/// An engine without a motion to judge in a case.
+struct Absence {
+  std::string engine, why;
+  bool broke = false;  ///< it failed, crashed or took too long; false: it does not run such a scene
+};
+
+/// Which engines agree on one case, all at the same settings.
+struct Agreement {
+  std::string label, truth;
+  std::vector<std::string> versions{};  ///< "box2d 2.4.1": of the engines that ran
+  std::vector<std::string> agree;       ///< with the truth: every check is within its bound
+  std::vector<Dissent> dissents;
+  std::vector<Absence> absent;
+  /// Largest sets of two or more engines in which each is within the sum of both bounds of each other.
+  std::vector<std::vector<std::string>> groups;
+
+  std::size_t ran() const { return agree.size() + dissents.size(); }
+
+  /// Returns the engines that are in a group with `engine`.
+  std::vector<std::string> partners(std::string_view engine) const;
+};
+
+/// Derives the agreement of every case in `results`, in the order of the cases. Of an engine's results for a
+/// case it takes the last at the default settings; where no engine has one there, at those of the first
+/// result.
+std::vector<Agreement> agreements(std::span<const Result> results);
+
+enum class AgreementDetail {
+  Brief,  ///< of each case how many agree, and which miss by how much
+  Full,   ///< also the names of those that agree, with the truth and with each other
+};
+
+/// Formats them for people: cases with misses one by one, the others together, the reasons once each.
+std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style);
+
+/// A case a line. `agreement_from_json` reads one; it throws `Error` (Syntax).
+std::string agreement_json(const Agreement& one);
+Agreement agreement_from_json(std::string_view text);
+
+/// Reads a file of them. Throws `Error` (Io, Syntax).
+std::vector<Agreement> read_agreements(const std::string& path);
+
+/// A line per case, engine and missed check.
+std::string agreement_csv(std::span<const Agreement> cases);
+
+}  // namespace plumb::harness
