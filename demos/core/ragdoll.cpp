@@ -41,12 +41,6 @@ class Ragdoll final : public WorldDemo {
     restart();
   }
 
-  void press(Vec2d point) override { grab(point, kReach); }
-  void drag(Vec2d point) override { pull(point); }
-  void release(Vec2d point) override {
-    pull(point);
-    let_go();
-  }
   void key(char key) override {
     if (key == 'j') set("joints", joints_ == kHinges ? kSticks : kHinges);
     if (key == 'n') add_another();
@@ -63,6 +57,8 @@ class Ragdoll final : public WorldDemo {
   Aabb<double> view() const override { return {{-kHalfWidth - 0.3, -0.4}, {kHalfWidth + 0.3, kHeight}}; }
 
  private:
+  double reach() const override { return kReach; }
+
   // Iterative solvers yield if a figure is pinched with its joints at their limits. The direct solver keeps
   // joints closed to micrometres until such a pinch.
   WorldDefinition definition() const override {

@@ -28,7 +28,7 @@ const About kAbout{
     "Click a box near its middle or a corner to push it there, upwards; drag for another direction. Click "
     "elsewhere for a new box. A push in the middle does not spin; the same at a corner does. A thin box of "
     "the same mass has twice the inertia of a square one, and its corners are twice as far out.",
-    {{'1', "new boxes are square"}, {'2', "new boxes are thin"}}};
+    {{'1', "new boxes are square"}, {'2', "new boxes are thin"}, kGrabKey}};
 
 /// A force at a point of a box for the duration of a push.
 struct Push {
@@ -41,6 +41,7 @@ struct Push {
 class SpinningBoxes final : public WorldDemo {
  public:
   SpinningBoxes() : WorldDemo(kAbout) {
+    add_pointer_play("push");
     add_choice("new boxes", {kForms[0].name, kForms[1].name}, form_, "what a click on free room makes");
     add_choice("rotation", {"boxes turn", "along the axes"}, locked_, "whether boxes may turn at all");
     add_slider("push", "N", 0.0, 50.0, strength_, "force of a push; it lasts 0.1 s");
@@ -51,25 +52,8 @@ class SpinningBoxes final : public WorldDemo {
     restart();
   }
 
-  // Starts a push on a box, or adds a new box elsewhere.
-  void press(Vec2d point) override {
-    const auto is_box = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
-    const std::optional<NearestResult> hit = nearest(world_, point, 0, {.condition = is_box});
-    if (!hit) {
-      spawn(point);
-      return;
-    }
-    aimed_ = hit->body;
-    aimed_point_ = nearest_handle(aimed_, world_.local_point(aimed_, point));
-    from_ = to_ = point;
-  }
-  void drag(Vec2d point) override { to_ = point; }
-  void release(Vec2d point) override {
-    to_ = point;
-    if (world_.valid(aimed_)) push(aimed_, aimed_point_, strength_ * direction());
-    aimed_ = {};
-  }
   void key(char key) override {
+    WorldDemo::key(key);
     if (key == '1' || key == '2') set("new boxes", key - '1');
   }
 
@@ -91,6 +75,25 @@ class SpinningBoxes final : public WorldDemo {
   }
 
  private:
+  // Starts a push on a box, or adds a new box elsewhere.
+  void begin(Vec2d point) override {
+    const auto is_box = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
+    const std::optional<NearestResult> hit = nearest(world_, point, 0, {.condition = is_box});
+    if (!hit) {
+      spawn(point);
+      return;
+    }
+    aimed_ = hit->body;
+    aimed_point_ = nearest_handle(aimed_, world_.local_point(aimed_, point));
+    from_ = to_ = point;
+  }
+  void go_on(Vec2d point) override { to_ = point; }
+  void end(Vec2d point) override {
+    to_ = point;
+    if (world_.valid(aimed_)) push(aimed_, aimed_point_, strength_ * direction());
+    aimed_ = {};
+  }
+
   WorldDefinition definition() const override { return {.gravity = {0, -gravity_}, .sleeping = false}; }
   Material material() const { return {.friction = friction_, .restitution = restitution_}; }
 

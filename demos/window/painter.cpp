@@ -101,7 +101,7 @@ void Painter::grid() {
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};
   const Vec2d ends[] = {left, right};
   canvas_.paint(ends, 1, filled(theme_.text()));
-  labels_.push_back({left + Vec2d{0, -16}, text, theme_.text()});
+  labels_.push_back({0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});
 }
 
 }  // namespace plumb::window

@@ -11,7 +11,7 @@ namespace plumb::window {
 
 /// A text in the picture.
 struct Label {
-  Vec2d pixel{};
+  Vec2d pixel{};  ///< below the middle of the text
   std::string text;
   Colour colour{};
 };
