@@ -69,6 +69,26 @@ std::vector<Figure> SceneTruth::figures(double time, std::span<const BodyState> 
   return out;
 }
 
+void SceneTruth::draw_paths(DebugDraw& out) const {
+  constexpr int kPathSamples = 400;
+  constexpr std::size_t kMostPaths = 3;  // of more bodies the paths would hide the picture
+  if (!known()) return;
+  if (paths_.empty()) {
+    std::vector<BodyState> states(scene().bodies.size());
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (scene().bodies[i].type == BodyType::Dynamic) moving.push_back(i);
+    if (moving.size() > kMostPaths) moving.clear();
+    paths_.resize(std::max<std::size_t>(moving.size(), 1));
+    for (int k = 0; k <= kPathSamples; ++k) {
+      if (!at(end() * k / kPathSamples, states)) break;
+      for (std::size_t i = 0; i < moving.size(); ++i) paths_[i].push_back(states[moving[i]].position);
+    }
+  }
+  for (const std::vector<Vec2d>& path : paths_)
+    for (std::size_t k = 1; k < path.size(); ++k) out.segment(path[k - 1], path[k], DrawRole::Trail);
+}
+
 std::optional<Aabb<double>> SceneTruth::view() const {
   if (!known()) return {};
   std::vector<BodyState> states(scene().bodies.size());

@@ -29,6 +29,9 @@ class SceneTruth {
   /// of position (m) and angle (rad) over the bodies. Only those with a meaning for this scene.
   std::vector<Figure> figures(double time, std::span<const BodyState> states) const;
 
+  /// Draws the true paths of the bodies that move, if they are few.
+  void draw_paths(DebugDraw& out) const;
+
   /// Returns the box around the true motion, with a margin, m; nothing if the truth is unknown.
   std::optional<Aabb<double>> view() const;
 
@@ -36,7 +39,8 @@ class SceneTruth {
   double energy_of(std::span<const BodyState> states) const;
 
   scenarios::Problem problem_;
-  double start_ = 0, energy_scale_ = 0;  // J
+  double start_ = 0, energy_scale_ = 0;             // J
+  mutable std::vector<std::vector<Vec2d>> paths_{};  // m; made when first drawn
 };
 
 /// Returns the largest distance over the bodies, m.
