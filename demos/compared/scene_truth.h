@@ -39,7 +39,7 @@ class SceneTruth {
   double energy_of(std::span<const BodyState> states) const;
 
   scenarios::Problem problem_;
-  double start_ = 0, energy_scale_ = 0;             // J
+  double start_ = 0, energy_scale_ = 0;              // J
   mutable std::vector<std::vector<Vec2d>> paths_{};  // m; made when first drawn
 };
 

@@ -77,6 +77,7 @@ class BouncingBall final : public Demo {
     const Vec2d force = step_count() > 0 ? kMass / dt() * (ball.velocity - before_.velocity) : Vec2d{};
     return {{{at - size, at + size}, at, ball.velocity, held_ ? Vec2d{} : force, kMass}};
   }
+  double gravity() const override { return gravity_; }
   std::optional<Scene> scene() const override {
     Scene now = start();
     const BodyState ball = simulation_->state(kBall);

@@ -53,7 +53,7 @@ class Cannonballs final : public WorldDemo {
     add_slider("duration", "s", 0.0, 2.0, duration_, "of the push");
     add_slider("wind", "N", -20.0, 20.0, wind_, "force on every ball, to the right");
     add_slider("gravity", "m/s^2", 0.0, 20.0, gravity_, "how fast falling speeds up");
-    add_switch("forces", show_forces_, "arrows of the forces");
+    add_switch("each force", show_forces_, "arrows of weight, wind and thrust");
     add_step_controls();
     restart();
   }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "demos/core/arrow.h"
 #include "engine/core/suggest.h"
 #include "engine/core/text.h"
 #include "engine/scene/error.h"
-#include "demos/core/arrow.h"
 #include "engine/world/checksum.h"
 
 namespace plumb::demos {
@@ -152,7 +152,8 @@ struct Interval {
 };
 
 // Returns the interval to show: `home` together with `moving`, at most twice as long as `home`; if they are
-// farther apart, the part at the far end of `moving`, and of a longer `moving` the end that is nearer to home.
+// farther apart, the part at the far end of `moving`, and of a longer `moving` the end that is nearer to
+// home.
 Interval shown_of(Interval home, Interval moving) {
   const double most = 2 * (home.high - home.low);
   const Interval both{std::min(home.low, moving.low), std::max(home.high, moving.high)};
@@ -163,8 +164,9 @@ Interval shown_of(Interval home, Interval moving) {
   const double length = std::max(most, wanted);
   const bool beyond_high = moving.high - home.high > home.low - moving.low;
   if (moving.high - moving.low > length)
-    return beyond_high ? Interval{std::max(moving.low, home.low), std::max(moving.low, home.low) + length}
-                       : Interval{std::min(moving.high, home.high) - length, std::min(moving.high, home.high)};
+    return beyond_high
+               ? Interval{std::max(moving.low, home.low), std::max(moving.low, home.low) + length}
+               : Interval{std::min(moving.high, home.high) - length, std::min(moving.high, home.high)};
   return beyond_high ? Interval{both.high - length, both.high} : Interval{both.low, both.low + length};
 }
 
@@ -172,7 +174,8 @@ Interval shown_of(Interval home, Interval moving) {
 
 Aabb<double> Demo::shown() const {
   const Aabb<double> home = view();
-  const std::vector<Moving> all = moving();
+  std::vector<Moving> all = moving();
+  std::erase_if(all, [](const Moving& each) { return !each.awake; });
   if (all.empty()) return home;
   Aabb<double> box = all.front().box;
   for (const Moving& each : all) box = merged(box, each.box);
@@ -183,16 +186,16 @@ Aabb<double> Demo::shown() const {
 
 void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
   if (!options.velocities && !options.forces && !options.masses) return;
-  constexpr double kGravity = 9.81;        // m/s^2, on Earth: of the scales alone
-  constexpr double kFallen = 1.0 / 3;      // of the view, arrow of a body that has fallen through it
-  constexpr double kHeaviest = 0.1;        // of the view, arrow of the largest weight
-  constexpr double kLongest = 0.5;         // of the view: an arrow out of it tells no more
+  constexpr double kFallen = 1.0 / 3;  // of the view, arrow of a body that has fallen through it
+  constexpr double kHeaviest = 0.1;    // of the view, arrow of the largest weight
+  constexpr double kLongest = 0.5;     // of the view: an arrow out of it tells no more
   const std::vector<Moving> all = moving();
   const double size = view().half_perimeter() / 2;
   double heaviest = 0;
   for (const Moving& each : all) heaviest = std::max(heaviest, each.mass);
-  const double for_speed = options.length * kFallen * size / std::sqrt(2 * kGravity * size);  // s
-  const double for_force = options.length * kHeaviest * size / (kGravity * heaviest);         // m/N
+  const double usual = gravity() > 0 ? gravity() : size;                                   // m/s^2
+  const double for_speed = options.length * kFallen * size / std::sqrt(2 * usual * size);  // s
+  const double for_force = options.length * kHeaviest * size / (usual * heaviest);         // m/N
   const auto arrow = [&](Vec2d from, Vec2d way, DrawRole role) {
     const double length = std::sqrt(length_squared(way));
     if (!(length > 1e-3 * size)) return;

@@ -56,6 +56,7 @@ struct Moving {
   Vec2d velocity{};    ///< m/s
   Vec2d force{};       ///< N, all forces together: its mass times the change of its velocity in the last step
   double mass = 0;     ///< kg
+  bool awake = true;
 };
 
 /// Drawings of the motion of bodies, over those of DrawOptions.
@@ -111,13 +112,15 @@ class Demo {
   virtual void draw(DebugDraw& out, const DrawOptions& options = {}) const = 0;
   virtual std::vector<Figure> figures() const = 0;
   virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show while nothing leaves it
-  /// Returns the bodies that move now. None if the demo does not tell.
+  /// Returns the bodies that can move, as they are now. None if the demo does not tell.
   virtual std::vector<Moving> moving() const { return {}; }
-  /// Returns the part of the world to show now, m: `view`, made larger to hold what moves, up to twice as
-  /// large; beyond that it goes along with what moves.
+  virtual double gravity() const { return 0; }  ///< m/s^2
+  /// Returns the part of the world to show now, m: `view`, made larger to hold what is awake, up to twice as
+  /// large; beyond that it goes along with what is awake.
   Aabb<double> shown() const;
   /// Draws arrows and masses of what moves. Arrows have fixed scales, which follow from the view: a body that
   /// has fallen through it has a velocity's arrow of a third of it; the largest weight, one of a tenth.
+  /// Without gravity the scales are those of one of a view's length a second squared.
   void draw_motion(DebugDraw& out, const MotionOptions& options) const;
   /// Returns the present state as a scene; nothing if the demo has none. Forces of the player are left out.
   virtual std::optional<Scene> scene() const { return {}; }

@@ -11,11 +11,11 @@ namespace plumb::demos {
 namespace {
 
 constexpr double kLeft = -4.6, kRight = 3.4, kHeight = 6.3;  // m, of the room above the ground
-constexpr double kReach = 0.2;                 // m, search radius of the pointer
+constexpr double kReach = 0.2;                               // m, search radius of the pointer
 constexpr int kMostDolls = 6;
 constexpr Vec2d kStart{1.5, 5.0};  // m, of the first figure's hip
 
-constexpr Vec2d kRopeHook{-4.2, 5.5}, kChainHook{-2.7, 5.5};
+constexpr Vec2d kRopeHook{-4.2, 5.5}, kChainHook{-2.2, 5.5};
 constexpr int kRopeParts = 16, kChainParts = 10;
 constexpr double kRopePart = 0.25, kRopeRadius = 0.04, kRopePartMass = 0.2;  // m, m, kg
 constexpr double kChainLink = 0.3, kChainRadius = 0.12, kChainMass = 1;      // m, m, kg
@@ -153,7 +153,7 @@ class Ragdoll final : public WorldDemo {
   // Adds another figure at the first free place.
   void add_another() {
     constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, about the hip
-    for (const double x : {1.5, 0.3, 2.7, -0.9, -1.8, -3.5}) {
+    for (const double x : {1.5, 0.3, 2.7, -0.9, -3.2}) {
       const Vec2d hip{x, kStart.y};
       std::vector<ShapeId> there;
       overlap_box(world_, {hip + kRoom.lower, hip + kRoom.upper}, {}, there);

@@ -83,23 +83,23 @@ class Sandbox final : public WorldDemo {
       return ShapeDefinition{.geometry = Box{width, height}, .position = middle};
     };
     const ShapeDefinition walls[] = {wall({0, -0.5}, 2 * kHalfWidth + 2, 1),
-                                     wall({-kHalfWidth - 0.5, 10}, 1, 20), wall({kHalfWidth + 0.5, 10}, 1, 20)};
+                                     wall({-kHalfWidth - 0.5, 10}, 1, 20),
+                                     wall({kHalfWidth + 0.5, 10}, 1, 20)};
     world_.create_body({.name = "room", .type = BodyType::Static}, walls);
     // A swing, to begin with.
     const BodyId plank = add("plank", {-1.5, 2.5}, {.geometry = Box{2.4, 0.2}});
     for (const double side : {-1.0, 1.0})
       world_.create_joint(frame_, plank,
-                          {.kind = DistanceDefinition{.anchor_a = Vec2d{-1.5 + side, 5},
-                                                      .anchor_b = {side, 0},
-                                                      .length = 2.5}});
+                          {.kind = DistanceDefinition{
+                               .anchor_a = Vec2d{-1.5 + side, 5}, .anchor_b = {side, 0}, .length = 2.5}});
     add("ball", {-1.8, 3}, {.geometry = Circle{0.3}});
     add("box", {2.5, 0.5}, {.geometry = Box{1, 1}});
   }
 
   BodyId add(const char* name, Vec2d position, ShapeDefinition shape, BodyType type = BodyType::Dynamic) {
     shape.density = density_, shape.material = material();
-    return world_.create_body(
-        {.name = name, .type = type, .position = position, .lock_rotation = !turns_}, shape);
+    return world_.create_body({.name = name, .type = type, .position = position, .lock_rotation = !turns_},
+                              shape);
   }
 
   std::vector<BodyId> made_bodies() const {

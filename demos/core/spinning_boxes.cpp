@@ -45,7 +45,8 @@ class SpinningBoxes final : public WorldDemo {
  public:
   SpinningBoxes() : WorldDemo(kAbout) {
     add_pointer_play("push");
-    add_choice("new boxes", {kForms[0].name, kForms[1].name, kForms[2].name}, form_, "what a click on free room makes");
+    add_choice("new boxes", {kForms[0].name, kForms[1].name, kForms[2].name}, form_,
+               "what a click on free room makes");
     add_choice("rotation", {"boxes turn", "along the axes"}, locked_, "whether boxes may turn at all");
     add_slider("push", "N", 0.0, 50.0, strength_, "force of a push; it lasts 0.1 s");
     add_slider("restitution", "", 0.0, 1.0, restitution_, "share of the speed that a bounce gives back");

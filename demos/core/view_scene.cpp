@@ -105,7 +105,7 @@ void draw_connections(const Scene& scene, std::span<const BodyState> states, dou
       draw_spring(out, at(spring->body_a, spring->anchor_a), at(spring->body_b, spring->anchor_b),
                   DrawRole::JointLine);
     } else if (const auto* attraction = std::get_if<AttractionForce>(&law)) {
-      out.circle(at(attraction->centre_body, attraction->centre), size / 50, {0, 0}, DrawRole::Highlight);
+      out.circle(at(attraction->centre_body, attraction->centre), size / 100, {0, 0}, DrawRole::Highlight);
     }
   }
   for (const Joint& joint : scene.joints) {

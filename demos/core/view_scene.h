@@ -47,7 +47,7 @@ class SceneDemo final : public WorldDemo {
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
 
 /// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and the
-/// centres of attraction, as discs of a fiftieth of `size` m.
+/// centres of attraction, as discs with a radius of a hundredth of `size` m.
 void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out);
 
 /// Draws the shapes of one body of a scene in a state.

@@ -34,9 +34,9 @@ void WorldDemo::keep_past() {
 std::vector<Moving> WorldDemo::moving() const {
   std::vector<Moving> out;
   for (const BodyId body : world_.bodies()) {
-    if (world_.type(body) == BodyType::Static || !world_.awake(body)) continue;
+    if (world_.type(body) == BodyType::Static) continue;
     const Vec2d velocity = world_.velocity(body);
-    Moving moving{world_.box(body), drawn_centre(body), velocity, {}, world_.mass(body)};
+    Moving moving{world_.box(body), drawn_centre(body), velocity, {}, world_.mass(body), world_.awake(body)};
     // A body that was added since has no past.
     const bool known = body.index < velocities_before_.size() &&
                        velocities_before_[body.index].generation == body.generation;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 #include "demos/core/arrow.h"
@@ -11,8 +12,8 @@ namespace plumb::demos {
 /// The key of demos with a pointer play of their own.
 inline const Key kGrabKey{'g', "grab and throw, or the demo's own play"};
 
-/// Common parts of the demos that play in a world. The pointer grabs bodies and throws them; a demo with a play
-/// of its own for it has a choice between the two, which the key `g` changes.
+/// Common parts of the demos that play in a world. The pointer grabs bodies and throws them; a demo with a
+/// play of its own for it has a choice between the two, which the key `g` changes.
 class WorldDemo : public Demo {
  public:
   void press(Vec2d point) final;
@@ -20,6 +21,7 @@ class WorldDemo : public Demo {
   void release(Vec2d point) final;
   void key(char key) override;
   std::vector<Moving> moving() const override;
+  double gravity() const override { return std::sqrt(length_squared(world_.gravity())); }
   std::optional<Scene> scene() const override;
   void draw(DebugDraw& out, const DrawOptions& options = {}) const override;
   std::uint64_t hash() const override { return world_.hash(); }

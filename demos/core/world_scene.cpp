@@ -12,7 +12,9 @@ namespace plumb::demos {
 namespace {
 
 // Returns the centre of mass in the body's frame, the origin of the frame that scenes use.
-Vec2d local_centre(const DemoWorld& world, BodyId body) { return world.local_point(body, world.centre(body)); }
+Vec2d local_centre(const DemoWorld& world, BodyId body) {
+  return world.local_point(body, world.centre(body));
+}
 
 class Names {
  public:

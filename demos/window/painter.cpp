@@ -96,6 +96,11 @@ void Painter::grid() {
     const Vec2d ends[] = {{0, y}, {width, y}};
     canvas_.paint(ends, i == 0 ? 1 : 0.5, paint);
   }
+}
+
+void Painter::scale_bar() {
+  const double step = round_step(kGridStep / camera_.scale());
+  const double width = canvas_.width(), height = canvas_.height();
   char text[32];
   std::snprintf(text, sizeof text, "%g m", step);
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};

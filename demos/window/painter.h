@@ -33,8 +33,10 @@ class Painter : public DebugDraw {
   void point(Vec2d point, DrawRole role) override;
   void text(Vec2d point, std::string_view text, DrawRole role) override;
 
-  /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m, and labels one step with its length.
+  /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m.
   void grid();
+  /// Draws a bar as long as a step of the grid, and labels it with its length.
+  void scale_bar();
 
   /// Returns the colour of the n-th ghost.
   Colour ghost(int n) const { return theme_.ghost(n); }

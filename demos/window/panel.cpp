@@ -124,12 +124,19 @@ void draw_options(Player& player) {
     bool* value;
   };
   DrawOptions& options = player.options;
-  const Box boxes[] = {
-      {"contacts", &options.contacts}, {"normals", &options.normals},  {"impulses", &options.impulses},
-      {"boxes", &options.boxes},       {"centres", &options.centres},  {"joints", &options.joints},
-      {"names", &options.names},       {"velocities", &player.motion.velocities},
-      {"forces", &player.motion.forces}, {"masses", &player.motion.masses},
-      {"sleep", &player.sleep_shows},  {"dark", &player.theme.dark}, {"code", &player.code}};
+  const Box boxes[] = {{"contacts", &options.contacts},
+                       {"normals", &options.normals},
+                       {"impulses", &options.impulses},
+                       {"boxes", &options.boxes},
+                       {"centres", &options.centres},
+                       {"joints", &options.joints},
+                       {"names", &options.names},
+                       {"velocities", &player.motion.velocities},
+                       {"forces", &player.motion.forces},
+                       {"masses", &player.motion.masses},
+                       {"sleep", &player.sleep_shows},
+                       {"dark", &player.theme.dark},
+                       {"code", &player.code}};
   int column = 0;
   for (const Box& box : boxes) {
     if (column % 3 != 0) ImGui::SameLine(8 + 112.0f * static_cast<float>(column % 3));

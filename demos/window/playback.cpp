@@ -1,6 +1,7 @@
 #include "demos/window/playback.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "demos/core/view_scene.h"
@@ -63,6 +64,8 @@ std::vector<demos::Moving> PlaybackDemo::moving() const {
   }
   return out;
 }
+
+double PlaybackDemo::gravity() const { return std::sqrt(length_squared(scene_.gravity)); }
 
 std::optional<Scene> PlaybackDemo::scene() const { return scene_; }
 

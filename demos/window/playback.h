@@ -25,6 +25,7 @@ class PlaybackDemo final : public demos::Demo {
   void draw(DebugDraw& out, const DrawOptions& options) const override;
   std::vector<demos::Figure> figures() const override;
   std::vector<demos::Moving> moving() const override;
+  double gravity() const override;
   std::optional<Scene> scene() const override;  ///< as it begins
   Aabb<double> view() const override { return view_; }
   std::uint64_t hash() const override;

@@ -30,7 +30,21 @@ struct Item {
 };
 
 /// Effects of the window's keys, the same for all items.
-enum class Command { Pause, Step, Back, Restart, Previous, Next, Panel, Code, Slow, Home, Picture, Scene, Quit };
+enum class Command {
+  Pause,
+  Step,
+  Back,
+  Restart,
+  Previous,
+  Next,
+  Panel,
+  Code,
+  Slow,
+  Home,
+  Picture,
+  Scene,
+  Quit
+};
 
 struct CommandKey {
   std::string_view key;  ///< "p", "tab", "escape", ...
@@ -114,7 +128,7 @@ class Player {
   History history_;
   std::vector<Series> series_;
   bool pressed_ = false;
-  bool at_home_ = true;  // true if the camera follows the demo, and the player has not moved it
+  bool at_home_ = true;   // true if the camera follows the demo, and the player has not moved it
   Aabb<double> shown_{};  // m, by the camera that follows
   int width_ = 1, height_ = 1;
   double panel_width_ = 0, code_width_ = 0;

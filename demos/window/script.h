@@ -19,8 +19,8 @@ struct Deed {
 };
 
 /// Parses lines "TIME press X Y", "drag X Y", "release X Y", "hover X Y", "key K", "set NAME=VALUE", "show
-/// contacts", "wheel X Y TURNS", "picture FILE", "scene FILE"; empty ones and those that start with # are skipped. Points
-/// are in m. Times do not decrease. Throws Error (Syntax) that names the line.
+/// contacts", "wheel X Y TURNS", "picture FILE", "scene FILE"; empty ones and those that start with # are
+/// skipped. Points are in m. Times do not decrease. Throws Error (Syntax) that names the line.
 std::vector<Deed> parse_script(std::string_view text, const std::string& file);
 
 /// Sets "NAME=VALUE": a number, on, off, or one of the control's choices. Throws Error (Name, Value).

@@ -113,8 +113,8 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   player.demo().draw(painter, options);
   player.demo().draw_motion(painter, player.motion);
   if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
-  for (const Label& label : painter.labels())
-    draw_label(label);
+  painter.scale_bar();
+  for (const Label& label : painter.labels()) draw_label(label);
   ImGui::Render();
   for (std::size_t i = 0; i < kEditKeys.size(); ++i)
     if (over_[i]) io.KeysDown[i] = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr int kChain = 10;
 constexpr double kLink = 0.3;           // m
-constexpr Vec2d kChainHook{-2.7, 5.5};  // m
+constexpr Vec2d kChainHook{-2.2, 5.5};  // m
 
 class EitherWay : public testing::TestWithParam<const char*> {
  protected:

@@ -193,8 +193,8 @@ void draw_pulleys(DebugDraw& out, Vec2d end_a, Vec2d ground_a, Vec2d ground_b, V
   out.segment(ground_a, ground_b, role);
   out.segment(ground_b, end_b, role);
   if (!(size > 0)) return;
-  out.circle(ground_a, 0.1 * size, {1, 0}, role);
-  if (between > 0) out.circle(ground_b, 0.1 * size, {1, 0}, role);
+  out.circle(ground_a, 0.1 * size, {0, 0}, role);
+  if (between > 0) out.circle(ground_b, 0.1 * size, {0, 0}, role);
 }
 
 template <class Real>
