@@ -255,7 +255,7 @@ class Sandbox final : public WorldDemo {
     if (control == "gravity") world_.set_gravity({0, -gravity_});
   }
 
-  // What the drag would make.
+  // Draws the shape or joint that the drag would make.
   void draw_over(DebugDraw& out) const override {
     if (!from_ || tool_ >= kPaint) return;
     if (tool_ >= kHinge) {

@@ -76,7 +76,7 @@ TEST(Sandbox, JointsHoldFromThePressToTheRelease) {
   }
 }
 
-// What is saved goes on as the demo does, in the same engine: a world of the scene has the same bodies and
+// Checks that a saved scene goes on as the demo does: a world of the scene has the same bodies and
 // joints, and keeps to the demo's motion as far as float reaches in a second without impacts.
 TEST(Sandbox, ItsSceneRunsAsItDoes) {
   const std::unique_ptr<Demo> demo = sandbox();
@@ -127,7 +127,7 @@ TEST_P(AnyDemo, ShowsItsCode) {
   EXPECT_NE(source_of(GetParam()).find('"' + GetParam() + '"'), std::string_view::npos);
 }
 
-// What is drawn of the motion.
+// Keeps the arrows and labels of the motion.
 struct Arrows : DebugDraw {
   void polygon(std::span<const Vec2d>, double, DrawRole) override {}
   void circle(Vec2d, double, Vec2d, DrawRole) override {}
@@ -190,7 +190,7 @@ TEST(Motion, TheCameraFollowsWhatMoves) {
   EXPECT_EQ(demo->shown().upper, home.upper);
 }
 
-// Where a press has another meaning, `g` makes it a grip: a ball is carried and thrown.
+// In demos whose press has another meaning, `g` makes it a grip: a body is carried and thrown.
 TEST(Motion, BodiesAreGrabbedAndThrownInEveryDemo) {
   struct Case {
     const char *demo, *body;

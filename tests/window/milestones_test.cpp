@@ -25,7 +25,7 @@ namespace {
 constexpr int kWidth = 800, kHeight = 600;  // px
 constexpr double kGravity = 9.81;
 
-// What the hand does, by frame.
+// Holds the deeds of the hand, by frame.
 struct Plan {
   int frame = 0;
   std::multimap<int, std::function<void()>> deeds;
@@ -281,7 +281,7 @@ TEST_F(CannonByMouse, AClickFiresTowardsThePointer) {
 // --- 3. Circles that collide
 // ----------------------------------------------------------------------------------
 
-// What is highlighted.
+// Counts highlighted circles.
 struct Lights : DebugDraw {
   int count = 0;
   void polygon(std::span<const Vec2d>, double, DrawRole) override {}
