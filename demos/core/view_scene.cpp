@@ -104,8 +104,9 @@ void draw_connections(const Scene& scene, std::span<const BodyState> states, dou
     if (const auto* spring = std::get_if<SpringForce>(&law)) {
       draw_spring(out, at(spring->body_a, spring->anchor_a), at(spring->body_b, spring->anchor_b),
                   DrawRole::JointLine);
-    } else if (const auto* attraction = std::get_if<AttractionForce>(&law)) {
-      out.circle(at(attraction->centre_body, attraction->centre), size / 100, {0, 0}, DrawRole::Highlight);
+    } else if (const auto* attraction = std::get_if<AttractionForce>(&law);
+               attraction != nullptr && attraction->centre_body == kWorld) {
+      out.circle(attraction->centre, size / 100, {0, 0}, DrawRole::Highlight);
     }
   }
   for (const Joint& joint : scene.joints) {

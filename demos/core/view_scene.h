@@ -46,7 +46,7 @@ class SceneDemo final : public WorldDemo {
 /// the scene's order), m.
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
 
-/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and the
+/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and fixed
 /// centres of attraction, as discs with a radius of a hundredth of `size` m.
 void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out);
 

@@ -98,9 +98,9 @@ void Painter::grid() {
   }
 }
 
-void Painter::scale_bar() {
+void Painter::scale_bar(double covered) {
   const double step = round_step(kGridStep / camera_.scale());
-  const double width = canvas_.width(), height = canvas_.height();
+  const double width = canvas_.width() - covered, height = canvas_.height();
   char text[32];
   std::snprintf(text, sizeof text, "%g m", step);
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};

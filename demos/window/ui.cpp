@@ -113,7 +113,7 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   player.demo().draw(painter, options);
   player.demo().draw_motion(painter, player.motion);
   if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
-  painter.scale_bar();
+  painter.scale_bar(player.code ? code_width(canvas.width()) : 0);
   for (const Label& label : painter.labels()) draw_label(label);
   ImGui::Render();
   for (std::size_t i = 0; i < kEditKeys.size(); ++i)
