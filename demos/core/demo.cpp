@@ -177,8 +177,15 @@ Aabb<double> Demo::shown() const {
   std::vector<Moving> all = moving();
   std::erase_if(all, [](const Moving& each) { return !each.awake; });
   if (all.empty()) return home;
+  // A camera that needs a while to get there would lag behind what leaves the view: it aims ahead.
+  constexpr double kAhead = 0.25;  // s
   Aabb<double> box = all.front().box;
-  for (const Moving& each : all) box = merged(box, each.box);
+  for (const Moving& each : all) {
+    box = merged(box, each.box);
+    if (home.contains(each.box)) continue;
+    const Vec2d way = kAhead * each.velocity;
+    box = merged(box, {each.box.lower + way, each.box.upper + way});
+  }
   const Interval x = shown_of({home.lower.x, home.upper.x}, {box.lower.x, box.upper.x});
   const Interval y = shown_of({home.lower.y, home.upper.y}, {box.lower.y, box.upper.y});
   return {{x.low, y.low}, {x.high, y.high}};
