@@ -301,11 +301,16 @@ TEST_F(PoolByMouse, ShotHeadOnTheyBounceByMassAndRestitution) {
       // `m` goes on from 0.17 kg to 1.7 kg.
       if (cue > kMass) key(1, 'm');
       drag(3, {-0.6, 0}, {-0.4, 0}, 4);
-      double before = 0;
+      double before = 0, cue_after = 0, ball_after = 0;
       int lit = 0;
+      bool over = false;
       each([&] {
         const double v = world().velocity(bodies("cue").at(0)).x;
         if (figure("collisions") == 0) before = v;
+        if (figure("collisions") > 0 && !over) {
+          over = true;
+          cue_after = v, ball_after = world().velocity(bodies("1").at(0)).x;
+        }
         Lights lights;
         demo().draw(lights);
         lit = std::max(lit, lights.count);
@@ -315,8 +320,8 @@ TEST_F(PoolByMouse, ShotHeadOnTheyBounceByMassAndRestitution) {
       EXPECT_EQ(lit, 2);
       EXPECT_GT(before, 1);
       const double m1 = cue, m2 = kMass;
-      EXPECT_NEAR(world().velocity(bodies("cue").at(0)).x, (m1 - e * m2) / (m1 + m2) * before, 1e-3 * before);
-      EXPECT_NEAR(world().velocity(bodies("1").at(0)).x, (1 + e) * m1 / (m1 + m2) * before, 1e-3 * before);
+      EXPECT_NEAR(cue_after, (m1 - e * m2) / (m1 + m2) * before, 1e-3 * before);
+      EXPECT_NEAR(ball_after, (1 + e) * m1 / (m1 + m2) * before, 1e-3 * before);
     }
   }
 }
@@ -328,12 +333,15 @@ TEST_F(PoolByMouse, TheBreakScattersAndKeepsItsMomentum) {
   for (int i = 1; i <= 15; ++i) start.push_back(world().position(bodies(std::to_string(i)).at(0)));
   drag(3, {-0.6, 0}, {0.5, 0}, 4);
   double shot = 0, after = 0;
+  bool at_cushion = false;
   each([&] {
     if (figure("collisions") == 0) shot = figure("momentum x");
     double farthest = 0;
     for (const BodyId body : world().bodies())
       if (world().mass(body) > 0) farthest = std::max(farthest, std::abs(world().position(body).x));
-    if (figure("collisions") > 0 && farthest < 1.0) after = figure("momentum x");
+    // A frame later the fastest may have met the cushion at 1.24 m.
+    at_cushion = at_cushion || farthest > 1.05;
+    if (figure("collisions") > 0 && !at_cushion) after = figure("momentum x");
   });
   run(150);
   EXPECT_GT(shot, 0.5);
@@ -369,9 +377,9 @@ TEST_F(BoxesByMouse, AThinBoxIsEasierToSpinThanASquareOfItsLongSide) {
   open("spinning_boxes", {{"push", 5}});
   const BodyId square = box_at(kSquare), thin = box_at(kThin), short_thin = box_at(kShortThin);
   click(1, kSquare + Vec2d{0.46, 0.46});
-  click(1, kThin + Vec2d{0.96, 0.1});
-  click(1, kShortThin + Vec2d{0.46, 0.1});
-  run(14);
+  click(4, kThin + Vec2d{0.96, 0.1});
+  click(7, kShortThin + Vec2d{0.46, 0.1});
+  run(20);
   const double w = world().angular_velocity(square);
   EXPECT_NEAR(w, 0.5 * 5 * 0.1 * 6, 0.15);
   EXPECT_NEAR(world().angular_velocity(short_thin) / w, 2 / 1.0625, 0.1);
@@ -478,7 +486,7 @@ TEST_F(RagdollByMouse, ItTumblesWhenDroppedAndFliesWhenFlung) {
   EXPECT_LT(flung, -1.5);  // the hand moves at -3.6 m/s, and arms and legs hang behind
   EXPECT_LT(least, 0.5);   // it turned over
   EXPECT_LT(world().centre(bodies("torso").at(0)).y, 2);
-  EXPECT_LT(figure("kinetic energy"), 20);
+  EXPECT_LT(length_squared(world().velocity(bodies("torso").at(0))), 1);
 }
 
 }  // namespace
