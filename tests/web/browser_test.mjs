@@ -229,6 +229,7 @@ test("the mouse carries the bouncing ball, and it falls from there", async () =>
   }
   const end = {x: start.x + 150, y: start.y - 40};
   await page.until(`(() => { const at = where("ball"); return Math.hypot(at.x - ${end.x}, at.y - ${end.y}) < 3; })()`);
+  await page.frames(60);  // held still, or it would be thrown
   await page.mouse("release", end);
   await page.until(`where("ball").y > ${end.y + 30}`);
   assert.ok(Math.abs((await page.ask('where("ball")')).x - end.x) < 60, "it falls where it was let go");

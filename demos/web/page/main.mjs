@@ -76,6 +76,7 @@ async function play() {
     else if (player.panel) covered.left = box.width;
     else covered.top = box.height;
     player.resize(width, height, covered);
+    painter.scale_bar_x = width - covered.right - 20;
     painter.scale_bar_y = height - covered.bottom - 14;
     return {width, height};
   }
