@@ -14,6 +14,7 @@
 #include "demos/web/json_text.h"
 #include "demos/web/viewer.h"
 #include "engine/scene/json.h"
+#include "engine/world/add_scene.h"
 
 namespace plumb::web {
 namespace {
@@ -71,7 +72,7 @@ PLUMB_EXPORT("argument") char* plumb_argument(std::size_t size) {
 PLUMB_EXPORT("answer") const char* plumb_answer() { return answered.data(); }
 PLUMB_EXPORT("answer_size") std::size_t plumb_answer_size() { return answered.size(); }
 
-/// Lists all demos and then all scenarios, as JSON.
+/// Lists all demos and then the scenarios that a world can run, as JSON.
 PLUMB_EXPORT("list") void plumb_list() {
   JsonList list;
   for (const plumb::demos::Entry& entry : plumb::demos::all()) {
@@ -85,6 +86,8 @@ PLUMB_EXPORT("list") void plumb_list() {
   }
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
     for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
+      // Few scenes have rules that no world has.
+      if (!plumb::world_unsupported(instance.build().scene).empty()) continue;
       list.add(JsonObject()
                    .add("kind", std::string("scene"))
                    .add("name", instance.label())
