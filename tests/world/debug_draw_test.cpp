@@ -218,7 +218,9 @@ TYPED_TEST(Drawn, SpringsAreZigzags) {
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     EXPECT_NEAR(lines[i].points[1].x, 0.25 * static_cast<double>(i + 1), 1e-6);
     EXPECT_NEAR(std::abs(lines[i].points[1].y), 3.0 / 16, 1e-6);
-    if (i > 0) EXPECT_LT(lines[i].points[1].y * lines[i - 1].points[1].y, 0);
+    if (i > 0) {
+      EXPECT_LT(lines[i].points[1].y * lines[i - 1].points[1].y, 0);
+    }
   }
 }
 
