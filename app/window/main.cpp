@@ -56,7 +56,8 @@ void add_options(CLI::App& command, Given& given) {
   command.add_option("--dt", given.dt, "length of a step, s: short for --set dt=DT")->type_name("DT");
   command.add_option("--set", given.settings, "a control, as NAME=VALUE (again for more)");
   command.add_option("--show", given.drawings,
-                     "contacts, normals, impulses, boxes, centres, joints or names (again for more)");
+                     "contacts, normals, impulses, boxes, centres, joints, names, velocities, forces, masses "
+                     "or code (again for more)");
   command
       .add_option("--script", given.script,
                   "what the player does: lines like '0.5 press 1 2' (docs/demos.md)")
@@ -87,7 +88,7 @@ int play(Player& player, const Given& given) {
   const window::Options options = options_of(given);
   player.panel = !given.bare;
   player.theme.dark = given.theme == "dark";
-  for (const std::string& drawing : given.drawings) window::show(player.options, drawing);
+  for (const std::string& drawing : given.drawings) window::show(player, drawing);
   if (!given.dt.empty()) player.demo().set("dt", parse_positive("--dt", given.dt));
   for (const std::string& setting : given.settings) window::assign(player.demo(), setting);
   // Restart, because settings affect the start too.

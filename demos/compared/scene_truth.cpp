@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLeast = 10;  // s, minimum duration of other engines' runs
 constexpr int kSamples = 120;  // of the truth, for the view
+constexpr double kRounding = 1e-12;
 
 bool finite(const BodyState& state) {
   return std::isfinite(state.position.x) && std::isfinite(state.position.y) && std::isfinite(state.angle);
@@ -46,7 +47,7 @@ SceneTruth::SceneTruth(scenarios::Problem problem) : problem_(std::move(problem)
 double SceneTruth::end() const { return std::max(problem_.duration, kLeast); }
 
 bool SceneTruth::at(double time, std::span<BodyState> out) const {
-  if (!known() || time > end()) return false;
+  if (!known() || time > problem_.duration * (1 + kRounding)) return false;
   problem_.truth.exact(time, out);
   return std::ranges::all_of(out, finite);
 }
@@ -69,6 +70,26 @@ std::vector<Figure> SceneTruth::figures(double time, std::span<const BodyState> 
   return out;
 }
 
+void SceneTruth::draw_paths(DebugDraw& out) const {
+  constexpr int kPathSamples = 400;
+  constexpr std::size_t kMostPaths = 3;  // of more bodies the paths would hide the picture
+  if (!known()) return;
+  if (paths_.empty()) {
+    std::vector<BodyState> states(scene().bodies.size());
+    std::vector<std::size_t> moving;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (scene().bodies[i].type == BodyType::Dynamic) moving.push_back(i);
+    if (moving.size() > kMostPaths) moving.clear();
+    paths_.resize(std::max<std::size_t>(moving.size(), 1));
+    for (int k = 0; k <= kPathSamples; ++k) {
+      if (!at(problem_.duration * k / kPathSamples, states)) break;
+      for (std::size_t i = 0; i < moving.size(); ++i) paths_[i].push_back(states[moving[i]].position);
+    }
+  }
+  for (const std::vector<Vec2d>& path : paths_)
+    for (std::size_t k = 1; k < path.size(); ++k) out.segment(path[k - 1], path[k], DrawRole::Trail);
+}
+
 std::optional<Aabb<double>> SceneTruth::view() const {
   if (!known()) return {};
   std::vector<BodyState> states(scene().bodies.size());
@@ -79,6 +100,9 @@ std::optional<Aabb<double>> SceneTruth::view() const {
     if (!std::isfinite(now.half_perimeter())) return {};
     box = box ? merged(*box, now) : now;
   }
+  constexpr double kSpecks = 20;
+  for (std::size_t i = 0; i < states.size(); ++i) states[i] = initial_state(scene().bodies[i]);
+  if (box->half_perimeter() > kSpecks * bounds_of(scene(), states).half_perimeter()) return {};
   return box->grown(0.05 * box->half_perimeter());
 }
 

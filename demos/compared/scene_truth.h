@@ -22,21 +22,27 @@ class SceneTruth {
   /// Returns the duration of other engines' runs, s: the scenario's own, and at least 10 s.
   double end() const;
 
-  /// Computes the exact states at `time`; false beyond `end` and if they are unknown.
+  /// Computes the exact states at `time`; false if they are unknown, and beyond the scenario's duration, for
+  /// which alone a truth holds: a ball may meet another wall after it.
   bool at(double time, std::span<BodyState> out) const;
 
   /// Returns the energy (J), its drift relative to the truth's largest kinetic energy, and the largest errors
   /// of position (m) and angle (rad) over the bodies. Only those with a meaning for this scene.
   std::vector<Figure> figures(double time, std::span<const BodyState> states) const;
 
-  /// Returns the box around the true motion, with a margin, m; nothing if the truth is unknown.
+  /// Draws the true paths of the bodies that move, if they are few.
+  void draw_paths(DebugDraw& out) const;
+
+  /// Returns the box around the true motion, with a margin, m; nothing if the truth is unknown, or if the
+  /// bodies would be specks in it: a camera that follows them shows more.
   std::optional<Aabb<double>> view() const;
 
  private:
   double energy_of(std::span<const BodyState> states) const;
 
   scenarios::Problem problem_;
-  double start_ = 0, energy_scale_ = 0;  // J
+  double start_ = 0, energy_scale_ = 0;              // J
+  mutable std::vector<std::vector<Vec2d>> paths_{};  // m; made when first drawn
 };
 
 /// Returns the largest distance over the bodies, m.

@@ -16,7 +16,7 @@ constexpr Vec2d kStartVelocity{2.5, 0};    // m/s
 constexpr std::size_t kTrail = 180;        // points
 
 const About kAbout{"bouncing_ball", "a ball falls, speeds up, bounces off four walls and settles",
-                   "Click to put the ball somewhere, drag to carry it; it falls from where you let go. Watch "
+                   "Click to put the ball somewhere, drag to carry it, let go on the move to throw it. Watch "
                    "the energy with "
                    "the Euler schemes and a long step: explicit Euler gains some each step, and neither ever "
                    "lies quite still."};
@@ -36,10 +36,15 @@ class BouncingBall final : public Demo {
     restart();
   }
 
-  void press(Vec2d point) override { hold(point); }
+  void press(Vec2d point) override {
+    hold(point);
+    hand_ = {};
+    held_before_ = *held_;
+  }
   void drag(Vec2d point) override { hold(point); }
   void release(Vec2d point) override {
     hold(point);
+    simulation_->set_state(kBall, {.position = *held_, .velocity = hand_});
     held_.reset();
   }
 
@@ -66,6 +71,19 @@ class BouncingBall final : public Demo {
   }
 
   Aabb<double> view() const override { return Aabb<double>{{0, 0}, {kWidth, kHeight}}.grown(0.3); }
+  std::vector<Moving> moving() const override {
+    const BodyState ball = simulation_->state(kBall);
+    const Vec2d at = drawn_position(), size{kRadius, kRadius};
+    const Vec2d force = step_count() > 0 ? kMass / dt() * (ball.velocity - before_.velocity) : Vec2d{};
+    return {{{at - size, at + size}, at, ball.velocity, held_ ? Vec2d{} : force, kMass}};
+  }
+  double gravity() const override { return gravity_; }
+  std::optional<Scene> scene() const override {
+    Scene now = start();
+    const BodyState ball = simulation_->state(kBall);
+    now.bodies[kBall].position = ball.position, now.bodies[kBall].velocity = ball.velocity;
+    return now;
+  }
   std::uint64_t hash() const override { return simulation_->hash(); }
   const Simulation* simulation() const override { return &*simulation_; }
 
@@ -73,7 +91,7 @@ class BouncingBall final : public Demo {
   static constexpr std::size_t kBall = 1;  // its index in the scene
 
   // Returns the scene: four walls around the room, as one body, and the ball, which has a fixed rotation.
-  Scene scene() const {
+  Scene start() const {
     constexpr double kThick = 1;
     const auto wall = [&](Vec2d middle, double width, double height) {
       return Shape{
@@ -98,7 +116,7 @@ class BouncingBall final : public Demo {
   }
 
   Simulation compiled() const {
-    return compile(scene(), Realtime{.dt = dt_, .substeps = 1, .integrator = kIntegrators[integrator_]});
+    return compile(start(), Realtime{.dt = dt_, .substeps = 1, .integrator = kIntegrators[integrator_]});
   }
 
   void build() override {
@@ -115,7 +133,14 @@ class BouncingBall final : public Demo {
   }
 
   void step() override {
-    if (held_) simulation_->set_state(kBall, {.position = *held_});
+    if (held_) {
+      simulation_->set_state(kBall, {.position = *held_});
+      // The speed of the hand over about a tenth of a second, so that one jerk of it counts little.
+      constexpr double kHand = 0.1;  // s
+      const double share = std::min(1.0, dt() / kHand);
+      hand_ += share * (1 / dt() * (*held_ - held_before_) - hand_);
+      held_before_ = *held_;
+    }
     before_ = simulation_->state(kBall);
     if (!held_) simulation_->step();
     if (trail_.size() == kTrail) trail_.erase(trail_.begin());
@@ -151,6 +176,8 @@ class BouncingBall final : public Demo {
   int integrator_ = 2;
   std::optional<Simulation> simulation_;
   std::optional<Vec2d> held_;  // position of the pointer that holds the ball
+  Vec2d held_before_{};        // the same a step before
+  Vec2d hand_{};               // m/s, of the pointer
   BodyState before_;           // ball before the step
   std::vector<Vec2d> trail_;
 };

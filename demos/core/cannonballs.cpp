@@ -32,7 +32,8 @@ const About kAbout{
      {'2', "fire heavy balls"},
      {'3', "fire one of each"},
      {' ', "fire"},
-     {'c', "clear the balls away"}}};
+     {'c', "clear the balls away"},
+     kGrabKey}};
 
 /// A ball in flight, with its thrust.
 struct Ball {
@@ -44,6 +45,7 @@ struct Ball {
 class Cannonballs final : public WorldDemo {
  public:
   Cannonballs() : WorldDemo(kAbout) {
+    add_pointer_play("fire");
     add_choice("balls", {"light (1 kg)", "heavy (10 kg)", "both"}, fired_, "what is fired");
     add_choice("fired by", {"impulse", "force"}, mode_, "a blow at once, or a push that lasts");
     add_slider("impulse", "N s", 0.0, 60.0, impulse_, "of the blow");
@@ -51,18 +53,14 @@ class Cannonballs final : public WorldDemo {
     add_slider("duration", "s", 0.0, 2.0, duration_, "of the push");
     add_slider("wind", "N", -20.0, 20.0, wind_, "force on every ball, to the right");
     add_slider("gravity", "m/s^2", 0.0, 20.0, gravity_, "how fast falling speeds up");
-    add_switch("forces", show_forces_, "arrows of the forces");
+    add_switch("each force", show_forces_, "arrows of weight, wind and thrust");
     add_step_controls();
     restart();
   }
 
-  void hover(Vec2d point) override { pointer_ = point; }
-  void drag(Vec2d point) override { pointer_ = point; }
-  void press(Vec2d point) override {
-    pointer_ = point;
-    fire();
-  }
+  void hover(Vec2d point) override { aimed_ = point; }
   void key(char key) override {
+    WorldDemo::key(key);
     if (key >= '1' && key <= '3') set("balls", key - '1');
     if (key == ' ') fire();
     if (key == 'c') clear();
@@ -89,6 +87,12 @@ class Cannonballs final : public WorldDemo {
   Aabb<double> view() const override { return {{-1, -1}, {31, 17}}; }
 
  private:
+  void begin(Vec2d point) override {
+    aimed_ = point;
+    fire();
+  }
+  void go_on(Vec2d point) override { aimed_ = point; }
+
   WorldDefinition definition() const override { return {.gravity = {0, -gravity_}}; }
 
   void fill() override {
@@ -109,7 +113,7 @@ class Cannonballs final : public WorldDemo {
   }
 
   Vec2d aim() const {
-    const Vec2d way = pointer_ - kMuzzle;
+    const Vec2d way = aimed_ - kMuzzle;
     const double length = std::sqrt(length_squared(way));
     return length > 0 ? (1 / length) * way : Vec2d{1, 0};
   }
@@ -207,7 +211,7 @@ class Cannonballs final : public WorldDemo {
   }
 
   std::vector<double> own() const override {
-    std::vector<double> out = {pointer_.x, pointer_.y};
+    std::vector<double> out = {aimed_.x, aimed_.y};
     for (const Ball& ball : balls_) {
       for (const double each :
            {static_cast<double>(ball.body.index), static_cast<double>(ball.body.generation), ball.thrust.x,
@@ -217,7 +221,7 @@ class Cannonballs final : public WorldDemo {
     return out;
   }
   void set_own(std::span<const double> in) override {
-    pointer_ = {in[0], in[1]};
+    aimed_ = {in[0], in[1]};
     balls_.clear();
     for (std::size_t i = 2; i + 5 <= in.size(); i += 5) {
       const BodyId body{static_cast<std::uint32_t>(in[i]), static_cast<std::uint32_t>(in[i + 1])};
@@ -228,7 +232,7 @@ class Cannonballs final : public WorldDemo {
   int fired_ = kBoth, mode_ = kImpulse;
   double impulse_ = 15, force_ = 50, duration_ = 0.3, wind_ = 0, gravity_ = kGravity;
   bool show_forces_ = true;
-  Vec2d pointer_{12, 9};
+  Vec2d aimed_{12, 9};
   std::vector<Ball> balls_;  // oldest first
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "demos/core/arrow.h"
 #include "engine/core/suggest.h"
 #include "engine/core/text.h"
 #include "engine/scene/error.h"
@@ -143,6 +144,76 @@ void Demo::restart() {
 }
 
 double Demo::fraction() const { return std::clamp(waiting_ / dt_, 0.0, 1.0); }
+
+namespace {
+
+struct Interval {
+  double low, high;
+};
+
+// Returns the interval to show: `home` together with `moving`, at most twice as long as `home`; if they are
+// farther apart, the part at the far end of `moving`, and of a longer `moving` the end that is nearer to
+// home.
+Interval shown_of(Interval home, Interval moving) {
+  const double most = 2 * (home.high - home.low);
+  const Interval both{std::min(home.low, moving.low), std::max(home.high, moving.high)};
+  if (both.high - both.low <= most) return both;
+  // The longest that is shown, in lengths of home: one body of many that flies off is not worth more.
+  constexpr double kLongest = 4;
+  const double wanted = std::min(moving.high - moving.low, kLongest * (home.high - home.low));
+  const double length = std::max(most, wanted);
+  const bool beyond_high = moving.high - home.high > home.low - moving.low;
+  if (moving.high - moving.low > length)
+    return beyond_high
+               ? Interval{std::max(moving.low, home.low), std::max(moving.low, home.low) + length}
+               : Interval{std::min(moving.high, home.high) - length, std::min(moving.high, home.high)};
+  return beyond_high ? Interval{both.high - length, both.high} : Interval{both.low, both.low + length};
+}
+
+}  // namespace
+
+Aabb<double> Demo::shown() const {
+  const Aabb<double> home = view();
+  std::vector<Moving> all = moving();
+  std::erase_if(all, [](const Moving& each) { return !each.awake; });
+  if (all.empty()) return home;
+  // A camera that needs a while to get there would lag behind what leaves the view: it aims ahead.
+  constexpr double kAhead = 0.25;  // s
+  Aabb<double> box = all.front().box;
+  for (const Moving& each : all) {
+    box = merged(box, each.box);
+    if (home.contains(each.box)) continue;
+    const Vec2d way = kAhead * each.velocity;
+    box = merged(box, {each.box.lower + way, each.box.upper + way});
+  }
+  const Interval x = shown_of({home.lower.x, home.upper.x}, {box.lower.x, box.upper.x});
+  const Interval y = shown_of({home.lower.y, home.upper.y}, {box.lower.y, box.upper.y});
+  return {{x.low, y.low}, {x.high, y.high}};
+}
+
+void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
+  if (!options.velocities && !options.forces && !options.masses) return;
+  constexpr double kFallen = 1.0 / 3;  // of the view, arrow of a body that has fallen through it
+  constexpr double kHeaviest = 0.1;    // of the view, arrow of the largest weight
+  constexpr double kLongest = 0.5;     // of the view: an arrow out of it tells no more
+  const std::vector<Moving> all = moving();
+  const double size = view().half_perimeter() / 2;
+  double heaviest = 0;
+  for (const Moving& each : all) heaviest = std::max(heaviest, each.mass);
+  const double usual = gravity() > 0 ? gravity() : size;                                   // m/s^2
+  const double for_speed = options.length * kFallen * size / std::sqrt(2 * usual * size);  // s
+  const double for_force = options.length * kHeaviest * size / (usual * heaviest);         // m/N
+  const auto arrow = [&](Vec2d from, Vec2d way, DrawRole role) {
+    const double length = std::sqrt(length_squared(way));
+    if (!(length > 1e-3 * size)) return;
+    draw_arrow(out, from, from + std::min(1.0, kLongest * size / length) * way, role);
+  };
+  for (const Moving& each : all) {
+    if (options.velocities) arrow(each.centre, for_speed * each.velocity, DrawRole::Velocity);
+    if (options.forces && each.mass > 0) arrow(each.centre, for_force * each.force, DrawRole::Force);
+    if (options.masses && each.mass > 0) out.text(each.centre, mass_text(each.mass), DrawRole::Name);
+  }
+}
 
 std::vector<std::byte> Demo::save() const {
   std::vector<std::byte> bytes;

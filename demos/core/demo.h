@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "demos/core/control.h"
 #include "engine/geometry/aabb.h"
 #include "engine/scene/bytes.h"
+#include "engine/scene/scene.h"
 #include "engine/world/debug_draw.h"
 #include "engine/world/world.h"
 
@@ -45,6 +47,24 @@ struct Figure {
   std::string_view name;
   double value = 0;
   std::string_view unit;  ///< "" if there is none
+};
+
+/// A body that moves, as it is drawn.
+struct Moving {
+  Aabb<double> box{};  ///< m, around its shapes
+  Vec2d centre{};      ///< m, centre of mass
+  Vec2d velocity{};    ///< m/s
+  Vec2d force{};       ///< N, all forces together: its mass times the change of its velocity in the last step
+  double mass = 0;     ///< kg
+  bool awake = true;
+};
+
+/// Drawings of the motion of bodies, over those of DrawOptions.
+struct MotionOptions {
+  bool velocities = false;  ///< arrows
+  bool forces = false;      ///< arrows, of all forces on a body together
+  bool masses = false;      ///< labels
+  double length = 1;        ///< of the arrows, in proportion to their usual length
 };
 
 /// An interactive demo. Time advances in fixed steps at any frame rate: the same calls between the same steps
@@ -91,7 +111,19 @@ class Demo {
   // Output.
   virtual void draw(DebugDraw& out, const DrawOptions& options = {}) const = 0;
   virtual std::vector<Figure> figures() const = 0;
-  virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show
+  virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show while nothing leaves it
+  /// Returns the bodies that can move, as they are now. None if the demo does not tell.
+  virtual std::vector<Moving> moving() const { return {}; }
+  virtual double gravity() const { return 0; }  ///< m/s^2
+  /// Returns the part of the world to show now, m: `view`, made larger to hold what is awake, up to twice as
+  /// large; beyond that it goes along with what is awake.
+  Aabb<double> shown() const;
+  /// Draws arrows and masses of what moves. Arrows have fixed scales, which follow from the view: a body that
+  /// has fallen through it has a velocity's arrow of a third of it; the largest weight, one of a tenth.
+  /// Without gravity the scales are those of one of a view's length a second squared.
+  void draw_motion(DebugDraw& out, const MotionOptions& options) const;
+  /// Returns the present state as a scene; nothing if the demo has none. Forces of the player are left out.
+  virtual std::optional<Scene> scene() const { return {}; }
 
   // State.
   /// Returns 64 bits of every body's state: equal on every platform for the same calls.

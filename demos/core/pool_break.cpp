@@ -24,7 +24,7 @@ const About kAbout{
     "aim, break the rack, watch momentum and energy",
     "Press and drag to where the cue ball is to go, the farther the harder, and release. Balls that "
     "touch light up. A heavy cue ball barely slows; a light one bounces back.",
-    {{' ', "break as hard as it goes"}, {'m', "the next mass of the cue ball"}}};
+    {{' ', "break as hard as it goes"}, {'m', "the next mass of the cue ball"}, kGrabKey}};
 
 constexpr double kCueMasses[] = {kMass, 10 * kMass, kMass / 10};
 
@@ -32,6 +32,7 @@ class PoolBreak final : public WorldDemo {
  public:
   PoolBreak() : WorldDemo(kAbout) {
     dt_ = 1.0 / 240;
+    add_pointer_play("shoot");
     add_slider("balls", "", 1, kBalls - 1, racked_, "in the rack; starts anew");
     add_slider("restitution", "", 0.0, 1.0, restitution_, "of balls and cushions, now");
     add_slider("cue mass", "kg", kMass / 10, kMass * 10, cue_mass_,
@@ -42,13 +43,8 @@ class PoolBreak final : public WorldDemo {
     restart();
   }
 
-  void press(Vec2d point) override { aim_ = point; }
-  void drag(Vec2d point) override { aim_ = point; }
-  void release(Vec2d point) override {
-    aim_.reset();
-    shoot(point - world_.position(cue()));
-  }
   void key(char key) override {
+    WorldDemo::key(key);
     if (key == ' ') shoot({kFastest / kHardness, 0.01});
     if (key == 'm') {
       const double* here = std::ranges::find(kCueMasses, cue_mass_);
@@ -74,6 +70,13 @@ class PoolBreak final : public WorldDemo {
   }
 
  private:
+  void begin(Vec2d point) override { aim_ = point; }
+  void go_on(Vec2d point) override { aim_ = point; }
+  void end(Vec2d point) override {
+    aim_.reset();
+    shoot(point - world_.position(cue()));
+  }
+
   WorldDefinition definition() const override { return {.gravity = {0, 0}, .sleeping = false}; }
 
   Material material() const { return {.friction = 0, .restitution = restitution_}; }
@@ -187,15 +190,15 @@ class PoolBreak final : public WorldDemo {
           out.circle({x, y}, kPocket, {0, 0}, DrawRole::Sensor);
       }
     }
+    // The cue ball is told apart by its colour and its mass.
+    if (world_.valid(cue())) {
+      const Vec2d centre = drawn_centre(cue());
+      out.circle(centre, kRadius, {0, 0}, DrawRole::Kinematic);
+      out.text(centre + Vec2d{0, 1.5 * kRadius}, mass_text(world_.mass(cue())), DrawRole::Name);
+    }
     for (int ball = 0; ball < kBalls; ++ball) {
       if (on_table(ball) && time() - touched_[ball] < kGlow)
         out.circle(drawn_centre(balls_[ball]), kRadius, {0, 0}, DrawRole::Highlight);
-    }
-    // The cue ball is told apart by its ring and its mass.
-    if (world_.valid(cue())) {
-      const Vec2d centre = drawn_centre(cue());
-      out.circle(centre, kRadius / 2, {0, 0}, DrawRole::Aim);
-      out.text(centre, mass_text(world_.mass(cue())), DrawRole::Name);
     }
     if (!aim_) return;
     const Vec2d from = drawn_centre(cue());

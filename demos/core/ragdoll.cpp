@@ -10,12 +10,12 @@
 namespace plumb::demos {
 namespace {
 
-constexpr double kHalfWidth = 7, kHeight = 7;  // m, of the room above the ground
-constexpr double kReach = 0.2;                 // m, search radius of the pointer
+constexpr double kLeft = -4.6, kRight = 3.4, kHeight = 6.3;  // m, of the room above the ground
+constexpr double kReach = 0.2;                               // m, search radius of the pointer
 constexpr int kMostDolls = 6;
-constexpr Vec2d kStart{2.2, 5.0};  // m, of the first figure's hip
+constexpr Vec2d kStart{1.5, 5.0};  // m, of the first figure's hip
 
-constexpr Vec2d kRopeHook{-5.5, 5.5}, kChainHook{-3.5, 5.5};
+constexpr Vec2d kRopeHook{-4.2, 5.5}, kChainHook{-2.2, 5.5};
 constexpr int kRopeParts = 16, kChainParts = 10;
 constexpr double kRopePart = 0.25, kRopeRadius = 0.04, kRopePartMass = 0.2;  // m, m, kg
 constexpr double kChainLink = 0.3, kChainRadius = 0.12, kChainMass = 1;      // m, m, kg
@@ -41,12 +41,6 @@ class Ragdoll final : public WorldDemo {
     restart();
   }
 
-  void press(Vec2d point) override { grab(point, kReach); }
-  void drag(Vec2d point) override { pull(point); }
-  void release(Vec2d point) override {
-    pull(point);
-    let_go();
-  }
   void key(char key) override {
     if (key == 'j') set("joints", joints_ == kHinges ? kSticks : kHinges);
     if (key == 'n') add_another();
@@ -60,9 +54,11 @@ class Ragdoll final : public WorldDemo {
             {"kinetic energy", totals_of(world_).energy, "J"}};
   }
 
-  Aabb<double> view() const override { return {{-kHalfWidth - 0.3, -0.4}, {kHalfWidth + 0.3, kHeight}}; }
+  Aabb<double> view() const override { return {{kLeft - 0.2, -0.3}, {kRight + 0.2, kHeight}}; }
 
  private:
+  double reach() const override { return kReach; }
+
   // Iterative solvers yield if a figure is pinched with its joints at their limits. The direct solver keeps
   // joints closed to micrometres until such a pinch.
   WorldDefinition definition() const override {
@@ -90,14 +86,14 @@ class Ragdoll final : public WorldDemo {
     };
     constexpr double kRough = 0.6, kSmooth = 0.15;
     const ShapeDefinition shapes[] = {
-        block({0, -0.5}, 2 * kHalfWidth + 2, 1, 0, kRough),
-        block({-kHalfWidth - 0.5, 10}, 1, 20, 0, kSmooth),
-        block({kHalfWidth + 0.5, 10}, 1, 20, 0, kSmooth),
-        block({5.3, 1.9}, 2.6, 0.2, 0.5, kSmooth),
-        block({0.9, 1.4}, 2.2, 0.2, 0.4, kSmooth),
-        block({-1.4, 0.2}, 1.2, 0.4, 0, kRough),
-        block({-1.2, 0.5}, 0.8, 0.3, 0, kRough),
-        {.geometry = Circle{0.3}, .position = {2.5, 3.2}, .material = {.friction = kSmooth}},
+        block({(kLeft + kRight) / 2, -0.5}, kRight - kLeft + 2, 1, 0, kRough),
+        block({kLeft - 0.5, 10}, 1, 20, 0, kSmooth),
+        block({kRight + 0.5, 10}, 1, 20, 0, kSmooth),
+        block({2.8, 1.9}, 1.4, 0.2, 0.5, kSmooth),
+        block({0.2, 1.4}, 2.2, 0.2, 0.4, kSmooth),
+        block({-2.1, 0.2}, 1.2, 0.4, 0, kRough),
+        block({-1.9, 0.5}, 0.8, 0.3, 0, kRough),
+        {.geometry = Circle{0.3}, .position = {1.8, 3.2}, .material = {.friction = kSmooth}},
     };
     world_.create_body({.name = "room", .type = BodyType::Static}, shapes);
   }
@@ -157,7 +153,7 @@ class Ragdoll final : public WorldDemo {
   // Adds another figure at the first free place.
   void add_another() {
     constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, about the hip
-    for (const double x : {2.2, 0.8, 3.6, 5.0, -0.6, -2.0}) {
+    for (const double x : {1.5, 0.3, 2.7, -0.9, -3.2}) {
       const Vec2d hip{x, kStart.y};
       std::vector<ShapeId> there;
       overlap_box(world_, {hip + kRoom.lower, hip + kRoom.upper}, {}, there);

@@ -20,15 +20,18 @@ struct Form {
   const char* name;
   Box box;
 };
-constexpr Form kForms[] = {{"square", {1, 1}}, {"thin", {2, 0.25}}};
+constexpr Form kForms[] = {{"square", {1, 1}}, {"thin", {2, 0.25}}, {"short thin", {1, 0.25}}};
 
 const About kAbout{
     "spinning_boxes",
     "push boxes at a corner or in the middle, square and thin ones of one mass",
     "Click a box near its middle or a corner to push it there, upwards; drag for another direction. Click "
-    "elsewhere for a new box. A push in the middle does not spin; the same at a corner does. A thin box of "
-    "the same mass has twice the inertia of a square one, and its corners are twice as far out.",
-    {{'1', "new boxes are square"}, {'2', "new boxes are thin"}}};
+    "elsewhere for a new box. A push in the middle does not spin; the same at a corner does. Of one mass, a "
+    "thin box as long as the square has half its inertia; one of the same area has twice as much.",
+    {{'1', "new boxes are square"},
+     {'2', "new boxes are thin, of the square's area"},
+     {'3', "new boxes are thin, as long as the square"},
+     kGrabKey}};
 
 /// A force at a point of a box for the duration of a push.
 struct Push {
@@ -41,7 +44,9 @@ struct Push {
 class SpinningBoxes final : public WorldDemo {
  public:
   SpinningBoxes() : WorldDemo(kAbout) {
-    add_choice("new boxes", {kForms[0].name, kForms[1].name}, form_, "what a click on free room makes");
+    add_pointer_play("push");
+    add_choice("new boxes", {kForms[0].name, kForms[1].name, kForms[2].name}, form_,
+               "what a click on free room makes");
     add_choice("rotation", {"boxes turn", "along the axes"}, locked_, "whether boxes may turn at all");
     add_slider("push", "N", 0.0, 50.0, strength_, "force of a push; it lasts 0.1 s");
     add_slider("restitution", "", 0.0, 1.0, restitution_, "share of the speed that a bounce gives back");
@@ -51,26 +56,9 @@ class SpinningBoxes final : public WorldDemo {
     restart();
   }
 
-  // Starts a push on a box, or adds a new box elsewhere.
-  void press(Vec2d point) override {
-    const auto is_box = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
-    const std::optional<NearestResult> hit = nearest(world_, point, 0, {.condition = is_box});
-    if (!hit) {
-      spawn(point);
-      return;
-    }
-    aimed_ = hit->body;
-    aimed_point_ = nearest_handle(aimed_, world_.local_point(aimed_, point));
-    from_ = to_ = point;
-  }
-  void drag(Vec2d point) override { to_ = point; }
-  void release(Vec2d point) override {
-    to_ = point;
-    if (world_.valid(aimed_)) push(aimed_, aimed_point_, strength_ * direction());
-    aimed_ = {};
-  }
   void key(char key) override {
-    if (key == '1' || key == '2') set("new boxes", key - '1');
+    WorldDemo::key(key);
+    if (key >= '1' && key <= '3') set("new boxes", key - '1');
   }
 
   std::vector<Figure> figures() const override {
@@ -91,6 +79,25 @@ class SpinningBoxes final : public WorldDemo {
   }
 
  private:
+  // Starts a push on a box, or adds a new box elsewhere.
+  void begin(Vec2d point) override {
+    const auto is_box = [&](ShapeId shape) { return world_.type(world_.body(shape)) == BodyType::Dynamic; };
+    const std::optional<NearestResult> hit = nearest(world_, point, 0, {.condition = is_box});
+    if (!hit) {
+      spawn(point);
+      return;
+    }
+    aimed_ = hit->body;
+    aimed_point_ = nearest_handle(aimed_, world_.local_point(aimed_, point));
+    from_ = to_ = point;
+  }
+  void go_on(Vec2d point) override { to_ = point; }
+  void end(Vec2d point) override {
+    to_ = point;
+    if (world_.valid(aimed_)) push(aimed_, aimed_point_, strength_ * direction());
+    aimed_ = {};
+  }
+
   WorldDefinition definition() const override { return {.gravity = {0, -gravity_}, .sleeping = false}; }
   Material material() const { return {.friction = friction_, .restitution = restitution_}; }
 
@@ -110,6 +117,7 @@ class SpinningBoxes final : public WorldDemo {
     for (int i = 0; i < 3; ++i) {
       add_box({-3, -2.5 + 2.5 * i}, 0);
       add_box({2, -2.5 + 2.5 * i}, 1);
+      add_box({4.9, -2.5 + 2.5 * i}, 2);
     }
   }
 

@@ -23,13 +23,6 @@ class Thousand final : public WorldDemo {
     restart();
   }
 
-  void press(Vec2d point) override { grab(point, 0.3); }
-  void drag(Vec2d point) override { pull(point); }
-  void release(Vec2d point) override {
-    pull(point);
-    let_go();
-  }
-
   std::vector<Figure> figures() const override {
     const WorldCounts counts = world_.counts();
     return {{"time", time(), "s"},

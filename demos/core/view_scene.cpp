@@ -66,19 +66,6 @@ void draw_shape(const Shape& shape, const Placed& body, DebugDraw& out, DrawRole
   }
 }
 
-// Draws a zigzag from one end to the other, as wide as an eighth of its length.
-void draw_spring(Vec2d from, Vec2d to, DebugDraw& out) {
-  constexpr int kTurns = 12;
-  const Vec2d way = to - from, across = 1.0 / 16 * perpendicular(way);
-  Vec2d last = from;
-  for (int i = 1; i <= kTurns; ++i) {
-    const double side = i == kTurns ? 0 : i % 2 == 0 ? 1 : -1;
-    const Vec2d next = from + static_cast<double>(i) / kTurns * way + side * across;
-    out.segment(last, next, DrawRole::JointLine);
-    last = next;
-  }
-}
-
 std::vector<std::string> solver_names() {
   std::vector<std::string> names(std::begin(kSolverNames), std::end(kSolverNames));
   for (std::string& name : names) std::ranges::replace(name, '_', ' ');
@@ -106,7 +93,7 @@ void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRol
   if (body.shapes.empty()) out.point(state.position, role);
 }
 
-void draw_connections(const Scene& scene, std::span<const BodyState> states, DebugDraw& out) {
+void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out) {
   // A point of a body, or of the world for its end.
   const auto at = [&](const std::string& name, Vec2d anchor) {
     const auto body = find_body(scene, name);
@@ -115,19 +102,24 @@ void draw_connections(const Scene& scene, std::span<const BodyState> states, Deb
   };
   for (const ForceLaw& law : scene.forces) {
     if (const auto* spring = std::get_if<SpringForce>(&law)) {
-      draw_spring(at(spring->body_a, spring->anchor_a), at(spring->body_b, spring->anchor_b), out);
-    } else if (const auto* attraction = std::get_if<AttractionForce>(&law)) {
-      out.point(at(attraction->centre_body, attraction->centre), DrawRole::Highlight);
+      draw_spring(out, at(spring->body_a, spring->anchor_a), at(spring->body_b, spring->anchor_b),
+                  DrawRole::JointLine);
+    } else if (const auto* attraction = std::get_if<AttractionForce>(&law);
+               attraction != nullptr && attraction->centre_body == kWorld) {
+      out.circle(attraction->centre, size / 100, {0, 0}, DrawRole::Highlight);
     }
   }
   for (const Joint& joint : scene.joints) {
     if (const auto* pulley = std::get_if<PulleyJoint>(&joint)) {
-      out.segment(at(pulley->body_a, pulley->anchor_a), pulley->ground_a, DrawRole::JointLine);
-      out.segment(pulley->ground_a, pulley->ground_b, DrawRole::JointLine);
-      out.segment(pulley->ground_b, at(pulley->body_b, pulley->anchor_b), DrawRole::JointLine);
+      draw_pulleys(out, at(pulley->body_a, pulley->anchor_a), pulley->ground_a, pulley->ground_b,
+                   at(pulley->body_b, pulley->anchor_b), DrawRole::JointLine);
     } else if (const auto* stick = std::get_if<DistanceJoint>(&joint)) {
-      out.segment(at(stick->body_a, stick->anchor_a), at(stick->body_b, stick->anchor_b),
-                  DrawRole::JointLine);
+      const Vec2d a = at(stick->body_a, stick->anchor_a), b = at(stick->body_b, stick->anchor_b);
+      if (stick->spring) {
+        draw_spring(out, a, b, DrawRole::JointLine);
+      } else {
+        out.segment(a, b, DrawRole::JointLine);
+      }
     }
   }
 }
@@ -139,6 +131,7 @@ Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states) {
     if (scene.bodies[i].type != BodyType::Static)
       draw_body(scene.bodies[i], states[i], moving, DrawRole::Awake);
   }
+  draw_connections(scene, states, 0, moving);
   if (!moving.empty()) return moving.box;
   return all.empty() ? Aabb<double>{{-1, -1}, {1, 1}} : all.box;
 }
@@ -179,13 +172,13 @@ void SceneDemo::read_states(std::span<BodyState> out) const {
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
 }
 
-// Grabs a body. Queries do not find shapes that collide with nothing, as the rods of a chain: of those it
-// takes the nearest by the bounding box of each in its own frame.
-void SceneDemo::press(Vec2d point) {
-  const double reach = view_.half_perimeter() / kReach;
-  if (grab(point, reach)) return;
+double SceneDemo::reach() const { return view_.half_perimeter() / kReach; }
+
+// Grabs a body whose shapes collide with nothing, as the rods of a chain, which queries do not find: the
+// nearest by the bounding box of each in its own frame.
+bool SceneDemo::grab_else(Vec2d point) {
   BodyId nearest_body{};
-  double nearest_distance = reach;
+  double nearest_distance = reach();
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
     if (scene_.bodies[i].type != BodyType::Dynamic) continue;
     Bounds own;
@@ -198,9 +191,21 @@ void SceneDemo::press(Vec2d point) {
     nearest_distance = distance;
     nearest_body = parts_.bodies[i];
   }
-  if (world_.valid(nearest_body)) hold(nearest_body, point);
+  if (!world_.valid(nearest_body)) return false;
+  hold(nearest_body, point);
+  return true;
 }
-void SceneDemo::release(Vec2d) { let_go(); }
+
+std::optional<Scene> SceneDemo::scene() const {
+  Scene now = scene_;
+  for (std::size_t i = 0; i < now.bodies.size(); ++i) {
+    const BodyState state = world_.state(parts_.bodies[i]);
+    Body& body = now.bodies[i];
+    body.position = state.position, body.angle = state.angle;
+    body.velocity = state.velocity, body.angular_velocity = state.angular_velocity;
+  }
+  return now;
+}
 
 void SceneDemo::draw_over(DebugDraw& out) const {
   if (scene_.forces.empty() && scene_.joints.empty()) return;
@@ -210,7 +215,7 @@ void SceneDemo::draw_over(DebugDraw& out) const {
     states[i].position = drawn_centre(parts_.bodies[i]);
     states[i].angle = std::atan2(pose.rotation.s, pose.rotation.c);
   }
-  draw_connections(scene_, states, out);
+  draw_connections(scene_, states, view_.half_perimeter(), out);
 }
 
 std::vector<Figure> SceneDemo::figures() const {

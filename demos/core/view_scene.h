@@ -18,17 +18,17 @@ class SceneDemo final : public WorldDemo {
   /// `add_scene`.
   SceneDemo(const Scene& scene, const std::string& summary, std::optional<Aabb<double>> view = {});
 
-  const Scene& scene() const { return scene_; }
+  const Scene& start() const { return scene_; }
+  std::optional<Scene> scene() const override;  ///< the same scene in its present state
   /// Reads the state of every body, in the scene's order.
   void read_states(std::span<BodyState> out) const;
 
-  void press(Vec2d point) override;
-  void drag(Vec2d point) override { pull(point); }
-  void release(Vec2d point) override;
   std::vector<Figure> figures() const override;
   Aabb<double> view() const override { return view_; }
 
  private:
+  double reach() const override;
+  bool grab_else(Vec2d point) override;
   WorldDefinition definition() const override;
   void fill() override;
   void before_step() override { forces_->apply(world_, dt_); }
@@ -46,9 +46,9 @@ class SceneDemo final : public WorldDemo {
 /// the scene's order), m.
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
 
-/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and the
-/// centres of attraction.
-void draw_connections(const Scene& scene, std::span<const BodyState> states, DebugDraw& out);
+/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and fixed
+/// centres of attraction, as discs with a radius of a hundredth of `size` m.
+void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out);
 
 /// Draws the shapes of one body of a scene in a state.
 void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRole role);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/core/text.h"
+#include "demos/core/world_scene.h"
 #include "engine/world/queries.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/world_data.h"
@@ -19,11 +19,71 @@ void WorldDemo::build() {
   band_ = {};
   frame_ = world_.create_body({.name = "frame", .type = BodyType::Static});
   fill();
+  keep_past();
+}
+
+void WorldDemo::keep_past() {
   before_.keep(world_);
+  velocities_before_.clear();
+  for (const BodyId body : world_.bodies()) {
+    if (body.index >= velocities_before_.size()) velocities_before_.resize(body.index + 1);
+    velocities_before_[body.index] = {body.generation, world_.velocity(body)};
+  }
+}
+
+std::vector<Moving> WorldDemo::moving() const {
+  std::vector<Moving> out;
+  for (const BodyId body : world_.bodies()) {
+    if (world_.type(body) == BodyType::Static) continue;
+    const Vec2d velocity = world_.velocity(body);
+    Moving moving{world_.box(body), drawn_centre(body), velocity, {}, world_.mass(body), world_.awake(body)};
+    // A body that was added since has no past.
+    const bool known = body.index < velocities_before_.size() &&
+                       velocities_before_[body.index].generation == body.generation;
+    if (known && step_count() > 0)
+      moving.force = moving.mass / dt() * (velocity - velocities_before_[body.index].velocity);
+    out.push_back(moving);
+  }
+  return out;
+}
+
+std::optional<Scene> WorldDemo::scene() const { return scene_of(world_, about().name); }
+
+void WorldDemo::add_pointer_play(const char* name) {
+  pointer_ = kPlays;
+  add_choice("pointer", {name, "grab"}, pointer_, "what a press does: the demo's own, or grab and throw");
+}
+
+double WorldDemo::reach() const { return view().half_perimeter() / 80; }
+
+void WorldDemo::press(Vec2d point) {
+  if (pointer_ == kPlays) {
+    begin(point);
+  } else if (!grab(point, reach())) {
+    grab_else(point);
+  }
+}
+void WorldDemo::drag(Vec2d point) {
+  if (pointer_ == kPlays) {
+    go_on(point);
+  } else {
+    pull(point);
+  }
+}
+void WorldDemo::release(Vec2d point) {
+  if (pointer_ == kPlays) {
+    end(point);
+  } else {
+    pull(point);
+    let_go();
+  }
+}
+void WorldDemo::key(char key) {
+  if (key == kGrabKey.key) set("pointer", pointer_ == kPlays ? kGrabs : kPlays);
 }
 
 void WorldDemo::step() {
-  before_.keep(world_);
+  keep_past();
   before_step();
   world_.step(dt_, substeps_);
   after_step();
@@ -59,7 +119,7 @@ void WorldDemo::read(ByteReader& in) {
   band_ = band;
   set_own(own);
   let_go();
-  before_.keep(world_);
+  keep_past();
 }
 
 bool WorldDemo::grab(Vec2d point, double reach, double strength) {
@@ -94,16 +154,6 @@ void WorldDemo::let_go() {
 }
 
 BodyId WorldDemo::held() const { return world_.valid(band_) ? world_.bodies(band_).second : BodyId{}; }
-
-void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
-  const Vec2d back = 0.2 * (from - to);
-  const Vec2d aside = 0.5 * perpendicular(back);
-  out.segment(from, to, role);
-  out.segment(to, to + back + aside, role);
-  out.segment(to, to + back - aside, role);
-}
-
-std::string mass_text(double mass) { return shortest(std::round(1000 * mass) / 1000) + " kg"; }
 
 Totals totals_of(const DemoWorld& world) {
   Totals totals;

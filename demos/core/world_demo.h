@@ -1,21 +1,44 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
+#include "demos/core/arrow.h"
 #include "demos/core/demo.h"
 #include "engine/world/past_poses.h"
 
 namespace plumb::demos {
 
-/// Common parts of the demos that play in a world.
+/// The key of demos with a pointer play of their own.
+inline const Key kGrabKey{'g', "grab and throw, or the demo's own play"};
+
+/// Common parts of the demos that play in a world. The pointer grabs bodies and throws them; a demo with a
+/// play of its own for it has a choice between the two, which the key `g` changes.
 class WorldDemo : public Demo {
  public:
+  void press(Vec2d point) final;
+  void drag(Vec2d point) final;
+  void release(Vec2d point) final;
+  void key(char key) override;
+  std::vector<Moving> moving() const override;
+  double gravity() const override { return std::sqrt(length_squared(world_.gravity())); }
+  std::optional<Scene> scene() const override;
   void draw(DebugDraw& out, const DrawOptions& options = {}) const override;
   std::uint64_t hash() const override { return world_.hash(); }
   const DemoWorld* world() const override { return &world_; }
 
  protected:
   explicit WorldDemo(About about) : Demo(std::move(about)) {}
+  /// Gives the pointer a play of the demo's own, `name`, as the first of two choices; call it first.
+  void add_pointer_play(const char* name);
+  // The play of the pointer.
+  virtual void begin(Vec2d) {}
+  virtual void go_on(Vec2d) {}
+  virtual void end(Vec2d) {}
+  virtual double reach() const;  ///< m, from the pointer to a body that it grabs
+  /// Called when the pointer misses every body; true if it holds one all the same.
+  virtual bool grab_else(Vec2d) { return false; }
+
   /// Adds the controls that all worlds have; call it after adding the demo's own.
   void add_step_controls();
 
@@ -54,15 +77,18 @@ class WorldDemo : public Demo {
   int substeps_ = 4;
 
  private:
+  struct PastVelocity {
+    std::uint32_t generation = 0;
+    Vec2d velocity{};  // m/s
+  };
+  void keep_past();
+
   PastPoses<DemoReal> before_;
+  std::vector<PastVelocity> velocities_before_;  // by the body's index
   JointId band_{};
+  enum Pointer { kPlays, kGrabs };
+  int pointer_ = kGrabs;
 };
-
-/// Draws an arrow, its head a fifth of its length.
-void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
-
-/// Returns a mass as text: "10 kg".
-std::string mass_text(double mass);
 
 /// Total momentum and energy of all dynamic bodies: kg m/s, J.
 struct Totals {

@@ -3,14 +3,18 @@
 // next call.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "demos/core/registry.h"
+#include "demos/core/source.h"
 #include "demos/web/command_buffer.h"
 #include "demos/web/json_text.h"
 #include "demos/web/viewer.h"
+#include "engine/scene/json.h"
+#include "engine/world/add_scene.h"
 
 namespace plumb::web {
 namespace {
@@ -68,7 +72,7 @@ PLUMB_EXPORT("argument") char* plumb_argument(std::size_t size) {
 PLUMB_EXPORT("answer") const char* plumb_answer() { return answered.data(); }
 PLUMB_EXPORT("answer_size") std::size_t plumb_answer_size() { return answered.size(); }
 
-/// Lists all demos and then all scenarios, as JSON.
+/// Lists all demos and then the scenarios that a world can run, as JSON.
 PLUMB_EXPORT("list") void plumb_list() {
   JsonList list;
   for (const plumb::demos::Entry& entry : plumb::demos::all()) {
@@ -82,6 +86,8 @@ PLUMB_EXPORT("list") void plumb_list() {
   }
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
     for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
+      // Few scenes have rules that no world has.
+      if (!plumb::world_unsupported(instance.build().scene).empty()) continue;
       list.add(JsonObject()
                    .add("kind", std::string("scene"))
                    .add("name", instance.label())
@@ -161,9 +167,9 @@ PLUMB_EXPORT("figures") void plumb_figures() {
   answer_with(list.text());
 }
 
-/// Returns [left, lower, right, upper], m.
+/// Returns [left, lower, right, upper], m, of the part of the world to show now.
 PLUMB_EXPORT("view") void plumb_view() {
-  const plumb::Aabb<double> view = demo->view();
+  const plumb::Aabb<double> view = demo->shown();
   JsonList list;
   for (const double edge : {view.lower.x, view.lower.y, view.upper.x, view.upper.y})
     list.add(json_text(edge));
@@ -171,8 +177,9 @@ PLUMB_EXPORT("view") void plumb_view() {
 }
 
 /// Fills the buffer of commands, which command_buffer.h describes, and returns its address. `shown`: a bit
-/// for each of contacts, normals, impulses, boxes, centres, joints, names.
-PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_length) {
+/// for each of contacts, normals, impulses, boxes, centres, joints, names, velocities, forces, masses.
+/// Lengths: of an impulse's line, m for 1 N s; of arrows, in proportion to their usual length.
+PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_length, double arrow_length) {
   const auto bit = [&](int place) { return (shown >> place & 1u) != 0; };
   commands.clear();
   demo->draw(commands, {.joints = bit(5),
@@ -183,12 +190,24 @@ PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_len
                         .centres = bit(4),
                         .names = bit(6),
                         .impulse_length = impulse_length});
+  demo->draw_motion(commands,
+                    {.velocities = bit(7), .forces = bit(8), .masses = bit(9), .length = arrow_length});
   if (viewer) viewer->draw(commands);
   answer_with(commands.words());
   return commands.numbers().data();
 }
 /// Returns the number of numbers in the commands; their texts are the answer.
 PLUMB_EXPORT("draw_size") std::size_t plumb_draw_size() { return commands.numbers().size(); }
+
+/// Answers with the C++ of the open demo; empty for a scenario.
+PLUMB_EXPORT("code") void plumb_code() {
+  answer_with(std::string(plumb::demos::source_of(demo->about().name)));
+}
+/// Answers with the present state as a scene (JSON).
+PLUMB_EXPORT("scene") void plumb_scene() {
+  const std::optional<plumb::Scene> scene = demo->scene();
+  answer_with(scene ? plumb::to_json(*scene) : "");
+}
 
 PLUMB_EXPORT("save") void plumb_save() {
   const std::vector<std::byte> bytes = demo->save();

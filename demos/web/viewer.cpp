@@ -86,6 +86,7 @@ std::vector<demos::Figure> Viewer::figures() {
 
 void Viewer::draw(CommandBuffer& out) {
   follow_step();
+  if (ghosts_[kTruth].shown) truth_.draw_paths(out);
   const double time = std::max(0.0, demo_.time() - (1 - demo_.fraction()) * demo_.dt());
   std::vector<BodyState> states(states_.size());
   const Scene& scene = truth_.scene();

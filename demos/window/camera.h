@@ -10,8 +10,9 @@ class Camera {
  public:
   /// Sets the size of the picture, px. The middle stays fixed.
   void resize(int width, int height);
-  /// Shows all of `view`, with a margin, as large as possible to the right of `left` px and below `top`.
-  void fit(const Aabb<double>& view, double left = 0, double top = 0);
+  /// Shows all of `view`, with a margin, as large as possible between `left` px at the left and `right` px at
+  /// the right.
+  void fit(const Aabb<double>& view, double left = 0, double right = 0);
 
   Vec2d to_pixel(Vec2d point) const;
   Vec2d to_world(Vec2d pixel) const;

@@ -96,12 +96,17 @@ void Painter::grid() {
     const Vec2d ends[] = {{0, y}, {width, y}};
     canvas_.paint(ends, i == 0 ? 1 : 0.5, paint);
   }
+}
+
+void Painter::scale_bar(double covered) {
+  const double step = round_step(kGridStep / camera_.scale());
+  const double width = canvas_.width() - covered, height = canvas_.height();
   char text[32];
   std::snprintf(text, sizeof text, "%g m", step);
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};
   const Vec2d ends[] = {left, right};
   canvas_.paint(ends, 1, filled(theme_.text()));
-  labels_.push_back({left + Vec2d{0, -16}, text, theme_.text()});
+  labels_.push_back({0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});
 }
 
 }  // namespace plumb::window

@@ -11,7 +11,7 @@ namespace plumb::window {
 
 /// A text in the picture.
 struct Label {
-  Vec2d pixel{};
+  Vec2d pixel{};  ///< below the middle of the text
   std::string text;
   Colour colour{};
 };
@@ -33,8 +33,11 @@ class Painter : public DebugDraw {
   void point(Vec2d point, DrawRole role) override;
   void text(Vec2d point, std::string_view text, DrawRole role) override;
 
-  /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m, and labels one step with its length.
+  /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m.
   void grid();
+  /// Draws a bar as long as a step of the grid at the lower right, `covered` px from the picture's edge, and
+  /// labels it with its length.
+  void scale_bar(double covered = 0);
 
   /// Returns the colour of the n-th ghost.
   Colour ghost(int n) const { return theme_.ghost(n); }

@@ -43,8 +43,13 @@ void draw_time(Player& player) {
   ImGui::Checkbox("slow", &player.slow);
   tip("slow motion (S)");
   ImGui::SameLine();
-  ImGui::Text("%.2f s", player.demo().time());
-  tip("simulated time; " + std::to_string(player.remembered() - 1) + " states back are remembered");
+  if (player.frame_ms > 0) {
+    ImGui::Text("%.2f s  %.1f ms", player.demo().time(), player.frame_ms);
+  } else {
+    ImGui::Text("%.2f s", player.demo().time());
+  }
+  tip("simulated time; " + std::to_string(player.remembered() - 1) + " states back are remembered" +
+      (player.frame_ms > 0 ? "; time that a frame takes to step and draw" : ""));
 }
 
 void draw_control(Player& player, const demos::Control& control) {
@@ -119,15 +124,30 @@ void draw_options(Player& player) {
     bool* value;
   };
   DrawOptions& options = player.options;
-  const Box boxes[] = {
-      {"contacts", &options.contacts}, {"normals", &options.normals},  {"impulses", &options.impulses},
-      {"boxes", &options.boxes},       {"centres", &options.centres},  {"joints", &options.joints},
-      {"names", &options.names},       {"sleep", &player.sleep_shows}, {"dark", &player.theme.dark}};
+  const Box boxes[] = {{"contacts", &options.contacts},
+                       {"normals", &options.normals},
+                       {"impulses", &options.impulses},
+                       {"boxes", &options.boxes},
+                       {"centres", &options.centres},
+                       {"joints", &options.joints},
+                       {"names", &options.names},
+                       {"velocities", &player.motion.velocities},
+                       {"forces", &player.motion.forces},
+                       {"masses", &player.motion.masses},
+                       {"sleep", &player.sleep_shows},
+                       {"dark", &player.theme.dark},
+                       {"code", &player.code}};
   int column = 0;
   for (const Box& box : boxes) {
     if (column % 3 != 0) ImGui::SameLine(8 + 112.0f * static_cast<float>(column % 3));
     ImGui::Checkbox(box.label, box.value);
     ++column;
+  }
+  if (player.motion.velocities || player.motion.forces) {
+    ImGui::SetNextItemWidth(150);
+    const double low = 0.1, high = 10;
+    ImGui::SliderScalar("length of arrows", ImGuiDataType_Double, &player.motion.length, &low, &high, "%.3g",
+                        ImGuiSliderFlags_Logarithmic);
   }
   if (options.impulses) {
     ImGui::SetNextItemWidth(150);
@@ -171,6 +191,19 @@ void draw_panel(Player& player, double width) {
   ImGui::Separator();
   draw_options(player);
   if (ImGui::CollapsingHeader("keys")) draw_keys(player);
+  ImGui::End();
+}
+
+void draw_code(const Player& player, double width) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const auto wide = static_cast<float>(width);
+  ImGui::SetNextWindowPos({size.x - wide, 0});
+  ImGui::SetNextWindowSize({wide, size.y});
+  ImGui::Begin("code", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_HorizontalScrollbar);
+  const std::string& text = player.code_text();
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::End();
 }
 

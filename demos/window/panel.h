@@ -8,6 +8,9 @@ namespace plumb::window {
 /// NewFrame and Render.
 void draw_panel(Player& player, double width);
 
+/// Draws the code of the demo, or the scene that is open, at the right.
+void draw_code(const Player& player, double width);
+
 /// Draws the player's message at the lower edge, after "paused" while time is paused.
 void draw_message(const Player& player);
 

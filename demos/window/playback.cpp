@@ -1,6 +1,7 @@
 #include "demos/window/playback.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "demos/core/view_scene.h"
@@ -40,8 +41,33 @@ void PlaybackDemo::draw(DebugDraw& out, const DrawOptions& options) const {
     demos::draw_body(scene_.bodies[i], states[i], out, fixed ? DrawRole::Static : DrawRole::Awake);
     if (options.names) out.text(states[i].position, scene_.bodies[i].name, DrawRole::Name);
   }
-  demos::draw_connections(scene_, states, out);
+  demos::draw_connections(scene_, states, view_.half_perimeter(), out);
 }
+
+// Velocities are differences of positions over a step, forces those of velocities.
+std::vector<demos::Moving> PlaybackDemo::moving() const {
+  const std::size_t count = scene_.bodies.size();
+  std::vector<BodyState> now(count), before(count), earlier(count);
+  const double drawn = time() - (1 - fraction()) * dt();
+  at(drawn, now), at(drawn - dt(), before), at(drawn - 2 * dt(), earlier);
+  std::vector<demos::Moving> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Body& body = scene_.bodies[i];
+    if (body.type == BodyType::Static) continue;
+    const Vec2d velocity = 1 / dt() * (now[i].position - before[i].position);
+    const Vec2d then = 1 / dt() * (before[i].position - earlier[i].position);
+    const double mass = body.type == BodyType::Dynamic ? body.mass : 0;
+    const bool known = drawn >= 2 * dt();
+    const Vec2d force = known ? mass / dt() * (velocity - then) : Vec2d{};
+    const Aabb<double> box{now[i].position, now[i].position};  // within the view, whatever its size
+    out.push_back({box, now[i].position, velocity, force, mass});
+  }
+  return out;
+}
+
+double PlaybackDemo::gravity() const { return std::sqrt(length_squared(scene_.gravity)); }
+
+std::optional<Scene> PlaybackDemo::scene() const { return scene_; }
 
 std::vector<demos::Figure> PlaybackDemo::figures() const {
   return {{"time", time(), "s"}, {"end of the run", motion_.end(), "s"}};

@@ -19,12 +19,14 @@ class PlaybackDemo final : public demos::Demo {
   PlaybackDemo(demos::About about, Scene scene, demos::SampledMotion motion, double dt,
                std::optional<Aabb<double>> view = {});
 
-  const Scene& scene() const { return scene_; }
   /// Reads the state of every body at the present time, in the scene's order. Velocities are 0.
   void read_states(std::span<BodyState> out) const { at(time(), out); }
 
   void draw(DebugDraw& out, const DrawOptions& options) const override;
   std::vector<demos::Figure> figures() const override;
+  std::vector<demos::Moving> moving() const override;
+  double gravity() const override;
+  std::optional<Scene> scene() const override;  ///< as it begins
   Aabb<double> view() const override { return view_; }
   std::uint64_t hash() const override;
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "demos/core/source.h"
 #include "engine/scene/error.h"
+#include "engine/scene/json.h"
 
 namespace plumb::window {
 namespace {
@@ -17,6 +20,8 @@ constexpr std::array kKeys = {
     CommandKey{"[", Command::Previous, "[", "previous demo"},
     CommandKey{"]", Command::Next, "]", "next demo"},
     CommandKey{"tab", Command::Panel, "Tab", "this panel"},
+    CommandKey{"v", Command::Code, "V", "the code of the demo"},
+    CommandKey{"w", Command::Scene, "W", "write this state as a scene (JSON)"},
     CommandKey{"home", Command::Home, "Home", "show everything"},
     CommandKey{"f12", Command::Picture, "F12", "this frame as a PNG file"},
     CommandKey{"escape", Command::Quit, "Esc", "quit"},
@@ -35,6 +40,15 @@ void Player::open(std::size_t place) {
   message.clear();
   history_.clear();
   series_.clear();
+  const std::string& name = demo().about().name;
+  code_text_ = demos::source_of(name);
+  if (!code_text_.empty()) {
+    code_text_ = "// demos/core/" + name + ".cpp\n" + code_text_;
+  } else if (const std::optional<Scene> scene = demo().scene()) {
+    code_text_ = to_json(*scene);
+  } else {
+    code_text_ = "There is no code of this demo here.";
+  }
   remember();
   home();
 }
@@ -77,7 +91,11 @@ std::optional<Command> Player::key(std::string_view name) {
     case Command::Home:
       home();
       break;
+    case Command::Code:
+      code = !code;
+      break;
     case Command::Picture:
+    case Command::Scene:
     case Command::Quit:
       break;
   }
@@ -127,6 +145,7 @@ void Player::advance(double seconds) {
   guarded([&] {
     if (demo().advance(slow ? kSlow * seconds : seconds) > 0) remember();
   });
+  follow(seconds);
 }
 
 void Player::step() {
@@ -183,16 +202,34 @@ void Player::sample() {
   }
 }
 
-void Player::resize(int width, int height, double panel_width) {
-  if (width == width_ && height == height_ && panel_width == panel_width_) return;
-  width_ = width, height_ = height, panel_width_ = panel_width;
+void Player::resize(int width, int height, double panel_width, double code_width) {
+  if (width == width_ && height == height_ && panel_width == panel_width_ && code_width == code_width_ &&
+      panel == panel_was_ && code == code_was_)
+    return;
+  width_ = width, height_ = height, panel_width_ = panel_width, code_width_ = code_width;
+  panel_was_ = panel, code_was_ = code;
   camera.resize(width, height);
-  if (at_home_) home();
+  if (at_home_) fit();
 }
 
+void Player::fit() { camera.fit(shown_, panel ? panel_width_ : 0, code ? code_width_ : 0); }
+
 void Player::home() {
-  camera.fit(demo().view(), panel ? panel_width_ : 0);
+  shown_ = demo().shown();
   at_home_ = true;
+  fit();
+}
+
+// Goes to what is to be shown with a time constant of a quarter of a second: what jumps does not make the
+// picture jump. Under a pressed pointer the picture stays, or the pointer would pull along what it moves.
+void Player::follow(double seconds) {
+  constexpr double kCalm = 0.25;  // s
+  if (!at_home_ || pressed_) return;
+  const Aabb<double> wanted = demo().shown();
+  const double share = 1 - std::exp(-seconds / kCalm);
+  shown_.lower += share * (wanted.lower - shown_.lower);
+  shown_.upper += share * (wanted.upper - shown_.upper);
+  fit();
 }
 
 void Player::zoom(Vec2d pixel, double factor) {

@@ -30,7 +30,21 @@ struct Item {
 };
 
 /// Effects of the window's keys, the same for all items.
-enum class Command { Pause, Step, Back, Restart, Previous, Next, Panel, Slow, Home, Picture, Quit };
+enum class Command {
+  Pause,
+  Step,
+  Back,
+  Restart,
+  Previous,
+  Next,
+  Panel,
+  Code,
+  Slow,
+  Home,
+  Picture,
+  Scene,
+  Quit
+};
 
 struct CommandKey {
   std::string_view key;  ///< "p", "tab", "escape", ...
@@ -66,26 +80,33 @@ class Player {
   bool pressed() const { return pressed_; }
   void set(std::string_view control, double value);
 
-  /// Advances by real time: not at all while paused, by a tenth of it in slow motion. An exception of the
-  /// demo pauses it and is shown in `message`.
+  /// Advances by real time: not at all while paused, by a tenth of it in slow motion. The camera follows what
+  /// moves, unless the player has moved it or presses. An exception of the demo pauses it and is shown in
+  /// `message`.
   void advance(double seconds);
   void step();
   /// Undoes the last step and pauses. Returns false if no earlier state is stored.
   bool back();
   void restart();
 
-  /// Sets the size of the picture, and the width that the panel covers at the left, px.
-  void resize(int width, int height, double panel_width);
-  void home();
+  /// Sets the size of the picture, and the widths that the panel at the left and the code at the right cover
+  /// while they are shown, px.
+  void resize(int width, int height, double panel_width, double code_width = 0);
+  void home();  ///< shows the demo's part of the world, and follows it again
   void zoom(Vec2d pixel, double factor);
   void pan(Vec2d pixels);
+
+  /// Returns the C++ of the open demo, or the scene that is open as it began, as JSON.
+  const std::string& code_text() const { return code_text_; }
 
   const std::vector<Series>& series() const { return series_; }
   std::size_t remembered() const { return history_.size(); }
 
   bool strict = false;  ///< throws errors instead of showing them
-  bool paused = false, slow = false, panel = true, sleep_shows = true;
+  bool paused = false, slow = false, panel = true, code = false, sleep_shows = true;
   DrawOptions options{};
+  demos::MotionOptions motion{};
+  double frame_ms = 0;  ///< time of the last frame, steps and drawing; 0: not measured
   Theme theme{};
   Camera camera{};
   std::string message{};  ///< last message for the player
@@ -95,18 +116,23 @@ class Player {
  private:
   void remember();  // stores a new state
   void sample();
+  void follow(double seconds);
+  void fit();
   template <class Act>
   void guarded(Act&& act);
 
   std::vector<Item> items_;
   std::size_t place_ = 0;
   Show show_;
+  std::string code_text_;
   History history_;
   std::vector<Series> series_;
   bool pressed_ = false;
-  bool at_home_ = true;  // true if the camera is at the position set by `home`
+  bool at_home_ = true;   // true if the camera follows the demo, and the player has not moved it
+  Aabb<double> shown_{};  // m, by the camera that follows
   int width_ = 1, height_ = 1;
-  double panel_width_ = 0;
+  double panel_width_ = 0, code_width_ = 0;
+  bool panel_was_ = true, code_was_ = false;
 };
 
 }  // namespace plumb::window

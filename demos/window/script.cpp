@@ -25,18 +25,25 @@ constexpr std::array kSyntax = {
     Syntax{"release", Kind::Release, true, false, false}, Syntax{"hover", Kind::Hover, true, false, false},
     Syntax{"key", Kind::Key, false, false, true},         Syntax{"set", Kind::Set, false, false, true},
     Syntax{"show", Kind::Show, false, false, true},       Syntax{"wheel", Kind::Wheel, true, true, false},
-    Syntax{"picture", Kind::Picture, false, false, true},
+    Syntax{"picture", Kind::Picture, false, false, true}, Syntax{"scene", Kind::Scene, false, false, true},
 };
 
 struct Option {
   std::string_view name;
-  bool DrawOptions::*member;
+  bool& (*of)(Player& player);
 };
 constexpr std::array kOptions = {
-    Option{"contacts", &DrawOptions::contacts}, Option{"normals", &DrawOptions::normals},
-    Option{"impulses", &DrawOptions::impulses}, Option{"boxes", &DrawOptions::boxes},
-    Option{"centres", &DrawOptions::centres},   Option{"joints", &DrawOptions::joints},
-    Option{"names", &DrawOptions::names},
+    Option{"contacts", [](Player& player) -> bool& { return player.options.contacts; }},
+    Option{"normals", [](Player& player) -> bool& { return player.options.normals; }},
+    Option{"impulses", [](Player& player) -> bool& { return player.options.impulses; }},
+    Option{"boxes", [](Player& player) -> bool& { return player.options.boxes; }},
+    Option{"centres", [](Player& player) -> bool& { return player.options.centres; }},
+    Option{"joints", [](Player& player) -> bool& { return player.options.joints; }},
+    Option{"names", [](Player& player) -> bool& { return player.options.names; }},
+    Option{"velocities", [](Player& player) -> bool& { return player.motion.velocities; }},
+    Option{"forces", [](Player& player) -> bool& { return player.motion.forces; }},
+    Option{"masses", [](Player& player) -> bool& { return player.motion.masses; }},
+    Option{"code", [](Player& player) -> bool& { return player.code; }},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -140,16 +147,19 @@ void assign(demos::Demo& demo, std::string_view assignment) {
   demo.set(name, value);
 }
 
-void show(DrawOptions& options, std::string_view name) {
+void show(Player& player, std::string_view name) {
   const auto* const found = std::ranges::find(kOptions, name, &Option::name);
   if (found == kOptions.end()) {
     std::vector<std::string> names;
-    for (const Option& option : kOptions) names.emplace_back(option.name);
+    std::string all;
+    for (const Option& option : kOptions) {
+      names.emplace_back(option.name);
+      all += (all.empty() ? "" : ", ") + names.back();
+    }
     throw Error(Error::Kind::Name, "drawing '" + std::string(name) + "'", "", "",
-                "is none of contacts, normals, impulses, boxes, centres, joints and names" +
-                    did_you_mean(name, names));
+                "is none of " + all + did_you_mean(name, names));
   }
-  options.*(found->member) = true;
+  found->of(player) = true;
 }
 
 double zoom_factor(double turns) { return std::pow(1.15, turns); }
@@ -174,13 +184,15 @@ std::optional<Command> act(Player& player, const Deed& deed) {
       assign(player.demo(), deed.text);
       break;
     case Kind::Show:
-      show(player.options, deed.text);
+      show(player, deed.text);
       break;
     case Kind::Wheel:
       player.zoom(player.camera.to_pixel(deed.point), zoom_factor(deed.turns));
       break;
     case Kind::Picture:
       return Command::Picture;
+    case Kind::Scene:
+      return Command::Scene;
   }
   return {};
 }

@@ -142,7 +142,10 @@ class Window {
     SDL_CaptureMouse(player_.pressed() || panning_ ? SDL_TRUE : SDL_FALSE);
   }
 
-  bool over_world(double x) const { return !player_.panel || x >= Ui::kPanelWidth; }
+  bool over_world(double x) const {
+    const double width = stage_.canvas.width();
+    return (!player_.panel || x >= Ui::kPanelWidth) && (!player_.code || x < width - Ui::code_width(width));
+  }
 
   void handle_motion(const SDL_MouseMotionEvent& motion) {
     input_.pointer = {1.0 * motion.x, 1.0 * motion.y};
@@ -209,6 +212,9 @@ void run_in_window(Player& player, const Options& options) {
     if (window.stage().follow_script(shown)) break;
     player.advance((now - last) / 1000);
     window.draw((now - last) / 1000);
+    // A mean over about ten frames can be read.
+    const double took = now_ms() - now;
+    player.frame_ms += (player.frame_ms > 0 ? 0.1 : 1) * (took - player.frame_ms);
     window.show();
     last = now;
     if (options.seconds >= 0 && shown >= options.seconds) break;

@@ -8,7 +8,8 @@
 #include <filesystem>
 
 #include "demos/window/picture.h"
-#include "engine/scene/error.h"
+#include "engine/scene/json.h"
+#include "harness/text_file.h"
 
 namespace plumb::window {
 
@@ -26,6 +27,8 @@ bool Stage::follow_script(double time) {
       frame({});
       frame({});
       take_picture(deed.text);
+    } else if (deed.kind == Deed::Kind::Scene) {
+      write_scene(deed.text);
     } else if (carry_out(act(player_, deed))) {
       return true;
     }
@@ -43,8 +46,22 @@ void Stage::take_picture(const std::string& file) {
   player_.message = "written: " + name;
 }
 
+void Stage::write_scene(const std::string& file) {
+  const std::optional<Scene> scene = player_.demo().scene();
+  if (!scene) {
+    player_.message = "this demo has no scene";
+    return;
+  }
+  std::string name = file;
+  while (name.empty() || (file.empty() && std::filesystem::exists(name)))
+    name = fmt::format("{}-{:03}.json", player_.demo().about().name, ++scenes_);
+  harness::write_whole(name, to_json(*scene) + "\n");
+  player_.message = fmt::format("written: {}; `plumb run {}` runs it", name, name);
+}
+
 bool Stage::carry_out(std::optional<Command> command) {
   if (command == Command::Picture) take_picture();
+  if (command == Command::Scene) write_scene();
   return command == Command::Quit;
 }
 

@@ -17,6 +17,8 @@ class Stage {
   bool follow_script(double time);
   /// Writes the canvas to `file`, or to a file with a new name.
   void take_picture(const std::string& file = "");
+  /// Writes the demo's present state as a scene (JSON) to `file`, or to a file with a new name.
+  void write_scene(const std::string& file = "");
   /// Executes a command that the player leaves to the caller. Returns true to quit.
   bool carry_out(std::optional<Command> command);
   void frame(const PanelInput& input) { ui.frame(player_, input, canvas); }
@@ -28,7 +30,7 @@ class Stage {
   Player& player_;
   const Options& options_;
   std::size_t next_deed_ = 0;
-  int pictures_ = 0;
+  int pictures_ = 0, scenes_ = 0;
 };
 
 /// Times of the parts of frames, ms.

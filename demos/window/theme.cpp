@@ -15,7 +15,7 @@ constexpr Paint shape(Colour fill, Colour line) { return {fill, line, 1.4}; }
 constexpr Paint line(Colour colour, double width = 1.6) { return {kNothing, colour, width}; }
 
 // In the order of DrawRole.
-constexpr std::array<Style, 16> kStyles = {{
+constexpr std::array<Style, 17> kStyles = {{
     // Static, Kinematic, Awake, Asleep, Sensor
     {shape({62, 70, 82}, {112, 122, 138}), shape({206, 211, 218}, {120, 128, 140})},
     {shape({38, 92, 128}, {94, 170, 214}), shape({170, 208, 236}, {36, 104, 156})},
@@ -30,11 +30,12 @@ constexpr std::array<Style, 16> kStyles = {{
     {line({240, 240, 240}, 1.2), line({20, 20, 20}, 1.2)},
     {line({96, 196, 240}), line({0, 112, 160})},
     {line({230, 230, 230}), line({30, 30, 30})},
-    // Highlight, Force, Aim, Trail
+    // Highlight, Force, Aim, Trail, Velocity
     {shape({246, 210, 60}, {255, 244, 170}), shape({255, 224, 60}, {200, 130, 0})},
     {line({120, 220, 110}, 2.2), line({30, 130, 40}, 2.2)},
     {line({220, 220, 220, 170}, 1.4), line({60, 60, 60, 190}, 1.4)},
     {line({150, 160, 176, 130}, 1.2), line({110, 116, 128, 150}, 1.2)},
+    {line({132, 150, 255}, 2.2), line({30, 88, 200}, 2.2)},
 }};
 
 // The truth's colour, then those of the engines.

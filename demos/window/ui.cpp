@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "demos/window/panel.h"
 #include "demos/window/rasteriser.h"
@@ -40,6 +41,14 @@ void set_style(bool dark) {
   style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white need a border
   style.AntiAliasedLinesUseTex = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
+}
+
+// Draws a text with its middle above a point.
+void draw_label(const Label& label) {
+  const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
+  const auto whole = [](double pixel) { return static_cast<float>(std::floor(pixel)); };
+  ImGui::GetBackgroundDrawList()->AddText({whole(label.pixel.x - size.x / 2), whole(label.pixel.y - size.y)},
+                                          imgui_colour(label.colour), label.text.c_str());
 }
 
 }  // namespace
@@ -90,8 +99,9 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   if (player.theme.dark != dark_) set_style(dark_ = player.theme.dark);
 
   ImGui::NewFrame();
-  player.resize(canvas.width(), canvas.height(), kPanelWidth);
+  player.resize(canvas.width(), canvas.height(), kPanelWidth, code_width(canvas.width()));
   if (player.panel) draw_panel(player, kPanelWidth);
+  if (player.code) draw_code(player, code_width(canvas.width()));
   draw_message(player);
 
   canvas.clear(player.theme.ground());
@@ -101,11 +111,10 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   DrawOptions options = player.options;
   options.normal_length = 24 / player.camera.scale();
   player.demo().draw(painter, options);
+  player.demo().draw_motion(painter, player.motion);
   if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
-  for (const Label& label : painter.labels())
-    ImGui::GetBackgroundDrawList()->AddText({static_cast<float>(static_cast<int>(label.pixel.x)),
-                                             static_cast<float>(static_cast<int>(label.pixel.y))},
-                                            imgui_colour(label.colour), label.text.c_str());
+  painter.scale_bar(player.code ? code_width(canvas.width()) : 0);
+  for (const Label& label : painter.labels()) draw_label(label);
   ImGui::Render();
   for (std::size_t i = 0; i < kEditKeys.size(); ++i)
     if (over_[i]) io.KeysDown[i] = false;

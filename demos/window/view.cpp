@@ -94,33 +94,11 @@ class Comparison final : public Companion {
       if (there) draw_ghost(out, states, static_cast<int>(i));
     }
     out.outline.a = 0;
-    draw_paths(out);
+    if (ghosts_[kTruth].shown) truth_.draw_paths(out);
   }
 
  private:
-  static constexpr int kPathSamples = 400;
-  static constexpr std::size_t kMostPaths = 3;  // of more bodies the paths would hide the picture
-
   const Scene& scene() const { return truth_.scene(); }
-
-  // Draws the true paths of the moving bodies, if they are few.
-  void draw_paths(Painter& out) {
-    if (!truth_.known() || !ghosts_[kTruth].shown) return;
-    if (paths_.empty()) {
-      std::vector<BodyState> states(states_.size());
-      std::vector<std::size_t> moving;
-      for (std::size_t i = 0; i < states.size(); ++i)
-        if (scene().bodies[i].type == BodyType::Dynamic) moving.push_back(i);
-      if (moving.size() > kMostPaths) moving.clear();
-      paths_.resize(std::max<std::size_t>(moving.size(), 1));
-      for (int k = 0; k <= kPathSamples; ++k) {
-        if (!truth_.at(truth_.end() * k / kPathSamples, states)) break;
-        for (std::size_t i = 0; i < moving.size(); ++i) paths_[i].push_back(states[moving[i]].position);
-      }
-    }
-    for (const std::vector<Vec2d>& path : paths_)
-      for (std::size_t k = 1; k < path.size(); ++k) out.segment(path[k - 1], path[k], DrawRole::Aim);
-  }
 
   // Names must live as long as this object: figures refer to them.
   std::string_view error_name(std::size_t ghost) {
@@ -157,7 +135,6 @@ class Comparison final : public Companion {
   std::vector<const reference::Backend*> backends_;  // of the ghosts after the truth
   std::map<std::size_t, GhostRun> runs_;             // keyed by ghost
   std::map<std::size_t, std::string> error_names_;
-  std::vector<std::vector<Vec2d>> paths_;  // of the truth, m; made when first drawn
   double dt_ = 0;
   bool stale_ = true;
 };

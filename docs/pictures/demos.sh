@@ -32,10 +32,26 @@ picture spinning_boxes 1.6 '0.1 press -2.6 -2.6
 0.35 release 2.9 0
 0.4 press 2 2.5
 0.45 release 2 2.5' --show centres
-picture ragdoll 0.9 '0.1 press -5.5 1.5
-0.3 drag -4 3
-0.5 drag -3 4
-0.8 drag -2.5 4.5'
+picture ragdoll 0.9 '0.1 press -4.2 1.6
+0.3 drag -3.6 2
+0.5 drag -3 2.6
+0.8 drag -2.6 3.2'
 picture thousand 2.5 '0 set bodies=1000'
+picture sandbox 1.6 '0 set tool=spring
+0.1 press 3.5 5.5
+0.15 drag 2.5 1
+0.2 release 2.5 0.6
+0.3 set tool=wall
+0.3 press -5 1
+0.35 release -3 0.4
+0.5 set tool=circle
+0.5 press -4.4 2
+0.55 release -4.1 2
+0.6 set tool=triangle
+0.6 press 0 3
+0.65 release 1 3.8
+1 set tool=box
+1.2 press -0.4 4
+1.3 drag 1 5' --show velocities --show masses
 "$plumb" view 'pendulum_chain[5]' --headless --theme light --width 900 --height 560 --colours 64 --seconds 0.9 \
   --ghost box2d --ghost bullet --screenshot view.png >/dev/null

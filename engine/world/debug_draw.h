@@ -27,6 +27,7 @@ enum class DrawRole {
   Force,      ///< arrows of forces
   Aim,        ///< target of a motion
   Trail,      ///< path of a past motion
+  Velocity,   ///< arrows of velocities
 };
 
 /// Interface to draw to: a window, a picture, a test. All lengths in m, in the world's frame, y up.
@@ -42,6 +43,13 @@ class DebugDraw {
   virtual void point(Vec2d point, DrawRole role) = 0;
   virtual void text(Vec2d point, std::string_view text, DrawRole role) = 0;
 };
+
+/// Draws a spring between two points: a zigzag, as wide as an eighth of its length.
+void draw_spring(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
+
+/// Draws a rope from `end_a` over pulleys at two points of the world to `end_b`. A wheel's radius is a tenth
+/// of the distance of the pulleys, or of the shorter end of the rope if they are at one place.
+void draw_pulleys(DebugDraw& out, Vec2d end_a, Vec2d ground_a, Vec2d ground_b, Vec2d end_b, DrawRole role);
 
 /// Selects the items to draw.
 struct DrawOptions {

@@ -80,10 +80,11 @@ function sentence() {
     }
     if (both === 0) continue;
     costs.sort((a, b) => a - b);
-    const cost = costs.length ? `, at ${figure(costs[Math.floor((costs.length - 1) / 2)])} times its cost (the median)` : "";
-    parts.push(`as ${rival} in ${nearer} of the ${both} scenes that both run${cost}`);
+    const cost = costs.length ? ` (at ${figure(costs[Math.floor((costs.length - 1) / 2)])} times its cost)` : "";
+    parts.push(`${rival}'s in ${nearer} of ${both}${cost}`);
   }
-  return parts.length === 0 ? "" : `plumb's positions are at least as near to the truth ${parts.join("; ")}.`;
+  return parts.length === 0 ? "" :
+    `In the scenes that both run, plumb's positions are at least as near to the truth as ${parts.join(", ")}.`;
 }
 
 function goTo(label) {

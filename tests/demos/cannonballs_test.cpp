@@ -141,7 +141,7 @@ TEST(Cannonballs, ForcesAreDrawn) {
   EXPECT_NEAR(seen.lines[0].y / seen.lines[3].x, -kGravity / 10, 1e-6);
   EXPECT_EQ(seen.lines[0].x, 0);
   EXPECT_EQ(seen.lines[3].y, 0);
-  demo->set("forces", 0);
+  demo->set("each force", 0);
   Arrows none;
   demo->draw(none);
   EXPECT_TRUE(none.lines.empty());

@@ -13,9 +13,6 @@ class Drop final : public WorldDemo {
     add_step_controls();
     restart();
   }
-  void press(Vec2d point) override { grab(point, 0.2); }
-  void drag(Vec2d point) override { pull(point); }
-  void release(Vec2d) override { let_go(); }
   std::vector<Figure> figures() const override { return {{"time", time(), "s"}}; }
   Aabb<double> view() const override { return {{-5, -1}, {5, 6}}; }
 

@@ -171,8 +171,7 @@ FEATURES = [
             "report_.first_difference = world_.step_count() + 1;", "world/recorder"),
     feature("Same bits in all builds", WORLD + "integration/free_motion.cpp", "(Real(0.5) * dt) * (before + motion.velocity)",
             "dt * (Real(0.5) * before + Real(0.5000001) * motion.velocity)", "world/world"),
-    feature("Debug drawing", WORLD + "drawing/debug_draw.cpp", "out_.segment(pulley->ground_a, pulley->ground_b, "
-            "DrawRole::JointLine);", "", "world/debug_draw"),
+    feature("Debug drawing", WORLD + "drawing/debug_draw.cpp", "out.segment(ground_a, ground_b, role);", "", "world/debug_draw"),
 
     # Solvers.
     feature("Threads", WORLD + "world.cpp", "crew.set_threads(threads); });", "crew.set_threads(1); });", "world/threads"),

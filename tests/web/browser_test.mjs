@@ -229,10 +229,59 @@ test("the mouse carries the bouncing ball, and it falls from there", async () =>
   }
   const end = {x: start.x + 150, y: start.y - 40};
   await page.until(`(() => { const at = where("ball"); return Math.hypot(at.x - ${end.x}, at.y - ${end.y}) < 3; })()`);
+  await page.frames(60);  // held still, or it would be thrown
   await page.mouse("release", end);
   await page.until(`where("ball").y > ${end.y + 30}`);
   assert.ok(Math.abs((await page.ask('where("ball")')).x - end.x) < 60, "it falls where it was let go");
   await closed(page, "bouncing_ball_carried");
+});
+
+test("the address names the place, and a new one opens another", async () => {
+  const page = await opened("bouncing_ball");
+  for (const name of ["ragdoll", "pendulum_chain[5]", "kepler"]) {
+    await page.ask(`location.hash = ${JSON.stringify(`#${name}`)}`);
+    await page.until(`plumb.about.name === ${JSON.stringify(name)}`);
+    await page.frames(3);
+    assert.equal(decodeURIComponent(await page.ask("location.hash")), `#${name}`);
+  }
+  await page.key("]");
+  await page.frames(3);
+  assert.equal(decodeURIComponent(await page.ask("location.hash")), `#${await page.ask("plumb.about.name")}`);
+  const before = await page.ask("plumb.about.name");
+  await page.ask('location.hash = "#no_such_demo"');
+  await page.until('document.getElementById("message").textContent.includes("no_such_demo")');
+  await page.frames(3);
+  assert.equal(decodeURIComponent(await page.ask("location.hash")), `#${before}`);
+  await closed(page, "address");
+});
+
+test("the code stands beside the demo, and the picture keeps clear of it", async () => {
+  const page = await opened("sandbox");
+  const right = () => page.ask("plumb.camera.to_pixel(6, 0).x");
+  const before = await right();
+  await page.key("v");
+  await page.until(`plumb.camera.to_pixel(6, 0).x < ${before - 50}`);
+  const {left} = await page.middle("#code");
+  assert.ok(await right() < left);
+  assert.ok((await page.ask('document.getElementById("code").textContent')).includes("class Sandbox"));
+  const scene = await page.ask(`(() => {
+    let text = "";
+    plumb.write_scene = (name, written) => { text = written; };
+    plumb.key("w");
+    return JSON.parse(text);
+  })()`);
+  assert.equal(scene.plumb_scene, 1);
+  assert.equal(scene.joints.length, 2);
+  await closed(page, "code");
+});
+
+test("what is fired out of the picture is followed", async () => {
+  const page = await opened("cannonballs");
+  await page.ask('plumb.set("impulse", 60), plumb.set("balls", 0)');
+  const scale = await page.ask("plumb.camera.scale");
+  await page.click(await page.ask("plumb.camera.to_pixel(12, 12)"));
+  await page.until(`plumb.camera.scale < ${0.8 * scale}`);
+  await closed(page, "followed");
 });
 
 test("a shot with the mouse breaks the rack", async () => {

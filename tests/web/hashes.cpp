@@ -7,6 +7,7 @@
 
 #include "demos/core/registry.h"
 #include "demos/core/view_scene.h"
+#include "engine/world/add_scene.h"
 #include "scenarios/scenario.h"
 
 namespace {
@@ -65,7 +66,9 @@ int main() {
   }
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
     for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
-      plumb::demos::SceneDemo demo(instance.build().scene, "");
+      const plumb::Scene scene = instance.build().scene;
+      if (!plumb::world_unsupported(scene).empty()) continue;
+      plumb::demos::SceneDemo demo(scene, "");
       for (int step = 0; step < 1000; ++step) demo.step_once();
       print(instance.label(), demo, "untouched", 1000);
     }

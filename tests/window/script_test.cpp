@@ -57,11 +57,14 @@ TEST(Script, SetsNumbersChoicesAndSwitches) {
 }
 
 TEST(Script, ShowsWhatItNames) {
-  DrawOptions options;
-  show(options, "contacts");
-  EXPECT_TRUE(options.contacts);
-  EXPECT_FALSE(options.normals);
-  EXPECT_THROW(show(options, "contract"), Error);
+  Player player({{"drop", "", [] { return Show{demos::make("ragdoll")}; }}}, 0);
+  show(player, "contacts");
+  show(player, "velocities");
+  EXPECT_TRUE(player.options.contacts);
+  EXPECT_FALSE(player.options.normals);
+  EXPECT_TRUE(player.motion.velocities);
+  EXPECT_FALSE(player.motion.forces);
+  EXPECT_THROW(show(player, "contract"), Error);
 }
 
 }  // namespace

@@ -205,6 +205,25 @@ TYPED_TEST(Drawn, JointsRunFromAnchorToAnchor) {
   expect_near(lines[1].points[0], {3.5, 5});  // the centre of mass
 }
 
+// A zigzag of twelve lines from anchor to anchor, to either side of the straight line by a sixteenth.
+TYPED_TEST(Drawn, SpringsAreZigzags) {
+  BasicWorld<TypeParam> world;
+  const BodyId wall = world.create_body({.type = BodyType::Static});
+  const BodyId a = world.create_body({.position = {3, 0}}, {.geometry = Circle{0.3}});
+  world.create_joint(wall, a, {.kind = DistanceDefinition{.length = 3, .spring = Spring{.hertz = 2}}});
+  const std::vector<Item> lines = log_of(world).of("segment", DrawRole::JointLine);
+  ASSERT_EQ(lines.size(), 12u);
+  expect_near(lines.front().points[0], {0, 0});
+  expect_near(lines.back().points[1], {3, 0});
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    EXPECT_NEAR(lines[i].points[1].x, 0.25 * static_cast<double>(i + 1), 1e-6);
+    EXPECT_NEAR(std::abs(lines[i].points[1].y), 3.0 / 16, 1e-6);
+    if (i > 0) {
+      EXPECT_LT(lines[i].points[1].y * lines[i - 1].points[1].y, 0);
+    }
+  }
+}
+
 TYPED_TEST(Drawn, PulleysHangFromTheGround) {
   BasicWorld<TypeParam> world;
   const BodyId a = world.create_body({.position = {-1, 0}}, {.geometry = Circle{0.3}});
@@ -214,6 +233,10 @@ TYPED_TEST(Drawn, PulleysHangFromTheGround) {
   ASSERT_EQ(lines.size(), 3u);
   expect_near(lines[1].points[0], {-1, 4});
   expect_near(lines[1].points[1], {1, 4});
+  const std::vector<Item> wheels = log_of(world).of("circle", DrawRole::JointLine);
+  ASSERT_EQ(wheels.size(), 2u);
+  expect_near(wheels[0].points[0], {-1, 4});
+  EXPECT_NEAR(wheels[1].radius, 0.2, 1e-6);
 }
 
 TYPED_TEST(Drawn, BoxesCentresAndNames) {

@@ -18,10 +18,10 @@ export class Camera {
 
   /// Shows all of `view` ([left, lower, right, upper]), as large as it goes in what is not covered at the edges.
   fit([left, lower, right, upper], covered) {
-    const wide = Math.max(this.#width - covered.left - 2 * kMargin, 1);
+    const wide = Math.max(this.#width - covered.left - covered.right - 2 * kMargin, 1);
     const high = Math.max(this.#height - covered.top - covered.bottom - 2 * kMargin, 1);
     this.scale = clamp(Math.min(wide / (right - left), high / (upper - lower)), kSmallest, kLargest);
-    this.#centre = {x: (left + right) / 2 - covered.left / 2 / this.scale,
+    this.#centre = {x: (left + right) / 2 + (covered.right - covered.left) / 2 / this.scale,
                     y: (lower + upper) / 2 + (covered.top - covered.bottom) / 2 / this.scale};
   }
 

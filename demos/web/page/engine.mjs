@@ -64,12 +64,16 @@ export class Engine {
   /// 64 bits as 16 hexadecimal digits.
   hash() { return BigInt.asUintN(64, this.#calls.hash()).toString(16).padStart(16, "0"); }
 
+  /// The C++ of the demo, and the present state as a scene (JSON).
+  code() { this.#calls.code(); return this.#decoder.decode(this.#answer()); }
+  scene() { this.#calls.scene(); return this.#decoder.decode(this.#answer()); }
+
   save() { this.#calls.save(); return this.#answer().slice(); }
   restore(state) { this.#calls.restore(this.#give(state)); }
 
   /// What command_buffer.h describes: valid until the next call.
-  draw(shown, impulse_length) {
-    const first = this.#calls.draw(shown, impulse_length);
+  draw(shown, impulse_length, arrow_length) {
+    const first = this.#calls.draw(shown, impulse_length, arrow_length);
     const numbers = new Float64Array(this.#memory.buffer, first, this.#calls.draw_size());
     return {numbers, words: this.#answer()};
   }

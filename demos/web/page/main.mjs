@@ -11,11 +11,21 @@ async function unpacked(text) {
   return new Response(stream).arrayBuffer();
 }
 
+// The demo that the address names: `#ragdoll`, `#pendulum_chain[5]`, however its brackets are written.
+function named_place() {
+  const name = location.hash.slice(1);
+  try {
+    return decodeURIComponent(name);
+  } catch {
+    return name;
+  }
+}
+
 const kWide = 700;  // pixels: on less the panel lies at the lower edge
 
 async function play() {
   const module = await WebAssembly.compile(await unpacked(document.getElementById("module").textContent));
-  const player = await Player.start(module, decodeURIComponent(location.hash.slice(1)));
+  const player = await Player.start(module, named_place());
   const light = window.matchMedia("(prefers-color-scheme: light)");
   const theme = new Theme(!light.matches);
   light.addEventListener("change", () => { theme.dark = !light.matches; });
@@ -34,9 +44,22 @@ async function play() {
     if (event.shiftKey && event.key === "Tab") return;
     if (player.key(event.key)) event.preventDefault();
   });
+  // The address names the place, and a new address opens another. Only a change of place is written to the
+  // address, so that a name set by hand is not overwritten before it is read.
+  let written = null;
+  function write_place() {
+    if (written === player.place) return;
+    written = player.place;
+    if (named_place() !== player.about.name) history.replaceState(null, "", `#${player.about.name}`);
+  }
   window.addEventListener("hashchange", () => {
-    const place = player.demos.findIndex(({name}) => name === decodeURIComponent(location.hash.slice(1)));
-    if (place >= 0 && place !== player.place) player.open(place);
+    const wanted = named_place(), place = player.demos.findIndex(({name}) => name === wanted);
+    if (place >= 0) {
+      if (place !== player.place) player.open(place);
+    } else {
+      player.message = `there is no demo or scenario '${wanted}'`;
+    }
+    written = place >= 0 ? place : null;
   });
 
   // Sizes are read where they are: nothing has to be told when the panel folds or the phone turns.
@@ -46,24 +69,30 @@ async function play() {
     if (stage.width !== columns || stage.height !== rows) stage.width = columns, stage.height = rows;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const box = document.getElementById("panel").getBoundingClientRect();
-    const covered = {left: 0, top: 0, bottom: 0};
+    const covered = {left: 0, right: 0, top: 0, bottom: 0};
+    if (player.code_shown && width > kWide)
+      covered.right = document.getElementById("code").getBoundingClientRect().width;
     if (width <= kWide) covered.bottom = box.height;
     else if (player.panel) covered.left = box.width;
     else covered.top = box.height;
     player.resize(width, height, covered);
+    painter.scale_bar_x = width - covered.right - 20;
     painter.scale_bar_y = height - covered.bottom - 14;
     return {width, height};
   }
 
   let before = null;
   function frame(now) {
+    const begin = performance.now();
     document.documentElement.classList.toggle("dark", theme.dark);
     if (before !== null) player.advance((now - before) / 1000);
     before = now;
     panel.update();
     const {width, height} = fit();
     painter.frame(width, height, player.drawing(), (bytes) => player.text(bytes));
-    if (location.hash.slice(1) !== player.about.name) history.replaceState(null, "", `#${player.about.name}`);
+    const took = performance.now() - begin;
+    player.frame_ms += (player.frame_ms > 0 ? 0.1 : 1) * (took - player.frame_ms);
+    write_place();
     requestAnimationFrame(frame);
   }
   requestAnimationFrame(frame);

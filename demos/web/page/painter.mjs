@@ -147,7 +147,7 @@ export class Painter {
     const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
     context.strokeStyle = context.fillStyle = this.#theme.text;
     context.lineWidth = 2;
-    const right = width - 20, left = right - step * camera.scale, y = this.scale_bar_y ?? height - 14;
+    const right = this.scale_bar_x ?? width - 20, left = right - step * camera.scale, y = this.scale_bar_y ?? height - 14;
     this.#line(left, y, right, y);
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "left";

@@ -23,6 +23,7 @@ export class Panel {
   #player;
   #theme;
   #opened = null;  // what the lists are about
+  #coded = null;   // what the code is of
   #changes = -1;
   #updates = [];   // by control: takes its new value
   #plots = [];
@@ -61,7 +62,13 @@ export class Panel {
     the("fold").setAttribute("aria-expanded", player.panel);
     the("pause").textContent = player.paused ? "go on" : "pause";
     the("slow").checked = player.slow;
-    the("clock").textContent = `${player.time.toFixed(2)} s`;
+    the("clock").textContent = `${player.time.toFixed(2)} s, ${player.frame_ms.toFixed(1)} ms`;
+    the("code").hidden = !player.code_shown;
+    if (player.code_shown && this.#coded !== player.place) {
+      this.#coded = player.place;
+      the("code").textContent = player.code;
+      the("code").scrollTop = 0;
+    }
     const message = player.paused ? `paused${player.message && `: ${player.message}`}` : player.message;
     if (the("message").textContent !== message) the("message").textContent = message;
     if (player.panel) this.#draw_figures();
@@ -142,14 +149,21 @@ export class Panel {
     const impulse = made("input", {type: "range", min: -3, max: 1, step: 0.01, value: Math.log10(player.impulse_length),
       oninput: () => { player.impulse_length = 10 ** impulse.value; }});
     const length = made("label", {className: "wide", hidden: true}, "impulses' length", impulse);
+    const arrow = made("input", {type: "range", min: -1, max: 1, step: 0.01, value: 0,
+      oninput: () => { player.arrow_length = 10 ** arrow.value; }});
+    const arrows = made("label", {className: "wide", hidden: true}, "arrows' length", arrow);
+    player.write_scene = save_scene;
     the("shown").append(
       ...kShown.map((name) => box(name, player.shown.has(name), (on) => {
         player.shown[on ? "add" : "delete"](name);
         if (name === "impulses") length.hidden = !on;
+        arrows.hidden = !player.shown.has("velocities") && !player.shown.has("forces");
       })),
       box("sleep", theme.sleep_shows, (on) => { theme.sleep_shows = on; }),
       box("dark", theme.dark, (on) => { theme.dark = on; }),
-      length,
+      length, arrows,
+      made("button", {textContent: "code", title: "the code of the demo (V)", onclick: () => player.key("v")}),
+      made("button", {textContent: "scene", title: "this state as a scene, JSON (W)", onclick: () => player.key("w")}),
       made("button", {textContent: "picture", title: "this frame as a PNG file", onclick: () => save_picture(player)}));
   }
 
@@ -199,10 +213,16 @@ function draw_plot(canvas, values, colour) {
   context.stroke();
 }
 
+function save(name, blob) {
+  const link = made("a", {href: URL.createObjectURL(blob), download: name});
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
 function save_picture(player) {
-  the("stage").toBlob((picture) => {
-    const link = made("a", {href: URL.createObjectURL(picture), download: `${player.about.name}.png`});
-    link.click();
-    URL.revokeObjectURL(link.href);
-  });
+  the("stage").toBlob((picture) => save(`${player.about.name}.png`, picture));
+}
+
+function save_scene(name, text) {
+  save(`${name}.json`, new Blob([text], {type: "application/json"}));
 }

@@ -5,15 +5,18 @@ import {Camera} from "./camera.mjs";
 
 const kSlow = 0.1;
 const kSamples = 300;         // of a figure
+const kCalm = 0.25;           // s, in which the camera goes most of its way
 const kMostBytes = 48 << 20;  // of states to go back to
 
 /// What is drawn besides shapes, in the order of `draw`'s bits.
-export const kShown = ["contacts", "normals", "impulses", "boxes", "centres", "joints", "names"];
+export const kShown = ["contacts", "normals", "impulses", "boxes", "centres", "joints", "names",
+  "velocities", "forces", "masses"];
 
 /// The keys of the page, whatever is open.
 export const kCommands = [
   ["p", "P", "pause, go on"], ["o", "O", "one step"], ["b", "B", "one step back"], ["r", "R", "restart"],
   ["s", "S", "slow motion"], ["[", "[", "previous demo"], ["]", "]", "next demo"], ["Tab", "Tab", "this panel"],
+  ["v", "V", "the code of the demo"], ["w", "W", "write this state as a scene (JSON)"],
   ["Home", "Home", "show everything"],
 ];
 
@@ -21,8 +24,12 @@ export class Player {
   paused = false;
   slow = false;
   panel = true;
+  code_shown = false;
+  frame_ms = 0;          // the mean time that a frame takes to step and draw
   shown = new Set(["joints"]);
   impulse_length = 0.1;  // m for 1 N s
+  arrow_length = 1;      // in proportion to the usual one
+  write_scene = () => {};  // the page's: takes the name and the text
   camera = new Camera();
   message = "";
   series = [];   // figures over time: {name, unit, times, values}
@@ -35,8 +42,9 @@ export class Player {
   #bytes = 0;
   #pressed = false;
   #at_home = true;
-  #covered = {left: 0, top: 0, bottom: 0};
-  #last = {time: 0, controls: [], ghosts: [], view: [0, 0, 1, 1], drawing: {numbers: new Float64Array(), words: new Uint8Array()}};
+  #covered = {left: 0, right: 0, top: 0, bottom: 0};
+  #view = [0, 0, 1, 1];  // what the camera shows while it follows
+  #last = {time: 0, code: "", controls: [], ghosts: [], view: [0, 0, 1, 1], drawing: {numbers: new Float64Array(), words: new Uint8Array()}};
 
   static async start(module, name) {
     const player = new Player();
@@ -55,12 +63,16 @@ export class Player {
   // What follows gives the last answer while there is no engine.
   get time() { return this.#ask("time", (engine) => engine.time()); }
   get controls() { return this.#ask("controls", (engine) => engine.controls()); }
+  /// The C++ of the demo, or the scene that is open.
+  get code() {
+    return this.#ask("code", (engine) => (engine.code() || engine.scene()));
+  }
   get ghosts() { return this.#ask("ghosts", (engine) => engine.ghosts()); }
   hash() { return this.#engine.hash(); }
   text(bytes) { return new TextDecoder().decode(bytes); }
   drawing() {
     const bits = kShown.reduce((bits, name, i) => bits | (this.shown.has(name) ? 1 << i : 0), 0);
-    return this.#ask("drawing", (engine) => engine.draw(bits, this.impulse_length));
+    return this.#ask("drawing", (engine) => engine.draw(bits, this.impulse_length, this.arrow_length));
   }
   #ask(what, question) {
     this.#guarded((engine) => { this.#last[what] = question(engine); });
@@ -117,6 +129,8 @@ export class Player {
       case "[": this.open((this.#place + count - 1) % count); return true;
       case "]": this.open((this.#place + 1) % count); return true;
       case "Tab": this.panel = !this.panel; return true;
+      case "v": this.code_shown = !this.code_shown; return true;
+      case "w": this.#guarded((engine) => this.write_scene(this.about.name, engine.scene())); return true;
       case "Home": this.home(); return true;
     }
     if (!this.about.keys.some((key) => key.key === lower)) return false;
@@ -131,6 +145,7 @@ export class Player {
     this.#guarded((engine) => {
       if (engine.advance(this.slow ? kSlow * seconds : seconds) > 0) this.#remember();
     });
+    this.#follow(seconds);
   }
   step() {
     this.paused = true;
@@ -167,11 +182,19 @@ export class Player {
   resize(width, height, covered) {
     this.camera.resize(width, height);
     this.#covered = covered;
-    if (this.#at_home) this.home();
+    if (this.#at_home) this.camera.fit(this.#view, covered);
   }
   home() {
-    this.camera.fit(this.#ask("view", (engine) => engine.view()), this.#covered);
+    this.#view = this.#ask("view", (engine) => engine.view());
+    this.camera.fit(this.#view, this.#covered);
     this.#at_home = true;
+  }
+  // As the window's: the picture stays under a pressed pointer, and what jumps does not make it jump.
+  #follow(seconds) {
+    if (!this.#at_home || this.#pressed) return;
+    const share = 1 - Math.exp(-seconds / kCalm), wanted = this.#ask("view", (engine) => engine.view());
+    this.#view = this.#view.map((edge, i) => edge + share * (wanted[i] - edge));
+    this.camera.fit(this.#view, this.#covered);
   }
   zoom(pixel, factor) {
     this.camera.zoom(pixel, factor);

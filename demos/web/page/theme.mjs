@@ -19,11 +19,12 @@ const kStyles = [
   [line([240, 240, 240], 1.2), line([20, 20, 20], 1.2)],
   [line([96, 196, 240]), line([0, 112, 160])],
   [line([230, 230, 230]), line([30, 30, 30])],
-  // Highlight, Force, Aim, Trail
+  // Highlight, Force, Aim, Trail, Velocity
   [shape([246, 210, 60], [255, 244, 170]), shape([255, 224, 60], [200, 130, 0])],
   [line([120, 220, 110], 2.2), line([30, 130, 40], 2.2)],
   [line([220, 220, 220, 170], 1.4), line([60, 60, 60, 190], 1.4)],
   [line([150, 160, 176, 130], 1.2), line([110, 116, 128, 150], 1.2)],
+  [line([132, 150, 255], 2.2), line([30, 88, 200], 2.2)],
 ];
 const kAwake = 2, kAsleep = 3;
 // Outlines of what lies over the bodies: the truth, other engines. Their roles begin at the number.

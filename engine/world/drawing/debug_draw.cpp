@@ -1,6 +1,7 @@
 #include "engine/world/debug_draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "engine/geometry/convex.h"
@@ -143,9 +144,7 @@ class Drawing {
     const Ends ends = ends_of(a, b, kind);
     out_.point(ends.a, DrawRole::JointLine), out_.point(ends.b, DrawRole::JointLine);
     if (const auto* pulley = std::get_if<PulleyDefinition>(&kind)) {
-      out_.segment(ends.a, pulley->ground_a, DrawRole::JointLine);
-      out_.segment(pulley->ground_a, pulley->ground_b, DrawRole::JointLine);
-      out_.segment(pulley->ground_b, ends.b, DrawRole::JointLine);
+      draw_pulleys(out_, ends.a, pulley->ground_a, pulley->ground_b, ends.b, DrawRole::JointLine);
       return;
     }
     // Lines from body to anchor, between the anchors, and on to the other body. The centre of a static body
@@ -156,7 +155,12 @@ class Drawing {
         out_.segment(middle, end, DrawRole::JointLine);
     };
     arm(a, ends.a);
-    if (!(ends.a == ends.b)) out_.segment(ends.a, ends.b, DrawRole::JointLine);
+    const auto* stick = std::get_if<DistanceDefinition>(&kind);
+    if (stick != nullptr && stick->spring) {
+      draw_spring(out_, ends.a, ends.b, DrawRole::JointLine);
+    } else if (!(ends.a == ends.b)) {
+      out_.segment(ends.a, ends.b, DrawRole::JointLine);
+    }
     arm(b, ends.b);
   }
 
@@ -168,6 +172,30 @@ class Drawing {
 };
 
 }  // namespace
+
+void draw_spring(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
+  constexpr int kTurns = 12;
+  const Vec2d way = to - from, across = 1.0 / 16 * perpendicular(way);
+  Vec2d last = from;
+  for (int i = 1; i <= kTurns; ++i) {
+    const double side = i == kTurns ? 0 : i % 2 == 0 ? 1 : -1;
+    const Vec2d next = from + static_cast<double>(i) / kTurns * way + side * across;
+    out.segment(last, next, role);
+    last = next;
+  }
+}
+
+void draw_pulleys(DebugDraw& out, Vec2d end_a, Vec2d ground_a, Vec2d ground_b, Vec2d end_b, DrawRole role) {
+  const auto distance = [](Vec2d a, Vec2d b) { return std::sqrt(length_squared(a - b)); };
+  const double between = distance(ground_a, ground_b);
+  const double size = between > 0 ? between : std::min(distance(end_a, ground_a), distance(end_b, ground_b));
+  out.segment(end_a, ground_a, role);
+  out.segment(ground_a, ground_b, role);
+  out.segment(ground_b, end_b, role);
+  if (!(size > 0)) return;
+  out.circle(ground_a, 0.1 * size, {0, 0}, role);
+  if (between > 0) out.circle(ground_b, 0.1 * size, {0, 0}, role);
+}
 
 template <class Real>
 void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& options) {

@@ -30,6 +30,7 @@ constexpr Style kStyles[] = {
     {"force", "fill:none;stroke:#2e7d32;stroke-width:2"},
     {"aim", "fill:none;stroke:#555555;stroke-dasharray:6 4"},
     {"trail", "fill:none;stroke:#9e9e9e;stroke-width:0.8"},
+    {"velocity", "fill:none;stroke:#1e58c8;stroke-width:2"},
 };
 
 constexpr int kDigits = 6;
