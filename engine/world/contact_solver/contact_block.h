@@ -36,7 +36,7 @@ struct ContactBlock {
   bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
   bool watched;                   ///< at least one is
   bool rolls;                     ///< all have rolling resistance
-  Number rolling_arm, rolling_impulse, peak_impulse[2];
+  Number rolling_arm, rolling_impulse, peak_impulse[2], step_impulse;
   Constraint* contact[kLanes];
 };
 
@@ -111,6 +111,8 @@ template <class Number, class Real>
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
   if (block.watched || block.rolls)
     rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  // A step starts its sum at 0.
+  block.step_impulse = Number(0);
 }
 
 /// Writes the results of a block back to its contacts.
@@ -122,13 +124,13 @@ template <class Number>
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
   rows.store(offsetof(Constraint, load_estimate), offsetof(Block, load_estimate));
   if (!block.watched && !block.rolls) return;
-  typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes];
+  typename Number::Number rolling[Block::kLanes], peaks[2][Block::kLanes], sums[Block::kLanes];
   block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
-      block.peak_impulse[1].store(peaks[1]);
+      block.peak_impulse[1].store(peaks[1]), block.step_impulse.store(sums);
   for (int i = 0; i < Block::kLanes; ++i) {
     Constraint& c = *block.contact[i];
     if (block.rolls) c.rolling_impulse = rolling[i];
-    if (c.watched) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
+    if (c.watched) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i], c.step_impulse = sums[i];
   }
 }
 
