@@ -1,5 +1,5 @@
-// What a game sets for itself: its own filter, 64 categories, loads that are events, thresholds, continuous collision a
-// body. Impulses of whole steps are held against the change of momentum.
+// A game sets its own rules: its filter, 64 categories, loads that are events, thresholds, continuous
+// collision by body. Impulses of whole steps are held against the change of momentum.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -91,7 +91,8 @@ TEST(StepImpulse, OfManyContactsSideBySideIsThatOfEachAlone) {
     add_ground(world, {.geometry = Box{400, 2}});
     std::vector<BodyId> all;
     for (int i = 0; i < boxes; ++i)
-      all.push_back(world.create_body({.position = {3.0 * i, 0.6}}, {.geometry = Box{1, 1}, .hit_events = true}));
+      all.push_back(
+          world.create_body({.position = {3.0 * i, 0.6}}, {.geometry = Box{1, 1}, .hit_events = true}));
     std::vector<double> impulses;
     for (int i = 0; i < 60; ++i) {
       world.step(kDt);
@@ -195,13 +196,16 @@ TEST(GameFilter, GivesTheSameBitsOnAnyNumberOfThreads) {
 
 TEST(Categories, OfAll64BitsDecide) {
   // The bits 0 and 32, 1 and 33 share places in the trees: only the exact bits may count.
-  for (const auto& [category, mask, touches] :
-       {std::tuple{1ull << 40, 1ull << 40, true}, {1ull << 40, 1ull << 41, false}, {1ull << 32, 1ull, false},
-        {1ull, 1ull << 32, false}, {1ull << 63, 1ull << 63, true}, {1ull << 33 | 1, 1ull << 33, true}}) {
+  for (const auto& [category, mask, touches] : {std::tuple{1ull << 40, 1ull << 40, true},
+                                                {1ull << 40, 1ull << 41, false},
+                                                {1ull << 32, 1ull, false},
+                                                {1ull, 1ull << 32, false},
+                                                {1ull << 63, 1ull << 63, true},
+                                                {1ull << 33 | 1, 1ull << 33, true}}) {
     World world;
     const BodyId ground = add_ground(world, {.geometry = Box{40, 2}, .filter = {.category = category}});
-    const BodyId box =
-        world.create_body({.position = {0, 0.5}}, {.geometry = Box{1, 1}, .filter = {.category = ~0ull, .mask = mask}});
+    const BodyId box = world.create_body(
+        {.position = {0, 0.5}}, {.geometry = Box{1, 1}, .filter = {.category = ~0ull, .mask = mask}});
     for (int i = 0; i < 60; ++i) world.step(kDt);
     EXPECT_EQ(world.position(box).y > 0, touches) << category << ' ' << mask;
     const QueryFilter looks{.mask = mask, .ignore = box};
@@ -217,10 +221,14 @@ TEST(Categories, OfAll64BitsDecide) {
 TEST(Categories, GoThroughScenesSnapshotsAndRecordings) {
   const Filter filter{.category = 1ull << 63 | 5, .mask = ~(1ull << 40), .group = -2};
   Scene scene;
-  scene.bodies.push_back({.name = "ball", .mass = 1, .shapes = {{.geometry = Circle{0.5}, .filter = filter}}});
+  scene.bodies.push_back(
+      {.name = "ball", .mass = 1, .shapes = {{.geometry = Circle{0.5}, .filter = filter}}});
   EXPECT_EQ(scene_from_json(to_json(scene)).bodies[0].shapes[0].filter, filter);
   EXPECT_EQ(scene_from_json(R"({"name": "s", "bodies": [{"name": "b", "mass": 1, "shapes": [{"type": "circle",
-    "radius": 1, "filter": {"category": 18446744073709551615, "mask": -1}}]}]})").bodies[0].shapes[0].filter,
+    "radius": 1, "filter": {"category": 18446744073709551615, "mask": -1}}]}]})")
+                .bodies[0]
+                .shapes[0]
+                .filter,
             (Filter{.category = ~0ull, .mask = ~0ull}));
 
   World world;
@@ -248,7 +256,8 @@ TEST(Categories, GoThroughScenesSnapshotsAndRecordings) {
 struct Hanging {
   explicit Hanging(const JointDefinition& definition) {
     hook = world.create_body({.type = BodyType::Static}, {});
-    ball = world.create_body({.position = {0, -1}, .mass = MassProperties{2, {}, 0.5}}, {.geometry = Circle{0.2}});
+    ball = world.create_body({.position = {0, -1}, .mass = MassProperties{2, {}, 0.5}},
+                             {.geometry = Circle{0.2}});
     joint = world.create_joint(hook, ball, definition);
   }
   World world{WorldDefinition{.sleeping = false}};
@@ -295,8 +304,8 @@ TEST(JointLoads, ABreakingJointReportsItsLastLoad) {
 TEST(JointLoads, AMotorWithoutForceOnlySwitchesContactsOff) {
   DoubleWorld world;
   const BodyId a = world.create_body({.position = {0, 0}}, {.geometry = Box{1, 1}});
-  const BodyId b =
-      world.create_body({.position = {0.5, 0}, .velocity = {1, 2}, .angular_velocity = 1}, {.geometry = Box{1, 1}});
+  const BodyId b = world.create_body({.position = {0.5, 0}, .velocity = {1, 2}, .angular_velocity = 1},
+                                     {.geometry = Box{1, 1}});
   world.create_joint(a, b, {.kind = MotorDefinition{}});
   for (int i = 0; i < 60; ++i) world.step(kDt);
   EXPECT_EQ(world.counts().contacts, 0);
@@ -330,9 +339,9 @@ TEST(Thresholds, OfHitsBouncesAndSleepAreWhatWasSet) {
   const auto drop = [](const Thresholds& thresholds, double speed) {
     World world({.gravity = {0, 0}, .thresholds = thresholds});
     add_ground(world);
-    const BodyId ball = world.create_body(
-        {.position = {0, 0.6}, .velocity = {0, -speed}},
-        {.geometry = Circle{0.5}, .material = {.restitution = 1}, .hit_events = true});
+    const BodyId ball =
+        world.create_body({.position = {0, 0.6}, .velocity = {0, -speed}},
+                          {.geometry = Circle{0.5}, .material = {.restitution = 1}, .hit_events = true});
     std::size_t hits = 0;
     for (int i = 0; i < 60; ++i) world.step(kDt), hits += world.events().hits.size();
     return std::pair{hits, world.velocity(ball).y};
