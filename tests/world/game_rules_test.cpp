@@ -56,6 +56,23 @@ INSTANTIATE_TEST_SUITE_P(Each, StepImpulses,
                          testing::Values(Solver::SoftSteps, Solver::SequentialImpulses, Solver::Direct),
                          [](const auto& each) { return kSolverNames[static_cast<int>(each.param)]; });
 
+TEST(StepImpulse, OfAJointedIslandIsTheChangeOfMomentum) {
+  DoubleWorld world({.sleeping = false, .solver = Solver::Direct});
+  add_ground(world);
+  const BodyId light = world.create_body({.position = {0, 0.7}}, {.geometry = Box{1, 1}, .hit_events = true});
+  const BodyId heavy = world.create_body({.position = {0, 1.7}}, {.geometry = Box{1, 1}, .density = 50});
+  world.create_joint(light, heavy, {.kind = WeldDefinition{.anchor_a = {0, 0.5}, .anchor_b = {0, -0.5}}});
+  const auto momentum = [&] { return world.velocity(light).y + 50 * world.velocity(heavy).y; };
+  for (int i = 0; i < 90; ++i) {
+    const double before = momentum();
+    world.step(kDt);
+    double impulse = 0;
+    for (const ContactReading& c : world.contacts(light)) impulse += c.step_impulse * c.normal.y;
+    // Rounding of impulses up to 100 N s.
+    ASSERT_NEAR(momentum() - before + 51 * kG * kDt, impulse, 1e-10) << "step " << i;
+  }
+}
+
 TEST(StepImpulse, OfAHitIsTheBlow) {
   DoubleWorld world({.gravity = {0, 0}});
   add_ground(world);
@@ -255,7 +272,7 @@ TEST(Categories, GoThroughScenesSnapshotsAndRecordings) {
 
 struct Hanging {
   explicit Hanging(const JointDefinition& definition) {
-    hook = world.create_body({.type = BodyType::Static}, {});
+    hook = world.create_body({.type = BodyType::Static});
     ball = world.create_body({.position = {0, -1}, .mass = MassProperties{2, {}, 0.5}},
                              {.geometry = Circle{0.2}});
     joint = world.create_joint(hook, ball, definition);

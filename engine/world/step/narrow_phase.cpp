@@ -136,6 +136,7 @@ void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touchi
   set_touching(w, c.contact, touching);
   c.touching = touching;
   c.watched = records_impact(contact, c);
+  c.step_impulse = 0;
   if (!c.watched) c.approach[0] = c.approach[1] = 0;
 }
 
