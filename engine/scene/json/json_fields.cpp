@@ -121,11 +121,12 @@ void Fields::read(std::string_view key, std::uint64_t& out) const {
     out = view.node().bits;
     return;
   }
-  // Written with a fraction or an exponent, as 4.0 or 1e3: exact up to 2^53.
-  constexpr double kExact = 9007199254740992;
-  if (!(std::abs(value) <= kExact) || value != std::floor(value))
+  // Written with a fraction or an exponent, as 4.0 or 1e3.
+  constexpr double kLowest = -9223372036854775808.0, kEnd = 18446744073709551616.0;
+  if (!(value >= kLowest && value < kEnd) || value != std::floor(value))
     view.fail(Error::Kind::Value, "must be a whole number from -2^63 to 2^64 - 1");
-  out = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+  out = value < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
+                  : static_cast<std::uint64_t>(value);
 }
 
 void Fields::read(std::string_view key, std::int32_t& out) const {
