@@ -21,6 +21,7 @@ plumb::WorldDefinition definition_of(const plumb_world_definition& d) {
   result.integrator = in<plumb::Integrator>(d.integrator, 3, "world", "integrator");
   result.iterations = d.iterations;
   result.direct_islands = d.direct_islands, result.quarantine = d.quarantine;
+  result.thresholds = {d.thresholds.hit, d.thresholds.bounce, d.thresholds.sleep};
   return result;
 }
 

@@ -408,6 +408,11 @@ TEST_F(C, GamesSetTheirOwnRules) {
   EXPECT_EQ(plumb_world_set_thresholds(world, {2, 3, 4}), PLUMB_OK);
   EXPECT_EQ(plumb_world_get_thresholds(world).sleep, 4);
   EXPECT_EQ(plumb_world_set_thresholds(world, {NAN, 3, 4}), PLUMB_VALUE);
+  plumb_world_definition settings = plumb_default_world();
+  settings.thresholds = {7, 8, 9};
+  plumb_world* other = plumb_world_create(&settings);
+  EXPECT_EQ(plumb_world_get_thresholds(other).bounce, 8);
+  plumb_world_destroy(other);
   plumb_clear_error();
 }
 
