@@ -141,7 +141,7 @@ const Slip kValueSlips[] = {
     {"Underflow", "\"mass\": 6", "\"mass\": 1e-999", Kind::Value, "body 'ball'", "mass", "0", "positive",
      "1e-999"},
     {"MaskTooLarge", "4042322160", "18446744073709551616", Kind::Value, "body 'ball'",
-     "shapes[0].filter.mask", "1.8446744073709552e+19", "a whole number from -2^63 to 2^64 - 1",
+     "shapes[0].filter.mask", "18446744073709551616", "a whole number from -2^63 to 2^64 - 1",
      "18446744073709551616"},
     {"MaskFraction", "4042322160", "1.5", Kind::Value, "body 'ball'", "shapes[0].filter.mask", "1.5",
      "a whole number", "1.5"},
