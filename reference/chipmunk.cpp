@@ -138,7 +138,7 @@ class ChipmunkSimulator final : public Simulator {
     cpShapeSetElasticity(out, shape.restitution);
     cpShapeSetUserData(out, const_cast<Shape*>(&shape));
     if (!settings_.equalised)
-      cpShapeSetFilter(out, cpShapeFilterNew(0, shape.filter.category, shape.filter.mask));
+      cpShapeSetFilter(out, cpShapeFilterNew(0, folded(shape.filter.category), folded(shape.filter.mask)));
     shapes_.push_back(cpSpaceAddShape(space_, out));
   }
 

@@ -16,6 +16,7 @@ plumb::BodyDefinition definition_of(const plumb_body_definition& d) {
   result.lock_x = d.lock_x, result.lock_y = d.lock_y, result.lock_rotation = d.lock_rotation;
   result.may_sleep = d.may_sleep, result.awake = d.awake;
   result.user_data = d.user_data;
+  result.continuous = d.continuous;
   return result;
 }
 
@@ -141,6 +142,12 @@ double plumb_body_angular_damping(const plumb_world* world, plumb_body body) {
 }
 plumb_status plumb_body_set_locks(plumb_world* world, plumb_body body, bool x, bool y, bool rotation) {
   return change_checked(world, [&](auto& w) { w.set_locks(in(body), x, y, rotation); });
+}
+plumb_status plumb_body_set_continuous(plumb_world* world, plumb_body body, bool on) {
+  return change_checked(world, [&](auto& w) { w.set_continuous(in(body), on); });
+}
+bool plumb_body_continuous(const plumb_world* world, plumb_body body) {
+  return read_or(false, world, [&](const auto& w) { return w.continuous(in(body)); });
 }
 bool plumb_body_awake(const plumb_world* world, plumb_body body) {
   return read_or(false, world, [&](const auto& w) { return w.awake(in(body)); });

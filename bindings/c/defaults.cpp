@@ -16,6 +16,7 @@ plumb_world_definition plumb_default_world(void) {
   result.iterations = d.iterations;
   result.direct_islands = d.direct_islands;
   result.quarantine = d.quarantine;
+  result.thresholds = {d.thresholds.hit, d.thresholds.bounce, d.thresholds.sleep};
   return result;
 }
 
@@ -28,6 +29,7 @@ plumb_body_definition plumb_default_body(void) {
   result.gravity_scale = d.gravity_scale;
   result.may_sleep = d.may_sleep;
   result.awake = d.awake;
+  result.continuous = d.continuous;
   return result;
 }
 

@@ -21,6 +21,7 @@ struct plumb_event_arrays {
   std::vector<plumb_sensor_event> sensor_begin, sensor_end;
   std::vector<plumb_joint> broken;
   std::vector<plumb_body> fell_asleep, woke;
+  std::vector<plumb_load_event> loaded;
   std::vector<plumb_quarantine_event> quarantined;
 };
 

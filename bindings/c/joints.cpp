@@ -138,7 +138,8 @@ plumb_joint plumb_joint_create(plumb_world* world, plumb_body a, plumb_body b,
                                const plumb_joint_definition* definition) {
   return checked_or(kNoJoint, [&] {
     const plumb_joint_definition& d = require(definition, "joint definition");
-    const plumb::JointDefinition joint{kind_of(d), d.collide, d.break_force, d.break_torque, d.user_data};
+    const plumb::JointDefinition joint{kind_of(d),  d.collide,      d.break_force,  d.break_torque,
+                                       d.user_data, d.report_force, d.report_torque};
     return change(world, [&](auto& w) { return out(w.create_joint(in(a), in(b), joint)); });
   });
 }
@@ -155,6 +156,7 @@ plumb_joint_definition plumb_joint_get_definition(const plumb_world* world, plum
     d.collide = from.collide;
     d.break_force = from.break_force, d.break_torque = from.break_torque;
     d.user_data = from.user_data;
+    d.report_force = from.report_force, d.report_torque = from.report_torque;
     std::visit(Fill{d}, from.kind);
     return d;
   });
@@ -178,6 +180,9 @@ uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint) {
 }
 plumb_status plumb_joint_set_user_data(plumb_world* world, plumb_joint joint, uint64_t data) {
   return change_checked(world, [&](auto& w) { w.set_user_data(in(joint), data); });
+}
+plumb_status plumb_joint_set_load_events(plumb_world* world, plumb_joint joint, double force, double torque) {
+  return change_checked(world, [&](auto& w) { w.set_load_events(in(joint), force, torque); });
 }
 plumb_status plumb_joint_bodies(const plumb_world* world, plumb_joint joint, plumb_body* a, plumb_body* b) {
   return read_checked(world, [&](const auto& w) {

@@ -21,6 +21,7 @@ plumb::WorldDefinition definition_of(const plumb_world_definition& d) {
   result.integrator = in<plumb::Integrator>(d.integrator, 3, "world", "integrator");
   result.iterations = d.iterations;
   result.direct_islands = d.direct_islands, result.quarantine = d.quarantine;
+  result.thresholds = {d.thresholds.hit, d.thresholds.bounce, d.thresholds.sleep};
   return result;
 }
 
@@ -100,6 +101,15 @@ plumb_status plumb_world_set_direct_islands(plumb_world* world, bool on) {
 plumb_status plumb_world_set_quarantine(plumb_world* world, bool on) {
   return change_checked(world, [&](auto& w) { w.set_quarantine(on); });
 }
+plumb_status plumb_world_set_thresholds(plumb_world* world, plumb_thresholds t) {
+  return change_checked(world, [&](auto& w) { w.set_thresholds({t.hit, t.bounce, t.sleep}); });
+}
+plumb_thresholds plumb_world_get_thresholds(const plumb_world* world) {
+  return read_or(plumb_thresholds{}, world, [](const auto& w) {
+    const plumb::Thresholds t = w.thresholds();
+    return plumb_thresholds{t.hit, t.bounce, t.sleep};
+  });
+}
 plumb_status plumb_world_combine_with(plumb_world* world, plumb_combine_function friction,
                                       plumb_combine_function restitution) {
   return change_checked(world, [&](auto& w) {
@@ -163,23 +173,26 @@ plumb_events plumb_world_events(plumb_world* world) {
     convert(from.begin, to.begin, touch);
     convert(from.end, to.end, touch);
     convert(from.hits, to.hits, [](const plumb::HitEvent& e) {
-      return plumb_hit_event{out(e.shape_a), out(e.shape_b), out(e.point), out(e.normal), e.speed};
+      return plumb_hit_event{out(e.shape_a), out(e.shape_b), out(e.point), out(e.normal), e.speed, e.impulse};
     });
     convert(from.sensor_begin, to.sensor_begin, sensor);
     convert(from.sensor_end, to.sensor_end, sensor);
     convert(from.broken, to.broken, [](const plumb::JointEvent& e) { return out(e.joint); });
+    convert(from.loaded, to.loaded, [](const plumb::JointLoadEvent& e) {
+      return plumb_load_event{out(e.joint), e.force, e.torque};
+    });
     convert(from.fell_asleep, to.fell_asleep, id);
     convert(from.woke, to.woke, id);
     convert(from.quarantined, to.quarantined, [](const plumb::QuarantineEvent& e) {
       return plumb_quarantine_event{out(e.body), plumb::kBadFieldNames[static_cast<int>(e.field)], e.value,
                                     e.step};
     });
-    return plumb_events{to.begin.data(),        to.end.data(),        to.hits.data(),
-                        to.sensor_begin.data(), to.sensor_end.data(), to.broken.data(),
-                        to.fell_asleep.data(),  to.woke.data(),       to.quarantined.data(),
-                        to.begin.size(),        to.end.size(),        to.hits.size(),
-                        to.sensor_begin.size(), to.sensor_end.size(), to.broken.size(),
-                        to.fell_asleep.size(),  to.woke.size(),       to.quarantined.size()};
+    return plumb_events{
+        to.begin.data(),        to.end.data(),         to.hits.data(),        to.sensor_begin.data(),
+        to.sensor_end.data(),   to.broken.data(),      to.fell_asleep.data(), to.woke.data(),
+        to.quarantined.data(),  to.begin.size(),       to.end.size(),         to.hits.size(),
+        to.sensor_begin.size(), to.sensor_end.size(),  to.broken.size(),      to.fell_asleep.size(),
+        to.woke.size(),         to.quarantined.size(), to.loaded.data(),      to.loaded.size()};
   });
 }
 
@@ -190,6 +203,19 @@ plumb_status plumb_world_on_pre_solve(plumb_world* world, plumb_pre_solve_functi
       const plumb_contact contact = out(reading);
       return hook(&contact, context);
     });
+  });
+}
+
+plumb_status plumb_world_on_filter(plumb_world* world, plumb_filter_function filter, void* context) {
+  return change_checked(world, [&](auto& w) {
+    if constexpr (requires { w.on_filter({}); }) {
+      if (filter == nullptr) return w.on_filter({});
+      w.on_filter(
+          [filter, context](plumb::ShapeId a, plumb::ShapeId b) { return filter(out(a), out(b), context); });
+    } else {
+      throw Error(Error::Kind::Unsupported, "world", "on_filter", "",
+                  "a recorded world cannot have a filter of its own: it is code");
+    }
   });
 }
 
@@ -204,6 +230,7 @@ plumb_contact plumb::c::out(const plumb::ContactReading& r) {
     contact.impulses[i] = r.impulses[i];
   }
   contact.approach = r.approach;
+  contact.step_impulse = r.step_impulse;
   return contact;
 }
 

@@ -13,7 +13,7 @@ PLUMB_EXPORT("body_create") double* js_body_create(plumb_world* w) {
   d.mass_given = r.flag(), d.mass.mass = r.number(), d.mass.centre = r.point(), d.mass.inertia = r.number();
   d.gravity_scale = r.number(), d.linear_damping = r.number(), d.angular_damping = r.number();
   d.lock_x = r.flag(), d.lock_y = r.flag(), d.lock_rotation = r.flag();
-  d.may_sleep = r.flag(), d.awake = r.flag();
+  d.may_sleep = r.flag(), d.awake = r.flag(), d.continuous = r.flag();
   d.user_data = r.wide();
   bytes.push_back(0);
   d.name = reinterpret_cast<const char*>(bytes.data());
@@ -62,12 +62,14 @@ PLUMB_BODY_CALL(set_locks, plumb_body_set_locks(w, body, x != 0, y != 0, rotatio
                 int rotation)
 PLUMB_BODY_CALL(set_awake, plumb_body_set_awake(w, body, on != 0), int on)
 PLUMB_BODY_CALL(set_may_sleep, plumb_body_set_may_sleep(w, body, on != 0), int on)
+PLUMB_BODY_CALL(set_continuous, plumb_body_set_continuous(w, body, on != 0), int on)
 PLUMB_BODY_CALL(set_enabled, plumb_body_set_enabled(w, body, on != 0), int on)
 PLUMB_BODY_CALL(set_user_data, plumb_body_set_user_data(w, body, data), std::uint64_t data)
 /// Takes the name from the bytes.
 PLUMB_BODY_CALL(set_name, (bytes.push_back(0),
                            plumb_body_set_name(w, body, reinterpret_cast<const char*>(bytes.data()))))
 PLUMB_BODY_CALL(release, plumb_body_release(w, body))
+PLUMB_BODY_READ(continuous, int, plumb_body_continuous(w, body))
 PLUMB_BODY_READ(valid, int, plumb_body_valid(w, body))
 PLUMB_BODY_READ(position, double*, Writer().add(plumb_body_position(w, body)).done())
 PLUMB_BODY_READ(centre, double*, Writer().add(plumb_body_centre(w, body)).done())

@@ -13,7 +13,7 @@ plumb_material material(Reader& r) {
 }
 plumb_filter filter(Reader& r) {
   plumb_filter f{};
-  f.category = r.bits(), f.mask = r.bits(), f.group = r.integer();
+  f.category = r.wide(), f.mask = r.wide(), f.group = r.integer();
   return f;
 }
 
@@ -38,7 +38,7 @@ void read(Reader& r, ShapeInput& shape) {
 
 plumb_query_filter query(Reader& r) {
   plumb_query_filter f = plumb_default_query_filter();
-  f.category = r.bits(), f.mask = r.bits(), f.sensors = r.flag();
+  f.category = r.wide(), f.mask = r.wide(), f.sensors = r.flag();
   f.ignore.index = r.bits(), f.ignore.generation = r.bits();
   return f;
 }

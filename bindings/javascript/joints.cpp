@@ -14,6 +14,7 @@ plumb_joint_definition joint(Reader& r) {
   plumb_joint_definition d = plumb_default_joint(static_cast<plumb_joint_kind>(r.integer()));
   d.collide = r.flag(), d.break_force = r.number(), d.break_torque = r.number();
   d.user_data = r.wide();
+  d.report_force = r.number(), d.report_torque = r.number();
   d.anchor_a = r.point(), d.anchor_b = r.point(), d.axis = r.point();
   d.reference_angle = r.number();
   d.spring = spring(r), d.linear_spring = spring(r), d.angular_spring = spring(r);
@@ -48,6 +49,10 @@ PLUMB_EXPORT("joint_change") void js_joint_change(PLUMB_HANDLE) {
   Reader r;
   const plumb_joint_definition d = joint(r);
   plumb_joint_change(w, {index, generation}, &d);
+}
+PLUMB_EXPORT("joint_set_load_events")
+void js_joint_set_load_events(PLUMB_HANDLE, double force, double torque) {
+  plumb_joint_set_load_events(w, {index, generation}, force, torque);
 }
 PLUMB_EXPORT("joint_read") double* js_joint_read(PLUMB_HANDLE) {
   const plumb_joint_reading r = plumb_joint_read(w, {index, generation});

@@ -31,7 +31,8 @@ export interface Material {
   /** m/s */
   surfaceSpeed?: number;
 }
-export interface Filter { category?: number; mask?: number; group?: number }
+/** 64 bits; numbers beyond 2^53 need bigints, and -1 stands for all bits */
+export interface Filter { category?: number | bigint; mask?: number | bigint; group?: number }
 export interface ShapeDefinition extends Geometry, Material {
   position?: Vec2;
   angle?: number;
@@ -60,6 +61,8 @@ export interface BodyDefinition {
   lockRotation?: boolean;
   maySleep?: boolean;
   awake?: boolean;
+  /** true by default: it does not tunnel */
+  continuous?: boolean;
   userData?: number | bigint;
   name?: string;
   shapes?: ShapeDefinition[];
@@ -70,6 +73,9 @@ export interface JointDefinition {
   /** N and N m; 0: never */
   breakForce?: number;
   breakTorque?: number;
+  /** N and N m, beyond which its load is in `events.loaded`; 0: never */
+  reportForce?: number;
+  reportTorque?: number;
   userData?: number | bigint;
   anchorA?: Vec2;
   anchorB?: Vec2;
@@ -121,6 +127,7 @@ export class Body extends Handle {
   get userData(): bigint;
   set userData(data: bigint | number);
   name: string;
+  continuous: boolean;
   enabled: boolean;
   /** m, around its shapes */
   readonly box: Box;
@@ -178,6 +185,8 @@ export class Joint extends Handle {
   readonly valid: boolean;
   change(kind: JointKind, definition?: JointDefinition): void;
   read(): JointReading;
+  /** N and N m, beyond which its load is in `events.loaded`; 0: never */
+  setLoadEvents(loads: {force?: number; torque?: number}): void;
   destroy(): void;
 }
 export interface Contact {
@@ -186,20 +195,24 @@ export interface Contact {
   normal: Vec2;
   points: {point: Vec2; separation: number; impulse: number}[];
   approach: number;
+  /** N s, of the whole step and both points; 0 without hitEvents or preSolve */
+  stepImpulse: number;
 }
 export interface Touch { shapeA: Shape; shapeB: Shape }
 export interface Events {
   begin: Touch[];
   end: Touch[];
-  hits: (Touch & {point: Vec2; normal: Vec2; speed: number})[];
+  hits: (Touch & {point: Vec2; normal: Vec2; speed: number; impulse: number})[];
   sensorBegin: {sensor: Shape; visitor: Shape}[];
   sensorEnd: {sensor: Shape; visitor: Shape}[];
   broken: Joint[];
+  /** N, N m: reactions over the last substep */
+  loaded: {joint: Joint; force: number; torque: number}[];
   fellAsleep: Body[];
   woke: Body[];
   quarantined: Body[];
 }
-export interface QueryFilter { category?: number; mask?: number; sensors?: boolean; ignore?: Body }
+export interface QueryFilter { category?: number | bigint; mask?: number | bigint; sensors?: boolean; ignore?: Body }
 export interface Hit { shape: Shape; body: Body; point: Vec2; normal: Vec2 }
 export interface MoverOptions {
   up?: Vec2;
@@ -220,6 +233,15 @@ export interface MoverResult {
   ground: Body;
   groundVelocity: Vec2;
 }
+/** m/s; negative: by the sizes of the shapes or by gravity */
+export interface Thresholds {
+  /** approach from which impacts are hits */
+  hit?: number;
+  /** approach up to which nothing bounces */
+  bounce?: number;
+  /** up to which a body may fall asleep */
+  sleep?: number;
+}
 export interface WorldDefinition {
   precision?: "float" | "double";
   gravity?: Vec2;
@@ -232,6 +254,7 @@ export interface WorldDefinition {
   iterations?: number;
   directIslands?: boolean;
   quarantine?: boolean;
+  thresholds?: Thresholds;
 }
 
 /** A world of bodies, shapes and joints that advances in fixed steps. */
@@ -247,6 +270,7 @@ export class World {
   set sleeping(on: boolean);
   set continuous(on: boolean);
   set solver(name: Solver);
+  thresholds: Thresholds;
   set profiling(on: boolean);
   /** ns */
   readonly profile: {broadPhase: number; narrowPhase: number; solver: number; finalize: number; continuous: number;
@@ -263,6 +287,9 @@ export class World {
   readonly contacts: Contact[];
   readonly events: Events;
   onPreSolve(hook: ((contact: Contact) => boolean) | null): void;
+  /** Asked about shapes that come near each other and that their filters let touch; false: they do not collide. It
+   * must depend on the world's state alone. */
+  onFilter(filter: ((a: Shape, b: Shape) => boolean) | null): void;
   save(): Uint8Array;
   restore(bytes: Uint8Array): void;
   rayCast(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number}) | null;

@@ -14,8 +14,8 @@ const kNames = {
 };
 const kKinds = ["SyntaxError", "InvalidValue", "UnknownName", "Unsupported", "RunError", "FileError"];
 const kBodyFields = new Set(["type", "position", "angle", "velocity", "angularVelocity", "mass", "gravityScale",
-  "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "userData", "name",
-  "shapes"]);
+  "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "continuous", "userData",
+  "name", "shapes"]);
 
 /// Reports a refusal by plumb: `kind`, and the parts of the sentence in `message`.
 export class PlumbError extends Error {
@@ -45,7 +45,7 @@ async function unpack() {
 }
 
 const kNoSystem = 52;  // WASI's ENOSYS: there are no files and no processes
-const hooks = new Map();  // of worlds, by their address
+const hooks = new Map(), filters = new Map();  // of worlds, by their address
 
 const imports = {
   plumb: {
@@ -54,6 +54,11 @@ const imports = {
     },
     pre_solve(world) {
       return hooks.get(world)(readContact()) === false ? 0 : 1;
+    },
+    filter(world) {
+      const n = new Float64Array(calls.memory.buffer, calls.numbers(4), 4);
+      const a = new Shape(hooked, n[0], n[1]), b = new Shape(hooked, n[2], n[3]);
+      return filters.get(world)(a, b) === false ? 0 : 1;
     },
   },
   wasi_snapshot_preview1: new Proxy({
@@ -132,8 +137,9 @@ function materialOf(m) {
   return [m.friction ?? 0.6, m.restitution ?? 0, m.rollingResistance ?? 0, m.surfaceSpeed ?? 0];
 }
 function filterOf(f = {}) {
-  return [f.category ?? 1, f.mask ?? 0xFFFFFFFF, f.group ?? 0];
+  return [...wide(f.category ?? 1), ...wide(f.mask ?? -1), f.group ?? 0];
 }
+const thresholdsOf = ({hit = -1, bounce = -1, sleep = -1}) => [hit, bounce, sleep];
 const kShapeFields = new Set([...kNames.shape, "position", "angle", "density", "friction", "restitution",
   "rollingResistance", "surfaceSpeed", "filter", "sensor", "hitEvents", "preSolve", "userData"]);
 function shapeOf(s) {
@@ -142,7 +148,7 @@ function shapeOf(s) {
     ...filterOf(s.filter), flag(s.sensor), flag(s.hitEvents), flag(s.preSolve), ...wide(s.userData)];
 }
 function queryOf(q = {}) {
-  return [q.category ?? 0xFFFFFFFF, q.mask ?? 0xFFFFFFFF, flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
+  return [...wide(q.category ?? -1), ...wide(q.mask ?? -1), flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
     q.ignore?.generation ?? 0];
 }
 const spring = (s) => [flag(s), s?.hertz ?? 0, s?.dampingRatio ?? 1];
@@ -152,6 +158,7 @@ function jointOf(kind, d) {
   const drive = kind === "motor" ? {hertz: 2, dampingRatio: 1} : kind === "mouse" ? {hertz: 5, dampingRatio: 0.7} : null;
   const ratio = d.ratio ?? (kind === "gear" ? -1 : 1);
   return [named("joint", kind), flag(d.collide), d.breakForce ?? 0, d.breakTorque ?? 0, ...wide(d.userData),
+    d.reportForce ?? 0, d.reportTorque ?? 0,
     ...pair(d.anchorA ?? zero, "anchorA"), ...pair(d.anchorB ?? zero, "anchorB"), ...pair(axis, "axis"),
     d.referenceAngle ?? 0, ...spring(d.spring ?? drive), ...spring(d.linearSpring), ...spring(d.angularSpring),
     flag(d.limits), d.limits?.lower ?? -Infinity, d.limits?.upper ?? Infinity,
@@ -161,7 +168,7 @@ function jointOf(kind, d) {
     d.tooth ?? 0.1, ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
 }
 
-const kContact = 16;  // numbers of a contact
+const kContact = 17;  // numbers of a contact
 function contactAt(world, n, at) {
   const points = [];
   for (let i = 0; i < n[at + 6]; ++i) {
@@ -169,7 +176,7 @@ function contactAt(world, n, at) {
     points.push({point: point(n, first), separation: n[first + 2], impulse: n[first + 3]});
   }
   return {shapeA: new Shape(world, n[at], n[at + 1]), shapeB: new Shape(world, n[at + 2], n[at + 3]),
-    normal: point(n, at + 4), points, approach: n[at + 15]};
+    normal: point(n, at + 4), points, approach: n[at + 15], stepImpulse: n[at + 16]};
 }
 let hooked = null;  // the world whose hook is being called
 function readContact() {
@@ -227,6 +234,8 @@ export class Body extends Handle {
     new Uint8Array(calls.memory.buffer, calls.bytes(letters.length), letters.length).set(letters);
     this._call("body_set_name");
   }
+  get continuous() { return this._call("body_continuous") !== 0; }
+  set continuous(on) { this._call("body_set_continuous", flag(on)); }
   get enabled() { return this._call("body_enabled") !== 0; }
   set enabled(on) { this._call("body_set_enabled", flag(on)); }
   get box() { return box(result(this._call("body_box"))); }
@@ -310,28 +319,30 @@ export class Joint extends Handle {
     const [force, torque, linearError, angularError, angle, translation, length] = result(this._call("joint_read"));
     return {force, torque, linearError, angularError, angle, translation, length};
   }
+  setLoadEvents({force = 0, torque = 0}) { this._call("joint_set_load_events", force, torque); }
   destroy() { this._call("joint_destroy"); }
 }
 
 const collected = new FinalizationRegistry((address) => {
-  hooks.delete(address);
+  hooks.delete(address), filters.delete(address);
   calls.world_destroy(address);
 });
 
 export class World {
   constructor({precision = "float", gravity = {x: 0, y: -9.81}, combineFriction = "geometric_mean",
     combineRestitution = "maximum", sleeping = true, continuous = true, solver = "soft_steps",
-    integrator = "velocity_verlet", iterations = 10, directIslands = true, quarantine = true} = {}) {
+    integrator = "velocity_verlet", iterations = 10, directIslands = true, quarantine = true,
+    thresholds = {}} = {}) {
     this._address = call("world_create", [], [named("precision", precision), ...pair(gravity, "gravity"),
       named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
       flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
-      flag(directIslands), flag(quarantine)]);
+      flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)]);
     collected.register(this, this._address, this);
   }
   /// Frees the world's memory now; without it that happens when the object is collected.
   destroy() {
     collected.unregister(this);
-    hooks.delete(this._address);
+    hooks.delete(this._address), filters.delete(this._address);
     calls.world_destroy(this._address);
     this._address = 0;
   }
@@ -354,6 +365,11 @@ export class World {
   set sleeping(on) { call("world_set_sleeping", [this._address, flag(on)]); }
   set continuous(on) { call("world_set_continuous", [this._address, flag(on)]); }
   set solver(name) { call("world_set_solver", [this._address, named("solver", name)]); }
+  get thresholds() {
+    const [hit, bounce, sleep] = result(call("world_thresholds", [this._address]));
+    return {hit, bounce, sleep};
+  }
+  set thresholds(t) { call("world_set_thresholds", [this._address], thresholdsOf(t)); }
   set profiling(on) { call("world_set_profiling", [this._address, flag(on)]); }
   get profile() {
     const [broadPhase, narrowPhase, solver, finalize, continuous, events, sleep, steps] =
@@ -376,7 +392,8 @@ export class World {
       ...pair(d.position ?? zero), d.angle ?? 0, ...pair(d.velocity ?? zero, "velocity"), d.angularVelocity ?? 0,
       flag(d.mass), d.mass?.mass ?? 1, ...pair(d.mass?.centre ?? zero, "centre"), d.mass?.inertia ?? 1,
       d.gravityScale ?? 1, d.linearDamping ?? 0, d.angularDamping ?? 0, flag(d.lockX), flag(d.lockY),
-      flag(d.lockRotation), flag(d.maySleep ?? true), flag(d.awake ?? true), ...wide(d.userData), shapes.length,
+      flag(d.lockRotation), flag(d.maySleep ?? true), flag(d.awake ?? true),
+      flag(d.continuous ?? true), ...wide(d.userData), shapes.length,
       ...shapes.flat()]));
     return new Body(this, made[0], made[1]);
   }
@@ -404,7 +421,7 @@ export class World {
   }
   get events() {
     const n = result(call("world_events", [this._address])).slice();
-    let at = 9;
+    let at = 10;
     const list = (count, width, make) => Array.from({length: count}, () => {
       const made = make(at);
       at += width;
@@ -416,19 +433,26 @@ export class World {
     return {
       begin: list(n[0], 4, touch),
       end: list(n[1], 4, touch),
-      hits: list(n[2], 9, (i) => ({...touch(i), point: point(n, i + 4), normal: point(n, i + 6), speed: n[i + 8]})),
+      hits: list(n[2], 10, (i) => ({...touch(i), point: point(n, i + 4), normal: point(n, i + 6), speed: n[i + 8],
+        impulse: n[i + 9]})),
       sensorBegin: list(n[3], 4, sensed),
       sensorEnd: list(n[4], 4, sensed),
       broken: list(n[5], 2, (i) => new Joint(this, n[i], n[i + 1])),
       fellAsleep: list(n[6], 2, body),
       woke: list(n[7], 2, body),
       quarantined: list(n[8], 2, body),
+      loaded: list(n[9], 4, (i) => ({joint: new Joint(this, n[i], n[i + 1]), force: n[i + 2], torque: n[i + 3]})),
     };
   }
   onPreSolve(hook) {
     if (hook) hooks.set(this._address, hook);
     else hooks.delete(this._address);
     call("world_on_pre_solve", [this._address, flag(hook)]);
+  }
+  onFilter(filter) {
+    if (filter) filters.set(this._address, filter);
+    else filters.delete(this._address);
+    call("world_on_filter", [this._address, flag(filter)]);
   }
 
   save() {

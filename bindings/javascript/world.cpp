@@ -7,7 +7,13 @@ namespace {
 void write(Writer& w, const plumb_contact& c) {
   w.id(c.shape_a).id(c.shape_b).add(c.normal).add(c.count);
   for (int i = 0; i < 2; ++i) w.add(c.points[i]).add(c.separations[i]).add(c.impulses[i]);
-  w.add(c.approach);
+  w.add(c.approach).add(c.step_impulse);
+}
+
+plumb_thresholds thresholds(Reader& r) {
+  plumb_thresholds t{};
+  t.hit = r.number(), t.bounce = r.number(), t.sleep = r.number();
+  return t;
 }
 
 }  // namespace
@@ -16,6 +22,8 @@ extern "C" {
 
 /// Calls the hook of a world with the contact in the buffer.
 PLUMB_IMPORT("pre_solve") int js_pre_solve(void* world);
+/// Calls the filter of a world with the shapes in the buffer.
+PLUMB_IMPORT("filter") int js_filter(void* world);
 
 PLUMB_EXPORT("world_create") plumb_world* js_world_create() {
   Reader r;
@@ -29,6 +37,7 @@ PLUMB_EXPORT("world_create") plumb_world* js_world_create() {
   d.integrator = static_cast<plumb_integrator>(r.integer());
   d.iterations = r.integer();
   d.direct_islands = r.flag(), d.quarantine = r.flag();
+  d.thresholds = thresholds(r);
   return plumb_world_create(&d);
 }
 PLUMB_EXPORT("world_destroy") void js_world_destroy(plumb_world* w) { plumb_world_destroy(w); }
@@ -50,6 +59,14 @@ PLUMB_EXPORT("world_set_continuous") void js_set_continuous(plumb_world* w, int 
 }
 PLUMB_EXPORT("world_set_solver") void js_set_solver(plumb_world* w, int solver) {
   plumb_world_set_solver(w, static_cast<plumb_solver>(solver));
+}
+PLUMB_EXPORT("world_set_thresholds") void js_set_thresholds(plumb_world* w) {
+  Reader r;
+  plumb_world_set_thresholds(w, thresholds(r));
+}
+PLUMB_EXPORT("world_thresholds") double* js_thresholds(plumb_world* w) {
+  const plumb_thresholds t = plumb_world_get_thresholds(w);
+  return Writer().add(t.hit).add(t.bounce).add(t.sleep).done();
 }
 PLUMB_EXPORT("world_set_profiling") void js_set_profiling(plumb_world* w, int on) {
   plumb_world_set_profiling(w, on != 0);
@@ -111,13 +128,13 @@ PLUMB_EXPORT("world_contacts") double* js_contacts(plumb_world* w) {
   for (const plumb_contact& contact : all) write(writer, contact);
   return writer.done();
 }
-/// Writes the lengths of the nine lists, and then the lists.
+/// Writes the lengths of the ten lists, and then the lists.
 PLUMB_EXPORT("world_events") double* js_events(plumb_world* w) {
   const plumb_events e = plumb_world_events(w);
   Writer out;
   for (const std::size_t count :
        {e.begin_count, e.end_count, e.hit_count, e.sensor_begin_count, e.sensor_end_count, e.broken_count,
-        e.fell_asleep_count, e.woke_count, e.quarantined_count})
+        e.fell_asleep_count, e.woke_count, e.quarantined_count, e.loaded_count})
     out.add(static_cast<double>(count));
   const auto touches = [&](const plumb_touch_event* all, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) out.id(all[i].shape_a).id(all[i].shape_b);
@@ -128,13 +145,15 @@ PLUMB_EXPORT("world_events") double* js_events(plumb_world* w) {
   touches(e.begin, e.begin_count), touches(e.end, e.end_count);
   for (std::size_t i = 0; i < e.hit_count; ++i) {
     const plumb_hit_event& hit = e.hits[i];
-    out.id(hit.shape_a).id(hit.shape_b).add(hit.point).add(hit.normal).add(hit.speed);
+    out.id(hit.shape_a).id(hit.shape_b).add(hit.point).add(hit.normal).add(hit.speed).add(hit.impulse);
   }
   sensed(e.sensor_begin, e.sensor_begin_count), sensed(e.sensor_end, e.sensor_end_count);
   for (std::size_t i = 0; i < e.broken_count; ++i) out.id(e.broken[i]);
   for (std::size_t i = 0; i < e.fell_asleep_count; ++i) out.id(e.fell_asleep[i]);
   for (std::size_t i = 0; i < e.woke_count; ++i) out.id(e.woke[i]);
   for (std::size_t i = 0; i < e.quarantined_count; ++i) out.id(e.quarantined[i].body);
+  for (std::size_t i = 0; i < e.loaded_count; ++i)
+    out.id(e.loaded[i].joint).add(e.loaded[i].force).add(e.loaded[i].torque);
   return out.done();
 }
 PLUMB_EXPORT("world_on_pre_solve") void js_on_pre_solve(plumb_world* w, int on) {
@@ -144,5 +163,12 @@ PLUMB_EXPORT("world_on_pre_solve") void js_on_pre_solve(plumb_world* w, int on) 
     return js_pre_solve(world) != 0;
   };
   plumb_world_on_pre_solve(w, on != 0 ? +call : nullptr, w);
+}
+PLUMB_EXPORT("world_on_filter") void js_on_filter(plumb_world* w, int on) {
+  const auto call = [](plumb_shape a, plumb_shape b, void* world) {
+    Writer().id(a).id(b);
+    return js_filter(world) != 0;
+  };
+  plumb_world_on_filter(w, on != 0 ? +call : nullptr, w);
 }
 }

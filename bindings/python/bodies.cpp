@@ -15,7 +15,8 @@ py::dict reading_of(const WorldPointer& held, const ContactReading& c) {
     points.append(c.points[i]), separations.append(c.separations[i]), impulses.append(c.impulses[i]);
   return py::dict(arg("shape_a") = HeldShape{held, c.shape_a}, arg("shape_b") = HeldShape{held, c.shape_b},
                   arg("normal") = c.normal, arg("points") = points, arg("separations") = separations,
-                  arg("impulses") = impulses, arg("approach") = c.approach);
+                  arg("impulses") = impulses, arg("approach") = c.approach,
+                  arg("step_impulse") = c.step_impulse);
 }
 
 void bind_bodies(py::module_& module) {
@@ -56,6 +57,9 @@ void bind_bodies(py::module_& module) {
                     PLUMB_SET(HeldBody, bool, w.set_may_sleep(h.id, value)))
       .def_property("user_data", PLUMB_READ(HeldBody, w.user_data(h.id)),
                     PLUMB_SET(HeldBody, std::uint64_t, w.set_user_data(h.id, value)))
+      .def_property("continuous", PLUMB_READ(HeldBody, w.continuous(h.id)),
+                    PLUMB_SET(HeldBody, bool, w.set_continuous(h.id, value)),
+                    "False lets it tunnel, to save time.")
       .def_property("enabled", PLUMB_READ(HeldBody, w.enabled(h.id)),
                     PLUMB_SET(HeldBody, bool, w.set_enabled(h.id, value)),
                     "False takes the body out of the simulation until it is set again.")
@@ -81,7 +85,9 @@ void bind_bodies(py::module_& module) {
               return all;
             });
           },
-          "Contacts with points, as dicts; impulses in N s, of the last substep.")
+          "Contacts with points, as dicts; impulses in N s, of the last substep; step_impulse of the whole "
+          "step, for "
+          "shapes with hit_events or pre_solve.")
       .def(
           "apply_force",
           [](const HeldBody& h, Vec2d force, std::optional<Vec2d> point) {

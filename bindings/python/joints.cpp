@@ -32,6 +32,13 @@ void bind_joints(py::module_& module) {
                             arg("length") = r.length);
           },
           "Measurements: force (N), torque (N m), errors (m, rad), angle (rad), translation and length (m).")
+      .def(
+          "set_load_events",
+          [](const HeldJoint& h, double force, double torque) {
+            h.world->visit([&](auto& w) { w.set_load_events(h.id, force, torque); });
+          },
+          arg("force") = 0.0, arg("torque") = 0.0,
+          "Sets the loads beyond which it is in World.events['loaded'], N and N m; 0: never.")
       .def("destroy", [](const HeldJoint& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
   bind_common(joint, "Joint");
 }

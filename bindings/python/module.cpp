@@ -72,7 +72,7 @@ void bind_definitions(py::module_& module) {
                               "A geometry with its pose on a body, density (kg/m^2), material and filter.")
       .def(py::init([](const ShapeGeometry& geometry, Vec2d position, double angle, double density,
                        double friction, double restitution, double rolling_resistance, double surface_speed,
-                       std::uint32_t category, std::uint32_t mask, std::int32_t group, bool sensor,
+                       std::uint64_t category, std::uint64_t mask, std::int32_t group, bool sensor,
                        bool hit_events, bool pre_solve, std::uint64_t user_data) {
              return ShapeDefinition{geometry,
                                     position,
@@ -87,8 +87,8 @@ void bind_definitions(py::module_& module) {
            }),
            arg("geometry"), py::kw_only(), arg("position") = Vec2d{}, arg("angle") = 0.0,
            arg("density") = 1.0, arg("friction") = Material{}.friction, arg("restitution") = 0.0,
-           arg("rolling_resistance") = 0.0, arg("surface_speed") = 0.0, arg("category") = 1u,
-           arg("mask") = 0xFFFFFFFFu, arg("group") = 0, arg("sensor") = false, arg("hit_events") = false,
+           arg("rolling_resistance") = 0.0, arg("surface_speed") = 0.0, arg("category") = Filter{}.category,
+           arg("mask") = Filter{}.mask, arg("group") = 0, arg("sensor") = false, arg("hit_events") = false,
            arg("pre_solve") = false, arg("user_data") = 0)
       .def_readwrite("geometry", &ShapeDefinition::geometry)
       .def_readwrite("position", &ShapeDefinition::position, "m, in the body's frame")

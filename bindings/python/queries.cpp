@@ -11,7 +11,7 @@ namespace {
 using py::arg;
 
 /// A filter of a query; `ignore` is a body or None.
-QueryFilter filter_of(const std::optional<HeldBody>& ignore, std::uint32_t category, std::uint32_t mask,
+QueryFilter filter_of(const std::optional<HeldBody>& ignore, std::uint64_t category, std::uint64_t mask,
                       bool sensors) {
   QueryFilter filter;
   filter.category = category, filter.mask = mask, filter.sensors = sensors;
@@ -31,7 +31,7 @@ void bind_queries(HeldWorldClass& world) {
       .def(
           "ray_cast",
           [](const WorldPointer& h, Vec2d origin, Vec2d translation, std::optional<HeldBody> ignore,
-             std::uint32_t category, std::uint32_t mask, bool sensors) -> py::object {
+             std::uint64_t category, std::uint64_t mask, bool sensors) -> py::object {
             const auto hit = h->visit([&](auto& w) {
               return ray_cast_closest(w, origin, translation, filter_of(ignore, category, mask, sensors));
             });
@@ -41,7 +41,7 @@ void bind_queries(HeldWorldClass& world) {
             return found;
           },
           arg("origin"), arg("translation"), py::kw_only(), arg("ignore") = py::none(),
-          arg("category") = 0xFFFFFFFFu, arg("mask") = 0xFFFFFFFFu, arg("sensors") = false,
+          arg("category") = QueryFilter{}.category, arg("mask") = QueryFilter{}.mask, arg("sensors") = false,
           "The closest hit of a ray (m) as a dict of shape, body, point, normal and fraction, or None.")
       .def(
           "ray_cast_all",

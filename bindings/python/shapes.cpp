@@ -70,10 +70,12 @@ void bind_shapes(py::module_& module) {
                     "m/s")
       .def(
           "set_filter",
-          [](const HeldShape& h, std::uint32_t category, std::uint32_t mask, std::int32_t group) {
+          [](const HeldShape& h, std::uint64_t category, std::uint64_t mask, std::int32_t group) {
             h.world->visit([&](auto& w) { w.set_filter(h.id, {category, mask, group}); });
           },
-          arg("category") = 1u, arg("mask") = 0xFFFFFFFFu, arg("group") = 0)
+          arg("category") = Filter{}.category, arg("mask") = Filter{}.mask, arg("group") = 0,
+          "64 bits each: shapes touch if each one's category is in the other's mask; an equal group other "
+          "than 0 decides.")
       .def("destroy", [](const HeldShape& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
   bind_common(shape, "Shape");
 

@@ -47,10 +47,16 @@ py::dict events_of(const WorldPointer& held) {
     py::list hits, quarantined;
     for (const HitEvent& h : e.hits) {
       hits.append(py::dict(arg("shape_a") = shape(h.shape_a), arg("shape_b") = shape(h.shape_b),
-                           arg("point") = h.point, arg("normal") = h.normal, arg("speed") = h.speed));
+                           arg("point") = h.point, arg("normal") = h.normal, arg("speed") = h.speed,
+                           arg("impulse") = h.impulse));
     }
     std::vector<JointId> broken;
     for (const JointEvent& j : e.broken) broken.push_back(j.joint);
+    py::list loaded;
+    for (const JointLoadEvent& j : e.loaded) {
+      loaded.append(py::dict(arg("joint") = HeldJoint{held, j.joint}, arg("force") = j.force,
+                             arg("torque") = j.torque));
+    }
     for (const QuarantineEvent& q : e.quarantined) {
       quarantined.append(py::dict(arg("body") = body(q.body),
                                   arg("field") = kBadFieldNames[static_cast<int>(q.field)],
@@ -58,15 +64,17 @@ py::dict events_of(const WorldPointer& held) {
     }
     return py::dict(arg("begin") = touches(e.begin), arg("end") = touches(e.end), arg("hits") = hits,
                     arg("sensor_begin") = sensed(e.sensor_begin), arg("sensor_end") = sensed(e.sensor_end),
-                    arg("broken") = handles(held, broken), arg("fell_asleep") = handles(held, e.fell_asleep),
-                    arg("woke") = handles(held, e.woke), arg("quarantined") = quarantined);
+                    arg("broken") = handles(held, broken), arg("loaded") = loaded,
+                    arg("fell_asleep") = handles(held, e.fell_asleep), arg("woke") = handles(held, e.woke),
+                    arg("quarantined") = quarantined);
   });
 }
 
 WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::string& solver,
                         const std::string& integrator, int iterations, bool sleeping, bool continuous,
                         bool direct_islands, bool quarantine, const std::string& friction,
-                        const std::string& restitution, int threads) {
+                        const std::string& restitution, int threads,
+                        const std::array<double, 3>& thresholds) {
   WorldDefinition d;
   d.gravity = gravity;
   d.solver = named<Solver>(kSolvers, solver, "solver");
@@ -77,6 +85,7 @@ WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::
   d.combine_friction = named<Combine>(kCombines, friction, "combine_friction");
   d.combine_restitution = named<Combine>(kCombines, restitution, "combine_restitution");
   d.threads = threads;
+  d.thresholds = {thresholds[0], thresholds[1], thresholds[2]};
   if (named<Precision>(kPrecisions, precision, "precision") == Precision::Float)
     return std::make_shared<HeldWorld>(World(d));
   return std::make_shared<HeldWorld>(DoubleWorld(d));
@@ -101,9 +110,10 @@ void bind_world(py::module_& module) {
            arg("iterations") = d.iterations, arg("sleeping") = true, arg("continuous") = true,
            arg("direct_islands") = true, arg("quarantine") = true, arg("combine_friction") = "geometric_mean",
            arg("combine_restitution") = "maximum", arg("threads") = d.threads,
+           arg("thresholds") = std::array<double, 3>{-1, -1, -1},
            "gravity: m/s^2; precision: 'float' or 'double', of the solver; threads: share a large step, with "
            "the same "
-           "bits for every number.")
+           "bits for every number; thresholds: (hit, bounce, sleep), m/s, negative: by the shapes' sizes.")
       .def(
           "step",
           [](HeldWorld& h, double dt, int substeps, int count) {
@@ -139,6 +149,18 @@ void bind_world(py::module_& module) {
       .def(
           "set_continuous", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_continuous(on); }); },
           arg("on"))
+      .def_property(
+          "thresholds",
+          [](HeldWorld& h) {
+            const Thresholds t = h.visit([](auto& w) { return w.thresholds(); });
+            return py::make_tuple(t.hit, t.bounce, t.sleep);
+          },
+          [](HeldWorld& h, const std::array<double, 3>& t) {
+            h.visit([&](auto& w) { w.set_thresholds({t[0], t[1], t[2]}); });
+          },
+          "(hit, bounce, sleep), m/s: approach from which impacts are hits, up to which nothing bounces, "
+          "speed up to "
+          "which a body may fall asleep; negative: by the shapes' sizes.")
       .def(
           "set_profiling", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_profiling(on); }); },
           arg("on"))
@@ -166,7 +188,7 @@ void bind_world(py::module_& module) {
              double angle, Vec2d velocity, double angular_velocity, const std::string& name,
              std::optional<std::tuple<double, double, Vec2d>> mass, double gravity_scale,
              double linear_damping, double angular_damping, bool lock_x, bool lock_y, bool lock_rotation,
-             bool may_sleep, bool awake, std::uint64_t user_data) {
+             bool may_sleep, bool awake, std::uint64_t user_data, bool continuous) {
             BodyDefinition b;
             b.name = name, b.type = named<BodyType>(kBodyTypes, type, "type");
             b.position = position, b.angle = angle, b.velocity = velocity,
@@ -176,6 +198,7 @@ void bind_world(py::module_& module) {
             b.angular_damping = angular_damping;
             b.lock_x = lock_x, b.lock_y = lock_y, b.lock_rotation = lock_rotation;
             b.may_sleep = may_sleep, b.awake = awake, b.user_data = user_data;
+            b.continuous = continuous;
             const std::vector<ShapeDefinition> all = definitions_of(shapes);
             h->leave_views_if_full();
             return HeldBody{h, h->visit([&](auto& w) { return w.create_body(b, all); })};
@@ -185,21 +208,26 @@ void bind_world(py::module_& module) {
           arg("mass") = py::none(), arg("gravity_scale") = 1.0, arg("linear_damping") = 0.0,
           arg("angular_damping") = 0.0, arg("lock_x") = false, arg("lock_y") = false,
           arg("lock_rotation") = false, arg("may_sleep") = true, arg("awake") = true, arg("user_data") = 0,
+          arg("continuous") = true,
           "Creates a body. shapes: a geometry, a ShapeDefinition or a list of these; position: m; angle: "
           "rad; velocity: "
           "m/s; mass: (kg, kg m^2, centre in m), else densities count; damping: 1/s.")
       .def(
           "create_joint",
           [](const WorldPointer& h, const HeldBody& a, const HeldBody& b, const JointKind& kind, bool collide,
-             double break_force, double break_torque, std::uint64_t user_data) {
-            return HeldJoint{
-                h, h->visit([&](auto& w) {
-                  return w.create_joint(a.id, b.id, {kind, collide, break_force, break_torque, user_data});
-                })};
+             double break_force, double break_torque, std::uint64_t user_data, double report_force,
+             double report_torque) {
+            return HeldJoint{h, h->visit([&](auto& w) {
+                               return w.create_joint(a.id, b.id,
+                                                     {kind, collide, break_force, break_torque, user_data,
+                                                      report_force, report_torque});
+                             })};
           },
           arg("a"), arg("b"), arg("kind"), py::kw_only(), arg("collide") = false, arg("break_force") = 0.0,
-          arg("break_torque") = 0.0, arg("user_data") = 0,
-          "Joins two bodies; break_force: N, break_torque: N m, 0: never.")
+          arg("break_torque") = 0.0, arg("user_data") = 0, arg("report_force") = 0.0,
+          arg("report_torque") = 0.0,
+          "Joins two bodies; break_force: N, break_torque: N m, 0: never; the same for the loads that are "
+          "events.")
       .def(
           "add_scene",
           [](const WorldPointer& h, const py::object& scene) {
@@ -217,7 +245,7 @@ void bind_world(py::module_& module) {
           [](const WorldPointer& h) { return h->visit([&](auto& w) { return handles(h, w.bodies()); }); },
           "All bodies, by index.")
       .def_property_readonly("events", &events_of,
-                             "Of the last step: begin, end, hits, sensor_begin, sensor_end, broken, "
+                             "Of the last step: begin, end, hits, sensor_begin, sensor_end, broken, loaded, "
                              "fell_asleep, woke, quarantined.")
       .def(
           "on_pre_solve",
@@ -232,7 +260,24 @@ void bind_world(py::module_& module) {
             });
           },
           arg("hook"),
-          "Calls hook(contact) for contacts of shapes with pre_solve; False disables one in this step.");
+          "Calls hook(contact) for contacts of shapes with pre_solve; False disables one in this step.")
+      .def(
+          "on_filter",
+          [](HeldWorld& h, std::optional<std::function<bool(HeldShape, HeldShape)>> filter) {
+            const std::weak_ptr<HeldWorld> world = h.weak_from_this();
+            h.visit([&](auto& w) {
+              if (!filter) return w.on_filter({});
+              w.on_filter([filter = *filter, world](ShapeId a, ShapeId b) {
+                const py::gil_scoped_acquire held;
+                const WorldPointer own = world.lock();
+                return filter(HeldShape{own, a}, HeldShape{own, b});
+              });
+            });
+          },
+          arg("filter"),
+          "Calls filter(a, b) for shapes that come near each other and that their filters let touch; False: "
+          "they do "
+          "not collide. It must depend on the world's state alone.");
   bind_arrays(bound), bind_snapshots(bound), bind_queries(bound);
 }
 

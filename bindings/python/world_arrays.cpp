@@ -50,6 +50,7 @@ struct ContactRow {
   double points[2][2];
   double separations[2];
   double impulses[2];
+  double step_impulse;
 };
 
 py::array_t<ContactRow> contacts_of(HeldWorld& held) {
@@ -67,7 +68,8 @@ py::array_t<ContactRow> contacts_of(HeldWorld& held) {
                      {c.normal.x, c.normal.y},
                      {},
                      {},
-                     {}};
+                     {},
+                     c.step_impulse};
       for (int i = 0; i < c.count; ++i) {
         row.points[i][0] = c.points[i].x, row.points[i][1] = c.points[i].y;
         row.separations[i] = c.separations[i], row.impulses[i] = c.impulses[i];
@@ -84,7 +86,7 @@ py::array_t<ContactRow> contacts_of(HeldWorld& held) {
 
 void bind_arrays(HeldWorldClass& world) {
   PYBIND11_NUMPY_DTYPE(ContactRow, body_a, body_b, shape_a, shape_b, count, normal, points, separations,
-                       impulses);
+                       impulses, step_impulse);
   world
       .def_property_readonly(
           "centres",
@@ -147,10 +149,12 @@ void bind_arrays(HeldWorldClass& world) {
             });
           },
           "False for rows of destroyed bodies; a copy, (n,)")
-      .def_property_readonly("contacts", &contacts_of,
-                             "All contacts with points: body_a, body_b, shape_a, shape_b (indices), count, "
-                             "normal, points (m), separations "
-                             "(m), impulses (N s, of the last substep); a structured array, a copy")
+      .def_property_readonly(
+          "contacts", &contacts_of,
+          "All contacts with points: body_a, body_b, shape_a, shape_b (indices), count, "
+          "normal, points (m), separations "
+          "(m), impulses (N s, of the last substep), step_impulse (N s, of the whole step, for shapes with "
+          "hit_events or pre_solve); a structured array, a copy")
       .def(
           "apply_forces",
           [](HeldWorld& h, const py::array_t<double, py::array::c_style | py::array::forcecast>& forces) {

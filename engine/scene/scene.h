@@ -22,8 +22,8 @@ inline constexpr std::string_view kWorld = "world";
 /// Two shapes may touch when each one's category is in the other's mask. An equal non-zero group takes
 /// precedence: positive always, negative never.
 struct Filter {
-  std::uint32_t category = 1;
-  std::uint32_t mask = 0xFFFFFFFFu;
+  std::uint64_t category = 1;
+  std::uint64_t mask = ~std::uint64_t{0};
   std::int32_t group = 0;
   friend bool operator==(const Filter&, const Filter&) = default;
 };
@@ -208,6 +208,9 @@ std::optional<double> mass_by_density(const Body& body);
 /// Combines coefficients `a` and `b` of two shapes into a contact's.
 double combine(Combine rule, double a, double b);
 
+/// Folds 64 category or mask bits to 32: a category in a mask stays in it. So it may serve to skip most of
+/// what an exact test of all bits would refuse.
+inline std::uint32_t folded(std::uint64_t bits) { return static_cast<std::uint32_t>(bits | bits >> 32); }
 /// Returns true if two shapes' filters let them touch.
 bool may_touch(const Filter& a, const Filter& b);
 

@@ -36,7 +36,7 @@ std::set<BodyPair> joined_bodies(const Scene& scene) {
 /// Returns true if two shapes of different bodies may touch. Shapes with the same filter are one kind: of
 /// each pair of kinds that may touch, pairs of bodies are tried until no joint excludes one.
 bool may_touch_anywhere(const Scene& scene) {
-  using Kind = std::tuple<std::uint32_t, std::uint32_t, std::int32_t>;
+  using Kind = std::tuple<std::uint64_t, std::uint64_t, std::int32_t>;
   std::map<Kind, std::vector<std::size_t>> kinds;  // bodies
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     for (const Shape& shape : scene.bodies[body].shapes) {

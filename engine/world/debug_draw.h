@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "engine/geometry/aabb.h"
 #include "engine/world/past_poses.h"
 #include "engine/world/world.h"
 
@@ -61,8 +63,9 @@ struct DrawOptions {
   bool boxes = false;
   bool centres = false;
   bool names = false;
-  double normal_length = 0.2;   ///< m
-  double impulse_length = 0.1;  ///< m per N s
+  double normal_length = 0.2;            ///< m
+  double impulse_length = 0.1;           ///< m per N s
+  std::optional<Aabb<double>> bounds{};  ///< m; given: leaves out what certainly lies outside this box
 };
 
 /// Draws the world as it is after the last step: shapes in the order of their bodies' indices, then the rest.

@@ -79,20 +79,32 @@ struct BodyDefinition {
   bool may_sleep = true;
   bool awake = true;
   std::uint64_t user_data = 0;
+  bool continuous = true;  ///< it does not tunnel; false saves time where its tunnelling does not matter
 };
 
-/// Kind of a joint, and the loads that break it.
+/// Kind of a joint, and the loads that break it or are reported.
 struct JointDefinition {
   JointKind kind = RevoluteDefinition{};
   bool collide = false;     ///< the joined bodies may collide
   double break_force = 0;   ///< N, 0: never
   double break_torque = 0;  ///< N m, 0: never
   std::uint64_t user_data = 0;
+  double report_force = 0;   ///< N, beyond which its load is an event; 0: never
+  double report_torque = 0;  ///< N m, 0: never
 };
 
 /// Combines a coefficient of two shapes into that of their contact. Must be a pure function, symmetric in its
 /// arguments: a world is as deterministic as its rules.
 using CombineFunction = double (*)(double a, double b);
+
+/// Speeds at which behaviour changes, m/s. Negative: by the sizes of the shapes or by gravity, so that scenes
+/// of all sizes behave alike.
+struct Thresholds {
+  double hit = -1;     ///< approach from which impacts are hits; else an extent of the smaller shape a second
+  double bounce = -1;  ///< approach up to which nothing bounces; else what gravity adds in four steps
+  double sleep = -1;   ///< up to which a body may fall asleep; else 0.05 of its extents a second
+  friend bool operator==(const Thresholds&, const Thresholds&) = default;
+};
 
 /// Settings of the whole world.
 struct WorldDefinition {
@@ -110,6 +122,7 @@ struct WorldDefinition {
   /// (BasicWorld::set_task_system). Each number gives the same bits; snapshots and recordings do not have it.
   /// Small worlds are stepped by the calling thread alone.
   int threads = kUsualThreads;
+  Thresholds thresholds{};
 };
 
 }  // namespace plumb

@@ -17,9 +17,10 @@ struct TouchEvent {
 /// Two shapes hit each other hard.
 struct HitEvent {
   ShapeId shape_a{}, shape_b{};
-  Vec2d point{};     ///< m
-  Vec2d normal{};    ///< from a to b
-  double speed = 0;  ///< m/s, of approach
+  Vec2d point{};       ///< m
+  Vec2d normal{};      ///< from a to b
+  double speed = 0;    ///< m/s, of approach
+  double impulse = 0;  ///< N s, along the normal, of the whole step and all points
 };
 
 struct SensorEvent {
@@ -28,6 +29,12 @@ struct SensorEvent {
 
 struct JointEvent {
   JointId joint{};  ///< invalid now: the joint broke
+};
+
+/// A joint bore more than the load from which it reports.
+struct JointLoadEvent {
+  JointId joint{};
+  double force = 0, torque = 0;  ///< N, N m: reaction over the last substep
 };
 
 /// Quantity of a body that was not finite, or beyond 1e12.
@@ -53,12 +60,13 @@ struct Events {
   std::vector<HitEvent> hits;
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<JointEvent> broken;
+  std::vector<JointLoadEvent> loaded;  ///< in each step in which it bears as much
   std::vector<BodyId> fell_asleep, woke;
   std::vector<QuarantineEvent> quarantined;
 
   void clear() {
     begin.clear(), end.clear(), hits.clear(), sensor_begin.clear(), sensor_end.clear(), broken.clear();
-    fell_asleep.clear(), woke.clear(), quarantined.clear();
+    loaded.clear(), fell_asleep.clear(), woke.clear(), quarantined.clear();
   }
 };
 

@@ -44,6 +44,7 @@ class RecordedWorld {
   void set_iterations(int iterations);
   void set_direct_islands(bool on);
   void set_quarantine(bool on);
+  void set_thresholds(const Thresholds& thresholds);
   void release(BodyId body);
 
   BodyId create_body(const BodyDefinition& definition, std::span<const ShapeDefinition> shapes = {});
@@ -72,6 +73,7 @@ class RecordedWorld {
   void set_user_data(BodyId body, std::uint64_t data);
   void set_name(BodyId body, const std::string& name);
   void set_enabled(BodyId body, bool enabled);
+  void set_continuous(BodyId body, bool on);
 
   ShapeId create_shape(BodyId body, const ShapeDefinition& definition);
   void destroy(ShapeId shape);
@@ -90,6 +92,7 @@ class RecordedWorld {
   void destroy(JointId joint);
   void change(JointId joint, const JointKind& kind);
   void set_user_data(JointId joint, std::uint64_t data);
+  void set_load_events(JointId joint, double force, double torque);
 
   /// Sets the hook. It is code and cannot be recorded: the replay needs the same one.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);

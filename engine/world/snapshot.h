@@ -7,9 +7,9 @@
 #include "engine/world/world.h"
 
 /// Serialises a world: all state that its future depends on. A restored world continues with the same bits as
-/// one that was never stopped, and earlier handles stay valid. The pre-solve hook and the user's combine
-/// rules are code and not part of the bytes: restoring keeps those that the world has. Saved contacts keep
-/// their mixed coefficients.
+/// one that was never stopped, and earlier handles stay valid. The pre-solve hook, the user's filter and
+/// combine rules are code and not part of the bytes: restoring keeps those that the world has. Saved contacts
+/// keep their mixed coefficients.
 namespace plumb {
 
 /// Returns the bytes of a world: the same on every little-endian platform.

@@ -165,6 +165,20 @@ void BasicWorld<Real>::set_direct_islands(bool on) {
 }
 
 template <class Real>
+void BasicWorld<Real>::set_thresholds(const Thresholds& thresholds) {
+  unlocked(*this);
+  WorldDefinition changed = data_->settings;
+  changed.thresholds = thresholds;
+  validate(changed);
+  if (thresholds != data_->settings.thresholds) wake_all();
+  data_->settings.thresholds = thresholds;
+}
+template <class Real>
+Thresholds BasicWorld<Real>::thresholds() const {
+  return data().settings.thresholds;
+}
+
+template <class Real>
 void BasicWorld<Real>::set_profiling(bool on) {
   unlocked(*this).profiled = on;
   if (on) data_->profile = {};
@@ -244,6 +258,22 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
   WorldData<Real>* w = &*data_;
   data_->pre_solve = [w, hook = std::move(hook)](int contact, ContactConstraint<Real>& constraint) {
     return hook(reading_of(*w, w->contacts[contact], constraint));
+  };
+}
+
+template <class Real>
+void BasicWorld<Real>::on_filter(std::function<bool(ShapeId, ShapeId)> filter) {
+  unlocked(*this);
+  if (!filter) {
+    data_->filter = nullptr;
+    return;
+  }
+  const WorldData<Real>* w = &*data_;
+  data_->filter = [w, filter = std::move(filter)](int a, int b) {
+    const auto id = [&](int shape) {
+      return ShapeId{static_cast<std::uint32_t>(shape), w->shapes.generation(shape)};
+    };
+    return filter(id(a), id(b));
   };
 }
 

@@ -40,6 +40,8 @@ struct ContactReading {
   double separations[2] = {};  ///< m, negative: overlap
   double impulses[2] = {};     ///< N s, along the normal, of the last substep
   double approach = 0;         ///< m/s, along the normal at the start of the step, negative: closing
+  double step_impulse = 0;     ///< N s, along the normal, of the whole step and both points; of shapes with
+                               ///< `hit_events` or `pre_solve`, else 0. Divided by dt: the mean force
 };
 
 /// Pose of a body.
@@ -95,6 +97,9 @@ class BasicWorld {
   /// Sets the quarantine of bodies with a non-finite state. Without it, Error (Run, or Value for a force law)
   /// ends the call; the step is then incomplete.
   void set_quarantine(bool on);
+  /// Throws Error (Value) for a number that is not finite.
+  void set_thresholds(const Thresholds& thresholds);
+  Thresholds thresholds() const;
   WorldCounts counts() const;
   /// Switches the stages' clocks on or off; on starts from zero. Not part of snapshots.
   void set_profiling(bool on);
@@ -169,6 +174,8 @@ class BasicWorld {
   void set_gravity_scale(BodyId body, double scale);
   void set_damping(BodyId body, double linear, double angular);
   void set_locks(BodyId body, bool x, bool y, bool rotation);
+  void set_continuous(BodyId body, bool on);  ///< see BodyDefinition::continuous
+  bool continuous(BodyId body) const;
   bool awake(BodyId body) const;
   void set_awake(BodyId body, bool awake);  ///< with its whole island
   void set_may_sleep(BodyId body, bool may_sleep);
@@ -235,6 +242,8 @@ class BasicWorld {
   void change(JointId joint, const JointKind& kind);  ///< new speeds, limits, targets; wakes the bodies
   JointReading read(JointId joint) const;
   JointDefinition definition(JointId joint) const;  ///< the present one
+  /// Sets the loads beyond which the joint is in `events().loaded`, N and N m; 0: never.
+  void set_load_events(JointId joint, double force, double torque);
   std::uint64_t user_data(JointId joint) const;
   void set_user_data(JointId joint, std::uint64_t data);
   std::pair<BodyId, BodyId> bodies(JointId joint) const;
@@ -242,6 +251,14 @@ class BasicWorld {
   /// Sets the hook that is called for contacts of shapes with `pre_solve`, before they are solved; false
   /// disables one in this step. An exception ends the step before anything has moved.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
+
+  /// Sets a filter of the game's own. It is asked about two shapes that come near each other and that their
+  /// filters let touch; false: they do not collide. It is asked again when one of them has moved on, or when
+  /// `set_filter` is called for one of them; contacts that exist stay. Sensors and queries do not ask it.
+  /// Like a combine rule, it is code: it must depend on the world's state alone, snapshots do not have it,
+  /// and recorded worlds cannot. An exception ends the step before anything has moved, except from continuous
+  /// collision.
+  void on_filter(std::function<bool(ShapeId, ShapeId)> filter);
 
   /// Returns the 64-bit FNV-1a hash of every body's state: equal on every platform for the same calls.
   std::uint64_t hash() const;

@@ -337,6 +337,15 @@ void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
   wake(index);
 }
 template <class Real>
+void BasicWorld<Real>::set_continuous(BodyId body, bool on) {
+  unlocked(*this);
+  plumb::set_continuous(*data_, place(body), on);
+}
+template <class Real>
+bool BasicWorld<Real>::continuous(BodyId body) const {
+  return data_->extras_of(place(body)).continuous;
+}
+template <class Real>
 void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   unlocked(*this);
   const int index = place(body);

@@ -59,12 +59,13 @@ struct BodyRecord {
 };
 static_assert(sizeof(BodyRecord<float>) == 64);
 
-/// Optional data of a body: name, damping, gravity scale.
+/// Optional data of a body: name, damping, gravity scale, continuous collision.
 template <class Real>
 struct BodyExtras {
   std::string name{};
   Real gravity_scale = 1, linear_damping = 0, angular_damping = 0;
   Vec2<Real> mass_centre{};  ///< m, in the body's frame, if its mass was given
+  bool continuous = true;
 };
 
 /// Force and torque that the user applies to a body until the end of the next step.
@@ -122,7 +123,8 @@ struct JointRecord {
   int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};
   int slot = 0;  ///< in the joint set
   bool collide = false, active = false;
-  double break_force = 0, break_torque = 0;  ///< N, N m; 0: unbreakable
+  double break_force = 0, break_torque = 0;    ///< N, N m; 0: unbreakable
+  double report_force = 0, report_torque = 0;  ///< N, N m; 0: never
   std::uint64_t user_data = 0;
 };
 
@@ -386,7 +388,7 @@ struct WorldData {
   JointSet<Real> joint_set;
 
   std::vector<SensorRecord> sensors;
-  std::vector<int> breakable;  ///< joints
+  std::vector<int> load_limits;  ///< joints that break, or report their load
   std::vector<QuarantinedBody> quarantine;
   Events events;   ///< of the last step
   Events pending;  ///< since then; reported with the next step
@@ -405,11 +407,16 @@ struct WorldData {
   /// this step.
   std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
 
+  /// Asked about pairs of shapes that come near each other; false: no contact.
+  std::function<bool(int shape_a, int shape_b)> filter;
+
   /// The user's own combine rules, instead of those of the settings.
   CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
 
   /// Returns true if the user's own code decides about coefficients: only the calling thread may call it.
   bool has_rules() const { return friction_rule != nullptr || restitution_rule != nullptr; }
+  /// Returns true if continuous collision may call the user's own code.
+  bool asks_user() const { return has_rules() || filter; }
   /// Returns the buffer for events that happen now.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }

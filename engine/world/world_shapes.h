@@ -240,8 +240,21 @@ std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
 template <class Real>
 JointDefinition BasicWorld<Real>::definition(JointId joint) const {
   const JointRecord& record = data_->joints[place(joint)];
-  return {data_->joint_set.definition(record.slot), record.collide, record.break_force, record.break_torque,
-          record.user_data};
+  return {data_->joint_set.definition(record.slot),
+          record.collide,
+          record.break_force,
+          record.break_torque,
+          record.user_data,
+          record.report_force,
+          record.report_torque};
+}
+template <class Real>
+void BasicWorld<Real>::set_load_events(JointId joint, double force, double torque) {
+  unlocked(*this);
+  const int index = place(joint);
+  require_not_negative("joint", "report_force", force);
+  require_not_negative("joint", "report_torque", torque);
+  plumb::set_load_events(*data_, index, force, torque);
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(JointId joint) const {

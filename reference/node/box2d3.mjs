@@ -16,8 +16,8 @@ function addShape(id, shape) {
   def.material.friction = shape.friction;
   def.material.restitution = shape.restitution;
   const { category, mask, group } = shape.filter;
-  def.filter.categoryBits = category;
-  def.filter.maskBits = mask;
+  def.filter.categoryBits = category >>> 0;
+  def.filter.maskBits = mask >>> 0;
   def.filter.groupIndex = group;
   if (shape.type === "circle") {
     const circle = new B.b2Circle();

@@ -60,6 +60,8 @@ HandleCalls<Real, BodyId> body_calls() {
       {"locks", [](T& t, BodyId id) { t.world.locks(id); }},
       {"user_data", [](T& t, BodyId id) { t.world.user_data(id); }},
       {"set_user_data", [](T& t, BodyId id) { t.world.set_user_data(id, 5); }},
+      {"set_continuous", [](T& t, BodyId id) { t.world.set_continuous(id, false); }},
+      {"continuous", [](T& t, BodyId id) { t.world.continuous(id); }},
       {"set_name", [](T& t, BodyId id) { t.world.set_name(id, "other"); }},
       {"set_enabled", [](T& t, BodyId id) { t.world.set_enabled(id, false); }},
       {"enabled", [](T& t, BodyId id) { t.world.enabled(id); }},
@@ -138,6 +140,7 @@ HandleCalls<Real, JointId> joint_calls() {
       {"definition", [](T& t, JointId id) { t.world.definition(id); }},
       {"user_data", [](T& t, JointId id) { t.world.user_data(id); }},
       {"set_user_data", [](T& t, JointId id) { t.world.set_user_data(id, 5); }},
+      {"set_load_events", [](T& t, JointId id) { t.world.set_load_events(id, 1, 1); }},
       {"bodies", [](T& t, JointId id) { t.world.bodies(id); }},
   };
 }

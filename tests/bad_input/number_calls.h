@@ -113,6 +113,11 @@ void add_force_calls(CallList<Real>& list) {
               [](T& t, double x) { t.world.set_damping(t.box, x, 0); });
   list.number("set_damping", "angular_damping", kNotNegative,
               [](T& t, double x) { t.world.set_damping(t.box, 0, x); });
+  list.subject = "joint";
+  list.number("set_load_events", "report_force", kNotNegative,
+              [](T& t, double x) { t.world.set_load_events(t.joint, x, 0); });
+  list.number("set_load_events", "report_torque", kNotNegative,
+              [](T& t, double x) { t.world.set_load_events(t.joint, 0, x); });
 }
 
 template <class Real>

@@ -102,7 +102,7 @@ FEATURES = [
             "rules.turn.add({.role = RowRole::Motor, .max_force = definition.max_force});", "world/solver/joint_set",
             "joints/kinds"),
     feature("Break at a force or torque", WORLD + "step/break_joints.cpp",
-            "double(w.joint_set.torque(record.slot, rate)) > record.break_torque", "false", "world/world"),
+            "exceeds(torque, record.break_torque)", "false", "world/world"),
     feature("Collision of joined bodies", WORLD + "state/contacts.cpp",
             "[](const JointRecord& joint) { return !joint.collide; }", "[](const JointRecord&) { return true; }",
             "world/world"),
@@ -146,6 +146,7 @@ FEATURES = [
             "overlap(w, shape, other)", "may_touch(w.shapes[shape].filter, w.shapes[other].filter)", "world/contacts"),
     feature("Category, mask, group", "engine/scene/scene.cpp",
             "if (a.group != 0 && a.group == b.group) return a.group > 0;", "", "world/contacts"),
+    feature("A filter of your own", WORLD + "state/contacts.h", "return !w.filter ||", "return true ||", "world/game_rules"),
 
     # Queries and movement.
     feature("Ray, shape cast, overlap, nearest, point", WORLD + "queries/queries.cpp",

@@ -280,6 +280,22 @@ TEST(SvgPicture, ShowsEveryRole) {
   EXPECT_EQ(count_of(picture, "inf"), 0u);
 }
 
+// Bounds around one of ten boxes leave out the other nine, whatever is drawn of them.
+TEST(DrawBounds, LeaveOutWhatLiesOutside) {
+  World world;
+  for (int i = 0; i < 10; ++i)
+    world.create_body({.name = "box", .position = {5.0 * i, 0}}, {.geometry = Box{1, 1}});
+  world.step();
+  DrawOptions options{.boxes = true, .centres = true, .names = true};
+  const std::size_t whole = log_of(world, options).items.size();
+  options.bounds = Aabb<double>{{14, -1}, {16, 1}};
+  const Log seen = log_of(world, options);
+  EXPECT_EQ(10 * seen.items.size(), whole);
+  EXPECT_EQ(seen.of("polygon", DrawRole::Awake).size(), 1u);
+  options.bounds = Aabb<double>{{100, 100}, {101, 101}};
+  EXPECT_TRUE(log_of(world, options).items.empty());
+}
+
 // y points down in a picture; the view has 3 % of its size around it.
 TEST(SvgPicture, HasItsYDown) {
   SvgDraw svg;

@@ -116,6 +116,7 @@ std::vector<Row<Real>> rows_of_body(BodyId Ids::*who, bool dynamic) {
       {"set_awake", [=](W& w, S& s) { w.set_awake(s.*who, true); }},
       {"release", [=](W& w, S& s) { w.release(s.*who); }},
       {"set_user_data", [=](W& w, S& s) { w.set_user_data(s.*who, 5); }},
+      {"set_continuous", [=](W& w, S& s) { w.set_continuous(s.*who, false); }},
       {"set_name", [=](W& w, S& s) { w.set_name(s.*who, "other"); }},
       {"set_enabled", [=](W& w, S& s) { w.set_enabled(s.*who, false); }},
       {"set_enabled",
@@ -184,6 +185,8 @@ std::vector<Row<Real>> rows_of_world() {
       {"set_profiling", [](W& w, S&) { w.set_profiling(false); }},
       {"set_threads", [](W& w, S&) { w.set_threads(2); }},
       {"set_task_system", [](W& w, S&) { w.set_task_system({}); }},
+      {"on_filter", [](W& w, S&) { w.on_filter([](ShapeId, ShapeId) { return false; }); }},
+      {"set_thresholds", [](W& w, S&) { w.set_thresholds({.sleep = 0.01}); }, true},
       {"on_pre_solve", [](W& w, S&) { w.on_pre_solve([](const ContactReading&) { return false; }); }},
       {"create_body",
        [=](W& w, S&) {
@@ -234,6 +237,7 @@ std::vector<Row<Real>> rows_of_world() {
          w.change(s.hinge, driven);
        }},
       {"change", [](W& w, S& s) { w.change(s.rod, DistanceDefinition{.length = 1.5}); }},
+      {"set_load_events", [](W& w, S& s) { w.set_load_events(s.rod, 1, 1); }},
   };
 }
 

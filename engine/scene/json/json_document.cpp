@@ -97,10 +97,15 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool boolean(bool value) override { return add(Kind::Boolean).number = value ? 1 : 0, true; }
   bool number_integer(number_integer_t value) override {
     // Only numbers with a sign get here, so this zero was "-0".
-    return add(Kind::Number).number = value == 0 ? -0.0 : static_cast<double>(value), true;
+    Node& node = add(Kind::Number);
+    node.number = value == 0 ? -0.0 : static_cast<double>(value);
+    node.bits = static_cast<std::uint64_t>(value);
+    return true;
   }
   bool number_unsigned(number_unsigned_t value) override {
-    return add(Kind::Number).number = static_cast<double>(value), true;
+    Node& node = add(Kind::Number);
+    node.number = static_cast<double>(value), node.bits = value;
+    return true;
   }
   bool number_float(number_float_t value, const string_t&) override {
     return add(Kind::Number).number = value, true;

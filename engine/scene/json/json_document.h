@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ struct Node {
   std::string key{};   ///< empty outside objects
   std::string text{};  ///< of a string
   double number = 0;   ///< of a number; 0 or 1 of a boolean
+  std::uint64_t bits = 0;  ///< of a whole number that was written without a fraction: exact, two's complement
   std::vector<Node> items{};  ///< of an array or object, in the order of the text
 
   /// Returns the member called `name`, or nullptr.

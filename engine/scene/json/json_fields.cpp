@@ -113,9 +113,20 @@ void Fields::read(std::string_view key, Vec2d& out) const {
   if (has(key)) out = vector(required(key));
 }
 
-void Fields::read(std::string_view key, std::uint32_t& out) const {
-  constexpr double kHighest = std::numeric_limits<std::uint32_t>::max();
-  if (has(key)) out = static_cast<std::uint32_t>(integer(required(key), 0, kHighest));
+void Fields::read(std::string_view key, std::uint64_t& out) const {
+  if (!has(key)) return;
+  const View view = required(key);
+  const double value = number(view);
+  if (value == 0 || view.node().bits != 0) {
+    out = view.node().bits;
+    return;
+  }
+  // Written with a fraction or an exponent, as 4.0 or 1e3.
+  constexpr double kLowest = -9223372036854775808.0, kEnd = 18446744073709551616.0;
+  if (!(value >= kLowest && value < kEnd) || value != std::floor(value))
+    view.fail(Error::Kind::Value, "must be a whole number from -2^63 to 2^64 - 1");
+  out = value < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
+                  : static_cast<std::uint64_t>(value);
 }
 
 void Fields::read(std::string_view key, std::int32_t& out) const {

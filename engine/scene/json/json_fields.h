@@ -67,7 +67,8 @@ class Fields {
   void read(std::string_view key, bool& out) const;
   void read(std::string_view key, std::string& out) const;
   void read(std::string_view key, Vec2d& out) const;
-  void read(std::string_view key, std::uint32_t& out) const;
+  /// Reads 64 bits as a whole number; a negative one stands for its two's complement.
+  void read(std::string_view key, std::uint64_t& out) const;
   void read(std::string_view key, std::int32_t& out) const;
 
   template <class Enum, std::size_t kCount>

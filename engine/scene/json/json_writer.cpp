@@ -105,8 +105,9 @@ class Writer {
     if (shape.density) write("density", *shape.density);
     out_.key("filter");
     out_.begin('{', Emitter::Layout::Inline);
-    out_.key("category"), out_.integer(shape.filter.category);
-    out_.key("mask"), out_.integer(shape.filter.mask);
+    // Signed, so that all bits are -1: readers with doubles would round 2^64 - 1.
+    out_.key("category"), out_.integer(static_cast<std::int64_t>(shape.filter.category));
+    out_.key("mask"), out_.integer(static_cast<std::int64_t>(shape.filter.mask));
     out_.key("group"), out_.integer(shape.filter.group);
     out_.end('}');
     out_.end('}');

@@ -38,7 +38,7 @@ struct ContactBlock {
   Watch watched;                  ///< the most of any
   bool bounces;                   ///< at least one has restitution
   bool rolls;                     ///< all have rolling resistance
-  Number rolling_arm, rolling_impulse, peak_impulse[2];
+  Number rolling_arm, rolling_impulse, peak_impulse[2], step_impulse;
   Constraint* contact[kLanes];
 };
 
@@ -114,6 +114,11 @@ template <class Number, class Real>
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
   if (block.watched != Watch::Off || block.rolls)
     rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  if (block.watched == Watch::Off) return;
+  // A block with restitution is read again in each substep, with the step's sum so far.
+  Real sums[Block::kLanes];
+  for (int i = 0; i < Block::kLanes; ++i) sums[i] = block.contact[i]->step_impulse;
+  block.step_impulse = Number::load(sums);
 }
 
 /// Writes the results of a block back to its contacts.
@@ -131,13 +136,14 @@ template <class Number>
   rows.store(offsetof(Constraint, now), offsetof(Block, now));
   rows.store(kLast, kLastRow);
   if (block.watched == Watch::Off && !block.rolls) return;
-  Real rolling[Block::kLanes], peaks[2][Block::kLanes];
+  Real rolling[Block::kLanes], peaks[2][Block::kLanes], sums[Block::kLanes];
   block.rolling_impulse.store(rolling), block.peak_impulse[0].store(peaks[0]),
-      block.peak_impulse[1].store(peaks[1]);
+      block.peak_impulse[1].store(peaks[1]), block.step_impulse.store(sums);
   for (int i = 0; i < Block::kLanes; ++i) {
     Constraint& c = *block.contact[i];
     if (block.rolls) c.rolling_impulse = rolling[i];
-    if (c.watched != Watch::Off) c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i];
+    if (c.watched == Watch::Off) continue;
+    c.peak_impulse[0] = peaks[0][i], c.peak_impulse[1] = peaks[1][i], c.step_impulse = sums[i];
   }
 }
 

@@ -49,8 +49,8 @@ struct ContactConstraint {
   ContactHardness hardness = ContactHardness::Soft;
   std::uint8_t count = 0;  ///< points in use
   bool touching = false;   ///< as found at the start of a step; events may have reported it earlier
-  /// Why approach and peaks are recorded. The motion reads them only where it is itself the reason: a flag
-  /// that asks for reports changes no motion.
+  /// Why approach, peaks and the step's sum are recorded. The motion reads them only where it is itself the
+  /// reason: a flag that asks for reports changes no motion.
   Watch watched = Watch::Off;
 
   // Data that the solver's passes do not need.
@@ -58,6 +58,7 @@ struct ContactConstraint {
   Real rolling_arm = 0;       ///< m: the rolling resistance torque is this times the normal force
   Real rolling_impulse = 0;   ///< N m s, of the last substep
   Real peak_impulse[2] = {};  ///< N s, largest normal impulse of the substeps
+  Real step_impulse = 0;      ///< N s, sum of the normal impulses of the step, if it is watched
   Real approach[2] = {};      ///< m/s, velocity along n at the start of the step, or at impact
   Real recycle_budget = 0;    ///< m, relative motion left until the manifold is rebuilt
   int contact = 0;            ///< index of its record

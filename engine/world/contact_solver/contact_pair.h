@@ -109,6 +109,12 @@ template <class Pair, class Contact, class Number>
   pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);
 }
 
+/// Returns the normal impulse of both points, N s; that of a point without use is 0.
+template <class Contact>
+[[gnu::always_inline]] inline auto normal_sum(const Contact& c) {
+  return c.normal_impulse[0] + c.normal_impulse[1];
+}
+
 /// Records the largest impulses of a step.
 template <class Contact>
 [[gnu::always_inline]] inline void note_peaks(Contact& c) {

@@ -69,11 +69,6 @@ template <class Number, class Pair, class Contact, class Real>
   return {max(s, Number(0)) * inverse_h, 1, 0};
 }
 
-template <class Contact>
-[[gnu::always_inline]] inline auto normal_sum(const Contact& c) {
-  return c.normal_impulse[0] + c.normal_impulse[1];
-}
-
 /// Coulomb: |lambda_t| <= mu lambda_n.
 template <class Number, class Pair, class Contact>
 [[gnu::always_inline]] inline void rub_within_bound(Pair& pair, Contact& c, const Number& tangent_mass) {
@@ -149,6 +144,7 @@ template <class Number, class Pair, class Contact, class Real>
   if (const auto fresh = change * change > before * before + some * some; any(fresh)) [[unlikely]]
     begin_friction<Number, Real>(pair, c, fresh, at_p, at_q);
   const Number pressure = normal_sum(c);
+  if (c.watched != Watch::Off) c.step_impulse += pressure;
   if (rolls(c)) {
     const Number inverse_spin_mass = pair.a.inverse_inertia + pair.b.inverse_inertia;
     const Number spin_mass = select(inverse_spin_mass > Number(0), Number(1 / inverse_spin_mass), Number(0));

@@ -372,6 +372,7 @@ void note_impact(const StruckPoint<Real>& at) {
   ContactConstraint<Real>& c = *at.bounce->contact;
   note_approach(c, at.point, at.before);
   c.peak_impulse[at.point] = std::max(c.peak_impulse[at.point], at.impulse);
+  c.step_impulse += at.impulse;
   at.bounce->strikes[at.point] = false;
 }
 

@@ -137,7 +137,7 @@ void look_back(WorldData<Real>& w, int place, double from, ImpactSearch& search)
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
     w.dynamic_tree.query(convex_bounds(w.convex(shape), pose), mask, [&](int other, int) {
-      if (flight_in(w, w.shapes[other].body) != nullptr && may_collide(w, shape, other))
+      if (flight_in(w, w.shapes[other].body) != nullptr && may_meet(w, shape, other))
         pairs.emplace_back(shape, other);
       return true;
     });
@@ -416,7 +416,7 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.shapes[shape].proxy == kNone || w.forms[shape].sensor || mask == 0) continue;
     w.dynamic_tree.query(swept, mask, [&](int other, int) {
-      if (may_collide(w, shape, other)) pairs.emplace_back(other, shape);
+      if (may_meet(w, shape, other)) pairs.emplace_back(other, shape);
       return true;
     });
   }
@@ -529,7 +529,7 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
   bool all_covered = true;
   for (const FastBody& fast : w.scratch.fast_bodies) {
-    if (!w.settings.continuous && !fast.expected) continue;
+    if (!(w.settings.continuous && w.extras_of(fast.body).continuous) && !fast.expected) continue;
     all_covered = all_covered && fast.covered;
     if (!w.crew.shares()) {
       SweptBody& flight = swept_bodies[flight_place(w, fast.body, dt)];

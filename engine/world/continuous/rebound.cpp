@@ -126,16 +126,15 @@ void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConst
   });
   if (id != kNone && !thrown_apart) {
     set_touching(w, id, true);
-    if (w.contacts[id].home == ContactHome::Graph) constraint_of(w, w.contacts[id]).touching = true;
   } else if (id == kNone || !w.contacts[id].touching) {
     w.log().begin.push_back({reading.shape_a, reading.shape_b});
     w.log().end.push_back({reading.shape_a, reading.shape_b});
   }
-  const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
   const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
-  if (!contact.hit_events || c.approach[hardest] > -least) return;
+  if (!contact.hit_events || c.approach[hardest] > -least_hit_speed(w, c)) return;
   w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
-                          -static_cast<double>(c.approach[hardest])});
+                          -static_cast<double>(c.approach[hardest]),
+                          static_cast<double>(c.normal_impulse[0] + c.normal_impulse[1])});
 }
 
 }  // namespace
@@ -206,7 +205,7 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
   // The sleep timer was updated with the velocity from before the impact.
   BodyRecord<Real>& record = w.bodies[flight.body];
-  if (!is_still(record, motion, w.extents[flight.body])) record.sleep_time = 0;
+  if (!is_still(w, record, motion, w.extents[flight.body])) record.sleep_time = 0;
 }
 
 #define PLUMB_FOR(Real)                                                                      \

@@ -105,7 +105,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
     if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
-      if (!may_collide(w, shape, other) || go_together(w, way.flight, other_body)) return true;
+      if (!may_meet(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
       push_toi_event(w, way, {shape, other, in_contact ? constraint_between(w, shape, other) : nullptr},
                      first);

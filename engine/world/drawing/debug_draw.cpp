@@ -21,13 +21,14 @@ class Drawing {
 
   void draw() const {
     for_each_used(w_.bodies, [&](int body) {
-      if (options_.shapes) draw_shapes(body);
+      if (options_.shapes && shows(body)) draw_shapes(body);
     });
     if (options_.boxes) draw_boxes();
     if (options_.joints) for_each_used(w_.joints, [&](int joint) { draw_joint(joint); });
     if (options_.contacts || options_.normals || options_.impulses)
       for_each_used(w_.contacts, [&](int contact) { draw_contact(w_.contacts[contact]); });
     for_each_used(w_.bodies, [&](int body) {
+      if (!shows(body)) return;
       if (options_.centres) draw_centre(body);
       if (options_.names && !w_.extras_of(body).name.empty())
         out_.text(centre(body), w_.extras_of(body).name, DrawRole::Name);
@@ -40,6 +41,24 @@ class Drawing {
     for (int i = 0; i < items.size(); ++i) {
       if (items.used(i)) visit(i);
     }
+  }
+
+  // Returns true if the bounds overlap a box.
+  bool shows(const Aabb<double>& box) const { return !options_.bounds || options_.bounds->overlaps(box); }
+  // Returns true if the bounds may overlap a body, at any angle.
+  bool shows(int body) const {
+    const double reach = static_cast<double>(w_.extents[body]);
+    const Vec2d middle = centre(body), size{reach, reach};
+    return shows(Aabb<double>{middle - size, middle + size});
+  }
+  // Returns true if the bounds may overlap a shape. Boxes are those after the step, so between two steps only
+  // the body's size tells.
+  bool shows_shape(int shape) const {
+    if (!options_.bounds) return true;
+    const Aabb<Real>& box = w_.boxes[shape];
+    return fraction_ == 1
+               ? shows(Aabb<double>{box.lower.template as<double>(), box.upper.template as<double>()})
+               : shows(w_.shapes[shape].body);
   }
 
   Pose<double> pose(int body) const { return before_.between(w_, body, fraction_); }
@@ -64,6 +83,7 @@ class Drawing {
   void draw_shapes(int body) const {
     const Pose<double> place = pose(body);
     for (int shape = w_.bodies[body].first_shape; shape != kNone; shape = w_.shapes[shape].next) {
+      if (!shows_shape(shape)) continue;
       const Convex<Real> convex = w_.convex(shape);
       const double radius = static_cast<double>(convex.radius);
       const DrawRole role = role_of(body, shape);
@@ -84,7 +104,7 @@ class Drawing {
 
   void draw_boxes() const {
     for_each_used(w_.shapes, [&](int shape) {
-      if (w_.shapes[shape].proxy == kNone) return;
+      if (w_.shapes[shape].proxy == kNone || !shows_shape(shape)) return;
       const Aabb<Real>& box = w_.boxes[shape];
       const Vec2d a = box.lower.template as<double>(), b = box.upper.template as<double>();
       const Vec2d corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};
@@ -95,6 +115,7 @@ class Drawing {
   void draw_contact(const ContactRecord& contact) const {
     const bool parked = contact.home == ContactHome::Parked;
     if (!parked && contact.home != ContactHome::Graph) return;
+    if (!shows_shape(contact.shape_a) && !shows_shape(contact.shape_b)) return;
     const ContactConstraint<Real>& constraint =
         parked ? w_.parked[contact.index] : w_.graph.at({contact.colour, contact.index});
     const ContactReading reading = reading_of(w_, contact, constraint);
@@ -124,6 +145,11 @@ class Drawing {
     Vec2d a{}, b{};
   };
 
+  static Aabb<double> box_of(const Ends& ends) {
+    return {{std::min(ends.a.x, ends.b.x), std::min(ends.a.y, ends.b.y)},
+            {std::max(ends.a.x, ends.b.x), std::max(ends.a.y, ends.b.y)}};
+  }
+
   Ends ends_of(int a, int b, const JointKind& kind) const {
     Ends ends{centre(a), centre(b)};
     std::visit(
@@ -142,6 +168,7 @@ class Drawing {
     const int a = record.body_a, b = record.body_b;
     const JointKind& kind = w_.joint_set.definition(record.slot);
     const Ends ends = ends_of(a, b, kind);
+    if (!shows(box_of(ends)) && !shows(a) && !shows(b)) return;
     out_.point(ends.a, DrawRole::JointLine), out_.point(ends.b, DrawRole::JointLine);
     if (const auto* pulley = std::get_if<PulleyDefinition>(&kind)) {
       draw_pulleys(out_, ends.a, pulley->ground_a, pulley->ground_b, ends.b, DrawRole::JointLine);

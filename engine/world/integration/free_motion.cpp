@@ -276,6 +276,7 @@ Vec2d free_acceleration(const WorldData<Real>& w, int body) {
 
 template <class Real>
 Real bounce_threshold(const WorldData<Real>& w, double dt) {
+  if (w.settings.thresholds.bounce >= 0) return static_cast<Real>(w.settings.thresholds.bounce);
   return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
 }
 

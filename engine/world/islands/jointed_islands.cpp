@@ -396,6 +396,9 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
     if (!island.solved) continue;
+    // These impulses replace those of the pass over all contacts.
+    for (ContactConstraint<Real>* c : island.contacts)
+      if (c->watched != Watch::Off) c->step_impulse -= normal_sum(*c);
     if (close) close_gaps(w, island, step);
     RowMaker<Real>(w, island, step, Stage::Relax).make();
     solve(island, false);
@@ -404,7 +407,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
       put_velocity(w.motion[island.links[k].body], body.velocity, body.spin);
     }
     for (ContactConstraint<Real>* c : island.contacts)
-      if (c->watched != Watch::Off) note_peaks(*c);
+      if (c->watched != Watch::Off) note_peaks(*c), c->step_impulse += normal_sum(*c);
   }
 }
 

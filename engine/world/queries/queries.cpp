@@ -84,8 +84,8 @@ void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const Quer
     going = !sees(w, shape, filter) || visit(shape);
     return going;
   };
-  w.static_tree.query(rounded, filter.mask, visit_leaf);
-  if (going) w.dynamic_tree.query(rounded, filter.mask, visit_leaf);
+  w.static_tree.query(rounded, folded(filter.mask), visit_leaf);
+  if (going) w.dynamic_tree.query(rounded, folded(filter.mask), visit_leaf);
 }
 
 // Sweeps a box around `start` by `translation`. Calls visit(shape, limit) -> new limit for shapes whose fat
@@ -100,9 +100,11 @@ void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, V
     if (sees(w, shape, filter)) limit = std::min(limit, visit(shape, limit));
     return limit > 0 ? rounded_up<Real>(limit) : Real(0);
   };
-  w.static_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
+  w.static_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, folded(filter.mask),
+                         visit_leaf);
   if (!(limit > 0)) return;
-  w.dynamic_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, filter.mask, visit_leaf);
+  w.dynamic_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, folded(filter.mask),
+                          visit_leaf);
 }
 
 // Keeps the first hit: smallest fraction, then smallest shape index.
@@ -368,8 +370,8 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
     return rounded_up<Real>(limit + 2 * slack);
   };
   const Vec2<Real> from = point.as<Real>();
-  w.static_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
-  w.dynamic_tree.nearest(from, filter.mask, rounded_up<Real>(limit + 2 * slack), visit_leaf);
+  w.static_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * slack), visit_leaf);
+  w.dynamic_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * slack), visit_leaf);
   return best;
 }
 

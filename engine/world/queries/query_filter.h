@@ -64,11 +64,11 @@ class ShapeCondition {
 /// Filter of a query: it sees shapes with a category in its mask, if their mask has one of its categories. By
 /// default all shapes except sensors and those with an empty mask.
 struct QueryFilter {
-  std::uint32_t category = 0xFFFFFFFFu;  ///< categories of the query
-  std::uint32_t mask = 0xFFFFFFFFu;      ///< categories that it looks for
-  bool sensors = false;                  ///< true: includes sensors
-  BodyId ignore{};                       ///< a body to skip
-  ShapeCondition condition{};            ///< tested last; must not change the world, whose calls then throw
+  std::uint64_t category = ~std::uint64_t{0};  ///< categories of the query
+  std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it looks for
+  bool sensors = false;                        ///< true: includes sensors
+  BodyId ignore{};                             ///< a body to skip
+  ShapeCondition condition{};  ///< tested last; must not change the world, whose calls then throw
 };
 
 }  // namespace plumb

@@ -17,7 +17,8 @@ PLUMB_MEMBERS(ShapeDefinition, geometry, position, angle, density, material, fil
 PLUMB_MEMBERS(ChainDefinition, points, closed, material, filter, sensor, hit_events, pre_solve, user_data)
 PLUMB_MEMBERS(MassProperties, mass, centre, inertia)
 PLUMB_MEMBERS(BodyDefinition, name, type, position, angle, velocity, angular_velocity, mass, gravity_scale,
-              linear_damping, angular_damping, lock_x, lock_y, lock_rotation, may_sleep, awake, user_data)
+              linear_damping, angular_damping, lock_x, lock_y, lock_rotation, may_sleep, awake, user_data,
+              continuous)
 
 PLUMB_MEMBERS(Spring, hertz, damping_ratio)
 PLUMB_MEMBERS(Range, lower, upper)
@@ -34,6 +35,7 @@ PLUMB_MEMBERS(GearDefinition, ratio, phase)
 PLUMB_MEMBERS(PulleyDefinition, ground_a, ground_b, anchor_a, anchor_b, ratio, length)
 PLUMB_MEMBERS(RatchetDefinition, tooth, phase)
 PLUMB_MEMBERS(FrictionDefinition, anchor_a, anchor_b, max_force, max_torque)
-PLUMB_MEMBERS(JointDefinition, kind, collide, break_force, break_torque, user_data)
+PLUMB_MEMBERS(JointDefinition, kind, collide, break_force, break_torque, user_data, report_force,
+              report_torque)
 
 }  // namespace plumb

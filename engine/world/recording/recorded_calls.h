@@ -57,7 +57,10 @@ namespace plumb {
   X(SetDensity, set_density, void, ShapeId, double)                                           \
   X(SetSensor, set_sensor, void, ShapeId, bool)                                               \
   X(SetHitEvents, set_hit_events, void, ShapeId, bool)                                        \
-  X(SetShapePreSolve, set_pre_solve, void, ShapeId, bool)
+  X(SetShapePreSolve, set_pre_solve, void, ShapeId, bool)                                     \
+  X(SetBodyContinuous, set_continuous, void, BodyId, bool)                                    \
+  X(SetLoadEvents, set_load_events, void, JointId, double, double)                            \
+  X(SetThresholds, set_thresholds, void, const Thresholds&)
 
 enum class WorldCall : std::uint8_t {
 #define PLUMB_NAME(id, name, result, ...) id,

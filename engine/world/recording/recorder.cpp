@@ -279,6 +279,18 @@ void RecordedWorld<Real>::set_user_data(JointId joint, std::uint64_t data) {
   call<WorldCall::SetJointData>(joint, data);
 }
 template <class Real>
+void RecordedWorld<Real>::set_continuous(BodyId body, bool on) {
+  call<WorldCall::SetBodyContinuous>(body, on);
+}
+template <class Real>
+void RecordedWorld<Real>::set_load_events(JointId joint, double force, double torque) {
+  call<WorldCall::SetLoadEvents>(joint, force, torque);
+}
+template <class Real>
+void RecordedWorld<Real>::set_thresholds(const Thresholds& thresholds) {
+  call<WorldCall::SetThresholds>(thresholds);
+}
+template <class Real>
 void RecordedWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
   call<WorldCall::SetFilter>(shape, filter);
 }

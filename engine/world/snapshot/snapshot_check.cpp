@@ -243,7 +243,7 @@ class Check {
   bool has_body(int body) const { return body >= 0 && body < w_.bodies.size() && w_.bodies.used(body); }
   bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
 
-  // Lists of shapes and joints: chains, sensors, moved shapes, breakable joints.
+  // Lists of shapes and joints: chains, sensors, moved shapes, joints with limits of their loads.
   void lists() const {
     Marks in_chain(w_.shapes.size());
     int segments = 0, sensors = 0;
@@ -260,7 +260,7 @@ class Check {
       if (w_.forms[shape].sensor) ++sensors;
     }
     require(in_chain.count() == segments, "chains", "do not list all their segments");
-    Marks sensed(w_.shapes.size()), breakable(w_.joints.size());
+    Marks sensed(w_.shapes.size()), limited(w_.joints.size());
     for (const SensorRecord& sensor : w_.sensors) {
       require(has_shape(sensor.shape) && w_.forms[sensor.shape].sensor && sensed.mark(sensor.shape),
               "sensors", "are not shapes that sense");
@@ -269,8 +269,8 @@ class Check {
     for (const int shape : w_.move_buffer) {
       require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
     }
-    for (const int joint : w_.breakable) {
-      require(has_joint(joint) && breakable.mark(joint), "joints", "may break that are not there");
+    for (const int joint : w_.load_limits) {
+      require(has_joint(joint) && limited.mark(joint), "joints", "have limits that are not there");
     }
   }
 

@@ -25,6 +25,8 @@ inline constexpr int kEnumerators<BadField> = 7;
 
 PLUMB_REAL_MEMBERS(Handle, index, generation)
 
+PLUMB_MEMBERS(Thresholds, hit, bounce, sleep)
+
 /// Without the number of threads: whoever goes on with a world has threads of his own.
 template <>
 struct Members<WorldDefinition> {
@@ -32,12 +34,12 @@ struct Members<WorldDefinition> {
       kStruct = "WorldDefinition",
       kNames =
           "gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator, "
-          "iterations, direct_islands, quarantine";
+          "iterations, direct_islands, quarantine, thresholds";
   static constexpr auto of(auto& it) {
     auto& [gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
-           iterations, direct_islands, quarantine, threads] = it;
+           iterations, direct_islands, quarantine, threads, thresholds] = it;
     return std::tie(gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
-                    iterations, direct_islands, quarantine);
+                    iterations, direct_islands, quarantine, thresholds);
   }
 };
 PLUMB_MEMBERS(Filter, category, mask, group)
@@ -45,7 +47,7 @@ PLUMB_MEMBERS(Filter, category, mask, group)
 PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rotation, mass_given, quarantined,
                    awake_index, first_shape, first_contact, first_joint, constraints, uncommon, mass, inertia,
                    centre, half_width, sleep_time, angle)
-PLUMB_REAL_MEMBERS(BodyExtras, name, gravity_scale, linear_damping, angular_damping, mass_centre)
+PLUMB_REAL_MEMBERS(BodyExtras, name, gravity_scale, linear_damping, angular_damping, mass_centre, continuous)
 PLUMB_REAL_MEMBERS(Load, force, torque)
 PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
 
@@ -61,34 +63,36 @@ PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent
                    separation, now, normal_impulse, load_estimate, tangent_impulse, mass, inverse_pp,
                    inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
                    hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
-                   peak_impulse, approach, recycle_budget, contact, features)
+                   peak_impulse, step_impulse, approach, recycle_budget, contact, features)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
-              user_data)
+              report_force, report_torque, user_data)
 
 PLUMB_MEMBERS(TouchEvent, shape_a, shape_b)
-PLUMB_MEMBERS(HitEvent, shape_a, shape_b, point, normal, speed)
+PLUMB_MEMBERS(HitEvent, shape_a, shape_b, point, normal, speed, impulse)
 PLUMB_MEMBERS(SensorEvent, sensor, visitor)
 PLUMB_MEMBERS(JointEvent, joint)
+PLUMB_MEMBERS(JointLoadEvent, joint, force, torque)
 PLUMB_MEMBERS(QuarantineEvent, body, name, field, value, step)
 PLUMB_MEMBERS(QuarantinedBody, body, type, why)
-PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, fell_asleep, woke, quarantined)
+PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded, fell_asleep, woke,
+              quarantined)
 
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
-/// references. It excludes the pre-solve hook and the user's combine rules, which are code, the profile, the
-/// threads, and scratch data. A new member of WorldData must be named here, and returned unless it is one of
-/// those.
+/// references. It excludes the pre-solve hook, the user's filter and combine rules, which are code, the
+/// profile, the threads, and scratch data. A new member of WorldData must be named here, and returned unless
+/// it is one of those.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
          position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
          shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near, graph, parked,
-         joints, joint_set, sensors, breakable, quarantine, events, pending, stepping, profiled, profile,
-         crew, callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, friction_rule,
+         joints, joint_set, sensors, load_limits, quarantine, events, pending, stepping, profiled, profile,
+         crew, callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, filter, friction_rule,
          restitution_rule] = w;
   return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
                   position, position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes,
                   corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near,
-                  graph, parked, joints, joint_set, sensors, breakable, quarantine, events, pending,
+                  graph, parked, joints, joint_set, sensors, load_limits, quarantine, events, pending,
                   reports_hits);
 }
 

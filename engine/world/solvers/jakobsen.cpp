@@ -29,6 +29,7 @@ void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
       enforce_motion_locks(w);
     }
     restore_bounces(bodies.motion, w.graph, contacts);
+    add_step_impulses(w);
   }
 }
 

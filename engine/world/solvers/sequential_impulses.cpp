@@ -38,6 +38,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
     feed_back_errors(w, closing);
     integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
     stop_arrivals(bodies.motion, w.graph, contacts);
+    add_step_impulses(w);
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
     contacts.warm_start = 1;
   }

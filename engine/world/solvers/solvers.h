@@ -6,6 +6,14 @@
 /// `h`, and leaves the last impulses in contacts and joints.
 namespace plumb {
 
+/// Adds the normal impulses of a substep to the step's sums of the contacts that record them.
+template <class Real>
+void add_step_impulses(WorldData<Real>& w) {
+  w.graph.for_each([](ContactConstraint<Real>& c) {
+    if (c.watched != Watch::Off) c.step_impulse += c.normal_impulse[0] + c.normal_impulse[1];
+  });
+}
+
 /// Soft constraints (Catto, 2024); with Solver::Direct, a direct solve of articulated islands.
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps);

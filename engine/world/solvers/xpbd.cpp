@@ -27,6 +27,7 @@ void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
     project_contacts(bodies.motion, rotation, w.graph, contacts, PositionFriction::Static);
     enforce_motion_locks(w);
     correct_contact_velocities(bodies.motion, w.graph, contacts);
+    add_step_impulses(w);
   }
 }
 

@@ -43,7 +43,7 @@ void clear_place(WorldData<Real>& w, int body) {
 template <class Real>
 bool is_uncommon(const BodyExtras<Real>& own) {
   return !own.name.empty() || own.gravity_scale != 1 || own.linear_damping != 0 || own.angular_damping != 0 ||
-         own.mass_centre != Vec2<Real>{};
+         own.mass_centre != Vec2<Real>{} || !own.continuous;
 }
 
 // Reserves memory for a body's shapes in a tree and in the move buffer.
@@ -102,6 +102,7 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
                        static_cast<Real>(definition.linear_damping),
                        static_cast<Real>(definition.angular_damping)};
   if (definition.mass) own.mass_centre = definition.mass->centre.as<Real>();
+  own.continuous = definition.continuous;
   make_place(w, definition.user_data != 0);
   make_room_for<Real>(w, definition.type, made);
   make_room_to_recentre<Real>(w, made);
@@ -182,6 +183,11 @@ void set_damping(WorldData<Real>& w, int body, double linear, double angular) {
 }
 
 template <class Real>
+void set_continuous(WorldData<Real>& w, int body, bool on) {
+  if (w.extras_of(body).continuous != on) make_uncommon(w, body).continuous = on;
+}
+
+template <class Real>
 void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
   make_room_to_enter(w, body, w.bodies[body].type);
   wake_neighbours(w, body);
@@ -234,6 +240,7 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   template Vec2d origin_of(const WorldData<Real>&, int);                                            \
   template void set_gravity_scale(WorldData<Real>&, int, double);                                   \
   template void set_damping(WorldData<Real>&, int, double, double);                                 \
+  template void set_continuous(WorldData<Real>&, int, bool);                                        \
   template void place_body(WorldData<Real>&, int, Vec2d, double);                                   \
   template void set_type(WorldData<Real>&, int, BodyType);
 PLUMB_FOR(float)

@@ -21,11 +21,17 @@ void set_gravity_scale(WorldData<Real>& w, int body, double scale);
 /// Sets the rates of decay, 1/s.
 template <class Real>
 void set_damping(WorldData<Real>& w, int body, double linear, double angular);
+template <class Real>
+void set_continuous(WorldData<Real>& w, int body, bool on);
 /// Teleports the body's origin, and wakes bodies that touched it or are joined to it.
 template <class Real>
 void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
+
+/// Sets the loads from which a joint reports, N and N m; 0: never.
+template <class Real>
+void set_load_events(WorldData<Real>& w, int joint, double force, double torque);
 
 /// Returns the body's optional data, and allocates it if there is none yet.
 template <class Real>

@@ -238,14 +238,14 @@ void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
 
 template <class Real>
 void destroy_forbidden_contacts(WorldData<Real>& w, int shape) {
-  for_each_edge(w.contacts, w.bodies[w.shapes[shape].body].first_contact,
-                [&](int edge, const ContactRecord& contact) {
-                  if (contact.shape_a != shape && contact.shape_b != shape) return;
-                  const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
-                  if (contact.home == ContactHome::Parked) wake_body(w, other);
-                  if (!may_touch(w.shapes[contact.shape_a].filter, w.shapes[contact.shape_b].filter))
-                    destroy_contact(w, edge / 2);
-                });
+  for_each_edge(
+      w.contacts, w.bodies[w.shapes[shape].body].first_contact, [&](int edge, const ContactRecord& contact) {
+        if (contact.shape_a != shape && contact.shape_b != shape) return;
+        const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+        if (contact.home == ContactHome::Parked) wake_body(w, other);
+        if (!may_touch(w.shapes[contact.shape_a].filter, w.shapes[contact.shape_b].filter) || w.filter)
+          destroy_contact(w, edge / 2);
+      });
 }
 
 template <class Real>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "engine/world/world_data.h"
 
 /// Lifecycle of a contact. It is created when the fat AABBs of two shapes overlap, and destroyed when they
@@ -10,8 +12,23 @@ namespace plumb {
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
-/// Returns the categories to query for a shape's AABB: all if it has a group, which may overrule the mask.
-inline std::uint32_t seen_by(const Filter& filter) { return filter.group != 0 ? 0xFFFFFFFFu : filter.mask; }
+/// Asks the user's filter about a pair that may collide; only the calling thread may. Returns true without
+/// one.
+template <class Real>
+bool is_let_through(const WorldData<Real>& w, int shape_a, int shape_b) {
+  return !w.filter || w.filter(std::min(shape_a, shape_b), std::max(shape_a, shape_b));
+}
+/// Returns true if the two shapes may collide, by the user's filter too.
+template <class Real>
+bool may_meet(const WorldData<Real>& w, int shape_a, int shape_b) {
+  return may_collide(w, shape_a, shape_b) && is_let_through(w, shape_a, shape_b);
+}
+
+/// Returns the categories to query for a shape's AABB, folded: all if it has a group, which may overrule the
+/// mask.
+inline std::uint32_t seen_by(const Filter& filter) {
+  return filter.group != 0 ? 0xFFFFFFFFu : folded(filter.mask);
+}
 /// Returns true if a contact has points, which the solver has or had.
 inline bool has_points(const ContactRecord& contact) {
   return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
@@ -68,7 +85,8 @@ void invalidate_manifolds(WorldData<Real>& w, int body);
 template <class Real>
 void destroy_contacts_of(WorldData<Real>& w, int body, int shape = kNone);
 
-/// Destroys the contacts that a shape's new filter forbids. Wakes sleeping bodies that touch the shape.
+/// Destroys the contacts that a shape's new filter forbids, or about which the user's filter is to be asked
+/// again. Wakes sleeping bodies that touch the shape.
 template <class Real>
 void destroy_forbidden_contacts(WorldData<Real>& w, int shape);
 

@@ -4,6 +4,7 @@
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/sleeping.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace plumb {
@@ -16,7 +17,7 @@ void take_out_joint(WorldData<Real>& w, int joint) {
   w.joint_set.remove(record.slot);  // the only call that may run out of memory
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
-  std::erase(w.breakable, joint);
+  std::erase(w.load_limits, joint);
   w.joints.remove(joint);
 }
 
@@ -36,9 +37,10 @@ template <class Real>
 int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
   assert(w.bodies.used(body_a) && w.bodies.used(body_b));
   // First do everything that may refuse the definition or run out of memory.
-  const bool breaks = definition.break_force > 0 || definition.break_torque > 0;
+  const bool limited = definition.break_force > 0 || definition.break_torque > 0 ||
+                       definition.report_force > 0 || definition.report_torque > 0;
   w.joints.make_room(1);
-  ensure_room(w.breakable, w.breakable.size() + (breaks ? 1 : 0));
+  ensure_room(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
   if (!definition.collide) make_room_for_ends(w, body_a, body_b);
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
                                    w.bodies[body_b].centre, w.is_dynamic(body_a), w.is_dynamic(body_b));
@@ -50,10 +52,11 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.collide = definition.collide;
   record.active = true;
   record.break_force = definition.break_force, record.break_torque = definition.break_torque;
+  record.report_force = definition.report_force, record.report_torque = definition.report_torque;
   record.user_data = definition.user_data;
   const int joint = w.joints.add(record);
   link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  if (breaks) w.breakable.push_back(joint);
+  if (limited) w.load_limits.push_back(joint);
   try {
     if (lets_go(w, record)) {
       w.joint_set.set_active(slot, false);
@@ -87,9 +90,20 @@ void remove_joint(WorldData<Real>& w, int joint) {
   }
 }
 
+template <class Real>
+void set_load_events(WorldData<Real>& w, int joint, double force, double torque) {
+  JointRecord& record = w.joints[joint];
+  const auto place = std::find(w.load_limits.begin(), w.load_limits.end(), joint);
+  const bool limited = record.break_force > 0 || record.break_torque > 0 || force > 0 || torque > 0;
+  if (limited && place == w.load_limits.end()) append(w.load_limits, joint);
+  if (!limited && place != w.load_limits.end()) w.load_limits.erase(place);
+  record.report_force = force, record.report_torque = torque;
+}
+
 #define PLUMB_FOR(Real)                                                       \
   template int add_joint(WorldData<Real>&, int, int, const JointDefinition&); \
-  template void remove_joint(WorldData<Real>&, int);
+  template void remove_joint(WorldData<Real>&, int);                          \
+  template void set_load_events(WorldData<Real>&, int, double, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

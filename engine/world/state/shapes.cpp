@@ -167,7 +167,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
   w.boxes[shape] = tight_aabb(w, shape);
   if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
-                     .insert(fat_aabb(w, shape, Real(0)), record.filter.category, shape);
+                     .insert(fat_aabb(w, shape, Real(0)), folded(record.filter.category), shape);
   add_to_move_buffer(w, shape);
 }
 

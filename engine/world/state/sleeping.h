@@ -12,10 +12,13 @@ namespace plumb {
 /// Returns true if a body of this motion counts as at rest, so that its sleep timer runs. `extent` is the
 /// farthest distance of its shapes from the centre of mass, m.
 template <class Real>
-bool is_still(const BodyRecord<Real>& record, const BodyMotion<Real>& motion, Real extent) {
+bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const BodyMotion<Real>& motion,
+              Real extent) {
+  const double set = w.settings.thresholds.sleep;
+  const Real slow = set >= 0 ? static_cast<Real>(set) : Real(tuning::kSleepSpeed) * extent;
   const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
   const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
-  return record.may_sleep && !moves_as_told && speed <= Real(tuning::kSleepSpeed) * extent;
+  return record.may_sleep && !moves_as_told && speed <= slow;
 }
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic one wakes alone.

@@ -121,6 +121,9 @@ void validate(const WorldDefinition& definition) {
                 "must be a number from 1 to 1000");
   }
   require_threads(definition.threads);
+  require_finite("world", "thresholds.hit", definition.thresholds.hit);
+  require_finite("world", "thresholds.bounce", definition.thresholds.bounce);
+  require_finite("world", "thresholds.sleep", definition.thresholds.sleep);
 }
 
 void require_threads(int threads) {
@@ -181,6 +184,8 @@ void validate(const ChainDefinition& definition) {
 void validate(const JointDefinition& definition) {
   validate(definition.kind);
   require_not_negative("joint", "break_force", definition.break_force);
+  require_not_negative("joint", "report_force", definition.report_force);
+  require_not_negative("joint", "report_torque", definition.report_torque);
   require_not_negative("joint", "break_torque", definition.break_torque);
 }
 

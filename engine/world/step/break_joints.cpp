@@ -7,18 +7,22 @@ namespace plumb {
 template <class Real>
 void break_joints(WorldData<Real>& w, double h) {
   const Real rate = static_cast<Real>(1 / h);
-  for (std::size_t i = 0; i < w.breakable.size();) {
-    const int joint = w.breakable[i];
+  const auto exceeds = [](double load, double limit) { return limit > 0 && load > limit; };
+  for (std::size_t i = 0; i < w.load_limits.size();) {
+    const int joint = w.load_limits[i];
     const JointRecord& record = w.joints[joint];
-    const bool breaks =
-        record.active &&
-        ((record.break_force > 0 && double(w.joint_set.force(record.slot, rate)) > record.break_force) ||
-         (record.break_torque > 0 && double(w.joint_set.torque(record.slot, rate)) > record.break_torque));
-    if (!breaks) {
+    const JointId id{static_cast<std::uint32_t>(joint), w.joints.generation(joint)};
+    // Joints of sleeping bodies bear what they bore, and are not reported again.
+    const bool bears = record.active && (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake);
+    const double force = record.active ? static_cast<double>(w.joint_set.force(record.slot, rate)) : 0;
+    const double torque = record.active ? static_cast<double>(w.joint_set.torque(record.slot, rate)) : 0;
+    if (bears && (exceeds(force, record.report_force) || exceeds(torque, record.report_torque)))
+      w.log().loaded.push_back({id, force, torque});
+    if (!exceeds(force, record.break_force) && !exceeds(torque, record.break_torque)) {
       ++i;
       continue;
     }
-    w.log().broken.push_back({{static_cast<std::uint32_t>(joint), w.joints.generation(joint)}});
+    w.log().broken.push_back({id});
     remove_joint(w, joint);
   }
 }

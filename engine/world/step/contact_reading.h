@@ -2,10 +2,18 @@
 
 #include <algorithm>
 
+#include "engine/world/state/constants.h"
 #include "engine/world/world.h"
 #include "engine/world/world_data.h"
 
 namespace plumb {
+
+/// Returns the approach from which an impact is reported, m/s.
+template <class Real>
+Real least_hit_speed(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  const double set = w.settings.thresholds.hit;
+  return set >= 0 ? static_cast<Real>(set) : c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
+}
 
 /// Returns a contact as the user sees it. The constraint stores each lever arm r as its components along t
 /// and n.
@@ -28,6 +36,7 @@ ContactReading reading_of(const WorldData<Real>& w, const ContactRecord& contact
     reading.impulses[i] = static_cast<double>(c.normal_impulse[i]);
     reading.approach = std::min(reading.approach, static_cast<double>(c.approach[i]));
   }
+  if (contact.hit_events || contact.pre_solve) reading.step_impulse = static_cast<double>(c.step_impulse);
   return reading;
 }
 

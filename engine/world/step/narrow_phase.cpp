@@ -118,7 +118,7 @@ bool begin_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   update_load_estimate(c);
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
   if (c.watched == Watch::Off) return false;
-  c.peak_impulse[0] = c.peak_impulse[1] = 0;
+  c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
@@ -137,6 +137,7 @@ void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touchi
   set_touching(w, c.contact, touching);
   c.touching = touching;
   c.watched = watch_of(contact, c);
+  c.step_impulse = 0;
   if (c.watched == Watch::Off) c.approach[0] = c.approach[1] = 0;
 }
 
@@ -541,12 +542,11 @@ void report_impacts(WorldData<Real>& w) {
     const ContactRecord& contact = w.contacts[c.contact];
     if (!contact.hit_events) return;
     const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
-    const Real least = c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
-    if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least) return;
+    if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least_hit_speed(w, c)) return;
     set_touching(w, c.contact, true);
     const ContactReading reading = reading_of(w, contact, c);
     w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
-                            -static_cast<double>(c.approach[hardest])});
+                            -static_cast<double>(c.approach[hardest]), reading.step_impulse});
   });
 }
 

@@ -107,8 +107,9 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   const int blocks = static_cast<int>((w.move_buffer.size() + kMovedOfBlock - 1) / kMovedOfBlock);
   w.scratch.found_pairs_of.begin(blocks);
   w.crew.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, grounds); });
-  w.scratch.found_pairs_of.for_each(
-      [&](const std::pair<int, int>& pair) { create_contact(w, pair.first, pair.second); });
+  w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
+    if (is_let_through(w, pair.first, pair.second)) create_contact(w, pair.first, pair.second);
+  });
   // Clear the flags last: if memory runs out above, these pairs are searched again.
   for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
     ask_for_moved(w, i);

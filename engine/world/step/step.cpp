@@ -144,7 +144,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     w.crew.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
     clock.end(WorldStage::Finalize);
     {
-      const Crew::Alone alone(w.crew, w.has_rules());
+      const Crew::Alone alone(w.crew, w.asks_user());
       w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
     }
     clock.end(WorldStage::Continuous);

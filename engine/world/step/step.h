@@ -39,7 +39,7 @@ void update_sensors(WorldData<Real>& w);
 template <class Real>
 void report_impacts(WorldData<Real>& w);
 
-/// Removes joints whose force or torque exceeds their limit.
+/// Removes joints whose force or torque exceeds their limit, and reports loads.
 template <class Real>
 void break_joints(WorldData<Real>& w, double h);
 

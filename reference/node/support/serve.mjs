@@ -41,6 +41,9 @@ export function serve(engine) {
     const options = Object.fromEntries((engine.options ?? []).map((o) => [o.name, settings.options?.[o.name] ?? o.fallback]));
     run?.world.free?.();
     run = null;
+    // JavaScript's bitwise operators take 32 bits; masks are signed, so that all bits are -1.
+    const beyond = (shape) => shape.filter.category < 0 || shape.filter.category >= 2 ** 32;
+    if (scene.bodies.some((body) => body.shapes.some(beyond))) return { unsupported: "a filter has categories beyond 32" };
     const world = engine.create(scene, { dt: settings.dt, substep: settings.dt / substeps, substeps, options });
     if (typeof world === "string") return { unsupported: world };
     run = { world, scene, substeps, substep: settings.dt / substeps, dt: settings.dt, done: 0, steps: 0,

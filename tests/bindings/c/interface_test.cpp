@@ -78,7 +78,7 @@ TEST_F(C, DefaultsAreThoseOfCpp) {
   EXPECT_EQ(d.iterations, w.iterations);
   const plumb_shape_definition shape = plumb_default_shape();
   EXPECT_EQ(shape.material.friction, plumb::Material{}.friction);
-  EXPECT_EQ(shape.filter.mask, 0xFFFFFFFFu);
+  EXPECT_EQ(shape.filter.mask, ~std::uint64_t{0});
   EXPECT_EQ(shape.density, 1);
 }
 
@@ -354,6 +354,66 @@ TEST_F(C, HooksDisableContacts) {
   for (int i = 0; i < 60; ++i) plumb_world_step(world, kDt, 4);
   EXPECT_GT(calls, 0);
   EXPECT_LT(plumb_body_position(world, falls).y, -2);
+}
+
+TEST_F(C, GamesSetTheirOwnRules) {
+  const plumb_body ground = box(PLUMB_STATIC, {0, -1}, 40, 2);
+  plumb_shape_definition shape = plumb_default_shape();
+  EXPECT_EQ(shape.filter.mask, ~uint64_t{0});
+  shape.geometry = plumb_box(1, 1);
+  shape.hit_events = true;
+  plumb_body_definition body = plumb_default_body();
+  EXPECT_TRUE(body.continuous);
+  body.position = {0, 1.5};
+  const plumb_body solid = plumb_body_create(world, &body, &shape, 1);
+  body.position = {3, 1.5};
+  shape.filter.category = uint64_t{1} << 40;
+  const plumb_body ghost = plumb_body_create(world, &body, &shape, 1);
+  plumb_world_on_filter(
+      world,
+      [](plumb_shape a, plumb_shape b, void* context) {
+        const auto* w = static_cast<const plumb_world*>(context);
+        return (plumb_shape_filter(w, a).category | plumb_shape_filter(w, b).category) < (uint64_t{1} << 40);
+      },
+      world);
+  plumb_joint_definition rope = plumb_default_joint(PLUMB_DISTANCE);
+  rope.anchor_a = {-9, 9};
+  rope.report_force = 5;
+  body.position = {-9, 7};
+  const plumb_body lamp = plumb_body_create(world, &body, &shape, 1);
+  const plumb_joint joint = plumb_joint_create(world, ground, lamp, &rope);
+  double hit = 0;
+  size_t loaded = 0;
+  for (int i = 0; i < 90; ++i) {
+    plumb_world_step(world, kDt, 4);
+    const plumb_events events = plumb_world_events(world);
+    for (size_t k = 0; k < events.hit_count; ++k) hit += events.hits[k].impulse;
+    for (size_t k = 0; k < events.loaded_count; ++k)
+      loaded += events.loaded[k].joint.index == joint.index && events.loaded[k].force > 5;
+  }
+  // It fell 1 m with 1 kg.
+  EXPECT_NEAR(hit, std::sqrt(2 * 9.81), 0.5);
+  EXPECT_GT(loaded, 0u);
+  EXPECT_NEAR(plumb_body_position(world, solid).y, 0.5, 0.01);
+  EXPECT_LT(plumb_body_position(world, ghost).y, -3);
+  plumb_contact contact;
+  EXPECT_EQ(plumb_body_contacts(world, solid, &contact, 1), 1u);
+  EXPECT_NEAR(contact.step_impulse, 9.81 * kDt, 1e-3);
+
+  EXPECT_EQ(plumb_joint_get_definition(world, joint).report_force, 5);
+  EXPECT_EQ(plumb_joint_set_load_events(world, joint, 0, 0), PLUMB_OK);
+  EXPECT_EQ(plumb_body_set_continuous(world, solid, false), PLUMB_OK);
+  EXPECT_FALSE(plumb_body_continuous(world, solid));
+  EXPECT_EQ(plumb_world_get_thresholds(world).hit, -1);
+  EXPECT_EQ(plumb_world_set_thresholds(world, {2, 3, 4}), PLUMB_OK);
+  EXPECT_EQ(plumb_world_get_thresholds(world).sleep, 4);
+  EXPECT_EQ(plumb_world_set_thresholds(world, {NAN, 3, 4}), PLUMB_VALUE);
+  plumb_world_definition settings = plumb_default_world();
+  settings.thresholds = {7, 8, 9};
+  plumb_world* other = plumb_world_create(&settings);
+  EXPECT_EQ(plumb_world_get_thresholds(other).bounce, 8);
+  plumb_world_destroy(other);
+  plumb_clear_error();
 }
 
 }  // namespace

@@ -196,3 +196,40 @@ test("the package is small, and its types name what it exports", () => {
     assert.deepEqual([...declared].sort(), real.sort(), name);
   }
 });
+
+test("games set their own rules", () => {
+  const world = new World({thresholds: {hit: 0.5}});
+  assert.deepEqual(world.thresholds, {hit: 0.5, bounce: -1, sleep: -1});
+  const ground = world.createBody({type: "static", position: {x: 0, y: -1}, shapes: [{box: {width: 40, height: 2}}]});
+  const ghostly = 1n << 40n;
+  const crate = world.createBody({position: {x: 0, y: 1.5}, shapes: [{box: {width: 1, height: 1}, hitEvents: true}]});
+  const ghost = world.createBody({position: {x: 3, y: 1.5}, continuous: false,
+    shapes: [{box: {width: 1, height: 1}, filter: {category: ghostly}}]});
+  const asked = [];
+  world.onFilter((a, b) => {
+    asked.push(a.body.index, b.body.index);
+    return !a.body.equals(ghost) && !b.body.equals(ghost);
+  });
+  const lamp = world.createBody({position: {x: -9, y: 7}, shapes: [{circle: {radius: 0.5}}]});
+  const joint = world.createJoint(ground, lamp, "distance", {anchorA: {x: -9, y: 9}, length: 1, reportForce: 5});
+  const hits = [], loads = [];
+  for (let i = 0; i < 90; ++i) {
+    world.step();
+    hits.push(...world.events.hits);
+    loads.push(...world.events.loaded);
+  }
+  assert.ok(asked.includes(ghost.index));
+  assert.ok(ghost.position.y < -3);
+  near(crate.position.y, 0.5, 0.01);
+  near(hits[0].impulse, Math.sqrt(2 * kG), 0.5);
+  assert.ok(loads.length > 0 && loads.every((load) => load.joint.equals(joint) && load.force > 5));
+  near(world.contacts.find((c) => c.stepImpulse > 0).stepImpulse, kG / 60, 1e-3);
+  assert.equal(world.rayCast({x: 0, y: 5}, {x: 0, y: -9}, {mask: ghostly}), null);
+  assert.equal(crate.continuous, true);
+  assert.equal(ghost.continuous, false);
+  joint.setLoadEvents({});
+  world.onFilter(null);
+  world.thresholds = {sleep: 2};
+  world.step();
+  assert.deepEqual(world.events.loaded, []);
+});

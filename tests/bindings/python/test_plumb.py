@@ -335,6 +335,48 @@ def test_one_shape_is_asked_alone():
     assert calls and hits
 
 
+def test_games_set_their_own_rules():
+    world = plumb.World(thresholds=(0.5, -1, -1))
+    assert world.thresholds == (0.5, -1, -1)
+    floor = ground(world)
+    ghostly = 1 << 40
+    crate = world.create_body(plumb.ShapeDefinition(plumb.Box(1, 1), hit_events=True), position=(0, 1.5))
+    ghost = world.create_body(plumb.ShapeDefinition(plumb.Box(1, 1), category=ghostly), position=(3, 1.5))
+    other = world.create_body(plumb.ShapeDefinition(plumb.Box(1, 1), mask=~ghostly & (2**64 - 1)), position=(6, 0.5))
+    refused = set()
+
+    def rule(a, b):
+        refused.update({a.body, b.body} & {ghost})
+        return ghost not in (a.body, b.body)
+
+    world.on_filter(rule)
+    lamp = world.create_body(plumb.Circle(0.5), position=(-9, 7))
+    joint = world.create_joint(floor, lamp, plumb.Distance(1, anchor_a=(-9, 9)), report_force=5)
+    hits, loads = [], []
+    for _ in range(90):
+        world.step()
+        hits += world.events["hits"]
+        loads += world.events["loaded"]
+    assert refused == {ghost}
+    assert ghost.position[1] < -3
+    assert crate.position[1] == pytest.approx(0.5, abs=0.01) == other.position[1]
+    assert hits[0]["impulse"] == pytest.approx(math.sqrt(2 * G), rel=0.1)
+    assert loads[-1]["joint"] == joint
+    # The lamp of 0.79 kg swings with what is left.
+    assert loads[-1]["force"] == pytest.approx(math.pi / 4 * G, rel=0.05)
+    assert crate.contacts()[0]["step_impulse"] == pytest.approx(G / 60, rel=1e-3)
+    rows = world.contacts
+    assert rows["step_impulse"].max() == pytest.approx(G / 60, rel=1e-3)
+    joint.set_load_events()
+    world.step()
+    assert world.events["loaded"] == []
+    world.thresholds = (1, 2, 3)
+    assert world.thresholds == (1, 2, 3)
+    crate.continuous = False
+    assert not crate.continuous
+    assert lamp.continuous
+
+
 def test_threads_share_a_step_with_the_same_bits():
     hashes = set()
     for threads in (1, 2):

@@ -121,6 +121,13 @@ typedef enum plumb_integrator {
   PLUMB_EXPLICIT_EULER
 } plumb_integrator;
 
+/* Speeds at which behaviour changes, m/s. Negative: by the sizes of the shapes or by gravity. */
+typedef struct plumb_thresholds {
+  double hit;    /* approach from which impacts are hits */
+  double bounce; /* approach up to which nothing bounces */
+  double sleep;  /* up to which a body may fall asleep */
+} plumb_thresholds;
+
 /* Settings of a world. */
 typedef struct plumb_world_definition {
   plumb_precision precision; /* of the solver; positions are always double */
@@ -133,6 +140,7 @@ typedef struct plumb_world_definition {
   int iterations;      /* a substep, 1..1000: sequential impulses and Jakobsen */
   bool direct_islands; /* soft steps solve small islands directly */
   bool quarantine;     /* takes non-finite bodies out; false: PLUMB_RUN ends the step */
+  plumb_thresholds thresholds;
 } plumb_world_definition;
 
 /* Mass of a body that does not follow from its shapes. */
@@ -156,6 +164,7 @@ typedef struct plumb_body_definition {
   bool lock_x, lock_y, lock_rotation;
   bool may_sleep, awake;
   uint64_t user_data;
+  bool continuous; /* it does not tunnel */
 } plumb_body_definition;
 
 typedef enum plumb_shape_kind {
@@ -186,7 +195,7 @@ typedef struct plumb_material {
 /* Shapes touch if each one's category is in the other's mask; an equal non-zero group takes precedence:
  * positive always, negative never. */
 typedef struct plumb_filter {
-  uint32_t category, mask;
+  uint64_t category, mask;
   int32_t group;
 } plumb_filter;
 
@@ -249,6 +258,7 @@ typedef struct plumb_joint_definition {
   bool collide;                     /* the joined bodies may collide */
   double break_force, break_torque; /* N, N m; 0: never */
   uint64_t user_data;
+  double report_force, report_torque;         /* N, N m, beyond which its load is an event; 0: never */
   plumb_vec2 anchor_a, anchor_b;              /* m, in the bodies' frames; all but motor and gear */
   plumb_vec2 axis;                            /* in a's frame, any length > 0: prismatic, wheel */
   double reference_angle;                     /* rad: revolute, prismatic, weld */
@@ -301,6 +311,8 @@ PLUMB_API plumb_status plumb_world_set_solver(plumb_world* world, plumb_solver s
 PLUMB_API plumb_status plumb_world_set_iterations(plumb_world* world, int iterations);
 PLUMB_API plumb_status plumb_world_set_direct_islands(plumb_world* world, bool on);
 PLUMB_API plumb_status plumb_world_set_quarantine(plumb_world* world, bool on);
+PLUMB_API plumb_status plumb_world_set_thresholds(plumb_world* world, plumb_thresholds thresholds);
+PLUMB_API plumb_thresholds plumb_world_get_thresholds(const plumb_world* world);
 /* Combine rules of your own, pure and symmetric; NULL: those of the definition. */
 typedef double (*plumb_combine_function)(double a, double b);
 PLUMB_API plumb_status plumb_world_combine_with(plumb_world* world, plumb_combine_function friction,
@@ -376,6 +388,8 @@ PLUMB_API double plumb_body_linear_damping(const plumb_world* world, plumb_body 
 PLUMB_API double plumb_body_angular_damping(const plumb_world* world, plumb_body body); /* 1/s */
 PLUMB_API plumb_status plumb_body_set_locks(plumb_world* world, plumb_body body, bool x, bool y,
                                             bool rotation);
+PLUMB_API plumb_status plumb_body_set_continuous(plumb_world* world, plumb_body body, bool on);
+PLUMB_API bool plumb_body_continuous(const plumb_world* world, plumb_body body);
 PLUMB_API bool plumb_body_awake(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_awake(plumb_world* world, plumb_body body, bool awake);
 PLUMB_API plumb_status plumb_body_set_may_sleep(plumb_world* world, plumb_body body, bool may_sleep);
@@ -407,6 +421,7 @@ typedef struct plumb_contact {
   double separations[2]; /* m, negative: overlap */
   double impulses[2];    /* N s, along the normal, of the last substep */
   double approach;       /* m/s, along the normal at the start of the step, negative: closing */
+  double step_impulse;   /* N s, of the whole step and both points; 0 without hit_events or pre_solve */
 } plumb_contact;
 PLUMB_API size_t plumb_body_contacts(const plumb_world* world, plumb_body body, plumb_contact* out,
                                      size_t capacity);
@@ -477,6 +492,9 @@ PLUMB_API plumb_status plumb_joint_change(plumb_world* world, plumb_joint joint,
 PLUMB_API plumb_joint_reading plumb_joint_read(const plumb_world* world, plumb_joint joint);
 PLUMB_API uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint);
 PLUMB_API plumb_status plumb_joint_set_user_data(plumb_world* world, plumb_joint joint, uint64_t data);
+/* Loads beyond which the joint is in the events, N and N m; 0: never. */
+PLUMB_API plumb_status plumb_joint_set_load_events(plumb_world* world, plumb_joint joint, double force,
+                                                   double torque);
 PLUMB_API plumb_status plumb_joint_bodies(const plumb_world* world, plumb_joint joint, plumb_body* a,
                                           plumb_body* b);
 
@@ -490,10 +508,16 @@ typedef struct plumb_hit_event {
   plumb_vec2 point;  /* m */
   plumb_vec2 normal; /* from a to b */
   double speed;      /* m/s, of approach */
+  double impulse;    /* N s, of the whole step and all points */
 } plumb_hit_event;
 typedef struct plumb_sensor_event {
   plumb_shape sensor, visitor;
 } plumb_sensor_event;
+/* A joint that bore more than the load from which it reports. */
+typedef struct plumb_load_event {
+  plumb_joint joint;
+  double force, torque; /* N, N m: reaction over the last substep */
+} plumb_load_event;
 typedef struct plumb_quarantine_event {
   plumb_body body;
   const char* field; /* "force", "torque", "velocity" or "angular_velocity" */
@@ -512,6 +536,8 @@ typedef struct plumb_events {
   const plumb_quarantine_event* quarantined;
   size_t begin_count, end_count, hit_count, sensor_begin_count, sensor_end_count, broken_count;
   size_t fell_asleep_count, woke_count, quarantined_count;
+  const plumb_load_event* loaded;
+  size_t loaded_count;
 } plumb_events;
 PLUMB_API plumb_events plumb_world_events(plumb_world* world);
 
@@ -520,12 +546,18 @@ PLUMB_API plumb_events plumb_world_events(plumb_world* world);
 typedef bool (*plumb_pre_solve_function)(const plumb_contact* contact, void* context);
 PLUMB_API plumb_status plumb_world_on_pre_solve(plumb_world* world, plumb_pre_solve_function hook,
                                                 void* context);
+/* Called for two shapes that come near each other and that their filters let touch; false: they do not
+ * collide. It is called again when one of them has moved on, or after `plumb_shape_set_filter`. It must
+ * depend on the world's state alone, and may read it and not change it. Recorded worlds cannot have one.
+ * NULL: no filter. */
+typedef bool (*plumb_filter_function)(plumb_shape a, plumb_shape b, void* context);
+PLUMB_API plumb_status plumb_world_on_filter(plumb_world* world, plumb_filter_function filter, void* context);
 
 /* ---- Queries ----------------------------------------------------------------------------------------- */
 
 /* Sees shapes with a category in its mask, if their mask has one of its categories. */
 typedef struct plumb_query_filter {
-  uint32_t category, mask;
+  uint64_t category, mask;
   bool sensors;                                        /* true: includes sensors */
   plumb_body ignore;                                   /* a body to skip */
   bool (*condition)(plumb_shape shape, void* context); /* tested last; may be NULL */
