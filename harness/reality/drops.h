@@ -29,12 +29,19 @@ struct DropStart {
 /// start is the parabola through these frames, which are noisier one by one.
 std::vector<DropStart> starts_of(std::span<const MeasuredDrop> drops);
 
+/// A number of a drop's scene (engine/scene/number.h) that is proportional to a parameter.
+struct ScaledNumber {
+  std::string name;
+  double scale = 1;
+};
+
 /// Law of the drops: the contact rules and coefficients of a scene from fitted values. The first two
 /// parameters are half the square's side and the delay of what was measured.
 struct DropLaw {
   std::string name, text;
   std::vector<Parameter> parameters;
   std::function<void(Scene&, std::span<const double>)> apply;
+  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: what it sets in the scene
 };
 const std::vector<DropLaw>& drop_laws();
 

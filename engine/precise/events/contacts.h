@@ -63,7 +63,7 @@ class Contacts {
     int watched = 0;  // `Quantity` of a contact
     int point = 0;
   };
-  /// What happened at the last `stop` and `settle`, for those that follow the event with other states.
+  /// Record of the last `stop` and `settle`, for those that follow the event with other states.
   struct Record {
     std::optional<Guard> guard;             ///< of the event at which the step ended
     std::optional<OutlinePair> met;         ///< shapes that met there; their features are among `touches`
