@@ -56,7 +56,7 @@ Differences differences(const std::vector<Poses>& a, const std::vector<Poses>& b
       angles.push_back(std::abs((*a[i])[time].angle - (*b[i])[time].angle));
     }
     out.position[time] = estimate(lengths, 0.5, seed);
-    out.ninetieth[time] = quantile(lengths, 0.9);
+    out.ninetieth[time] = estimate(lengths, 0.9, seed);
     out.angle[time] = estimate(angles, 0.5, seed);
   }
   return out;

@@ -50,9 +50,9 @@ Scene scene_of(const DropStart& start, const DropLaw& law, std::span<const doubl
 
 /// Differences of two motions at each of `kTimes`.
 struct Differences {
-  std::array<Estimate, kTimes.size()> position;  ///< m, median with its interval
-  std::array<double, kTimes.size()> ninetieth;   ///< m, 90th percentile
-  std::array<Estimate, kTimes.size()> angle;     ///< rad, median
+  std::array<Estimate, kTimes.size()> position;   ///< m, median with its interval
+  std::array<Estimate, kTimes.size()> ninetieth;  ///< m, 90th percentile with its interval
+  std::array<Estimate, kTimes.size()> angle;      ///< rad, median
 };
 
 /// A law solved to a tolerance, against the measurement.
