@@ -18,7 +18,8 @@ constexpr std::array<Words, 7> kWords{{
     {"start", "the parameter opens a contact of the start, or presses it together"},
     {"kink", "an impact or a force has a kink here: it sticks on one side and slips on the other"},
     {"paradox", "no force, or several, obey Coulomb's law (Painleve's paradox)"},
-    {"singular", "a linkage crossed a kinematic singularity, or a derivative is not finite"},
+    {"singular",
+     "a linkage crossed a kinematic singularity or has redundant joints, or a derivative is not finite"},
 }};
 
 const Words& words_of(NoDerivative reason) { return kWords[static_cast<std::size_t>(reason)]; }

@@ -15,7 +15,8 @@ enum class NoDerivative {
   Start,         ///< a contact of the start that the parameter opens or presses together
   Kink,          ///< an impact or a force law has a kink here: it sticks on one side and slips on the other
   Paradox,       ///< Painleve's paradox: no force, or several, obey the laws
-  Singular,      ///< a linkage crossed a kinematic singularity, or the motion has no finite derivative
+  Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or no derivative is
+                 ///< finite
 };
 std::string_view name_of(NoDerivative reason);  ///< "grazing", "simultaneous", ...
 

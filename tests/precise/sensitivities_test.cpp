@@ -376,6 +376,19 @@ TEST(Sensitivities, AContactOfTheStartThatOpensIsAnError) {
   const Scene scene = block_on_slope(0.2, 0.6);
   EXPECT_EQ(reason_of(scene, "bodies.block.position.y", 0.1), NoDerivative::Start);
   EXPECT_EQ(reason_of(scene, "bodies.block.angle", 0.1), NoDerivative::Start);
+  EXPECT_EQ(reason_of(scene, "bodies.block.velocity.y", 0.1), NoDerivative::Start);
+}
+
+// Friction takes a time proportional to a slight slip to end it, and leaves what rolling shares out.
+TEST(Sensitivities, ASlipAtTheStartOfARollingContactIsEndedByFriction) {
+  Scene scene{.name = "rolling"};
+  scene.bodies = {ground(0.3), disc("disc", {0, 0.5}, {1, 0}, 0.5, 0.3)};
+  scene.bodies[1].angular_velocity = -2;
+  const Simulation run = derived_run(scene, {"bodies.disc.velocity.x", "bodies.disc.angular_velocity"}, 0.5);
+  // v' = (2 v - w r) / 3 after the slip, as of a uniform disc.
+  EXPECT_NEAR(run.sensitivities(0)[1].velocity.x, 2.0 / 3, 1e-9);
+  EXPECT_NEAR(run.sensitivities(0)[1].position.x, 1.0 / 3, 1e-9);
+  EXPECT_NEAR(run.sensitivities(1)[1].velocity.x, -0.5 / 3, 1e-9);
 }
 
 TEST(Sensitivities, UnknownParametersAreErrorsByName) {

@@ -233,6 +233,12 @@ double Contacts::guard_value(const Guard& guard, double time, std::span<const do
     const FeatureShape &a = finder_.outlines()[guard.pair.a], &b = finder_.outlines()[guard.pair.b];
     return gap_of(guard.feature, a, placed(a).pose, b, placed(b).pose).value;
   }
+  if (guard.kind == Guard::Kind::Rate) {
+    const FeatureShape &a = finder_.outlines()[guard.pair.a], &b = finder_.outlines()[guard.pair.b];
+    const StepMotionBounds::Placed at_a = placed(a), at_b = placed(b);
+    const ContactRows rows = rows_of(guard.feature, a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist);
+    return speed_along(rows.normal, at_a.twist, at_b.twist);
+  }
   const auto quantity = static_cast<Quantity>(guard.watched);
   if (quantity == Quantity::Stop) {
     stop_values_.resize(stops_.count());

@@ -52,9 +52,10 @@ class Contacts {
   void stop();
 
   /// A function that is zero where a step ended, and whose zero moves with the state and with parameters: the
-  /// gap of a feature of two shapes, the gap of a limit, or a monitored quantity of a persistent contact.
+  /// gap of a feature of two shapes or its rate, the gap of a limit, or a monitored quantity of a persistent
+  /// contact.
   struct Guard {
-    enum class Kind { Gap, Limit, Quantity };
+    enum class Kind { Gap, Rate, Limit, Quantity };
     Kind kind = Kind::Gap;
     OutlinePair pair{};
     Feature feature{};

@@ -340,18 +340,36 @@ auto value_of(const Contacts::Guard& guard) {
 
 /// Returns true if a parameter opens contacts that exist at the start, or presses their shapes together.
 bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
-  const double unit = Variation::kStep / steps_[j];
-  const double length[1] = {scale_[0]};
+  const double size = std::max(Variation::kStep / steps_[j], norm(now_.by[j]));
+  const double length[1] = {scale_[0]}, speed[1] = {scale_[kPerBody / 2]};
   for (const ContactCandidate& touch : record.touches) {
     for (int i = 0; i < touch.count && !touch.stop; ++i) {
       const Contacts::Guard guard{
           .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[i]};
       double change[1] = {0};
       if (!derive(j, value_of(guard), {0, now_.by[j]}, length, change)) return true;
-      if (std::abs(change[0]) > kTogether * length[0] * std::max(unit, norm(now_.by[j]))) return true;
+      if (std::abs(change[0]) > kTogether * length[0] * size) return true;
+      if (std::abs(touch.closing[i]) > touch.quiet) continue;
+      const Contacts::Guard rate{
+          .kind = Contacts::Guard::Kind::Rate, .pair = touch.pair, .feature = touch.features[i]};
+      if (!derive(j, value_of(rate), {0, now_.by[j]}, speed, change)) return true;
+      if (std::abs(change[0]) > kTogether * speed[0] * size) return true;
     }
   }
   return false;
+}
+
+/// Friction ends slips that a parameter gives contacts which stick or roll at the start: it needs no time for
+/// slight ones, and its impulse is the one that ends them.
+void Sensitivities::stop_slips(std::size_t j) {
+  const auto project = [](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+    Compensated state = as_state(y);
+    any.equations.project(time, state);
+    std::copy(state.value().begin(), state.value().end(), out.begin());
+  };
+  Values by(scale_.size());
+  if (!derive(j, project, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
+  now_.by[j] = by;
 }
 
 /// Takes one parameter's derivative through the event up to the impacts; returns the change of the event's
@@ -441,6 +459,7 @@ void Sensitivities::pass_event(const Compensated& before, const Compensated& aft
   own_->equations.rate(now_.time, now_.y, rate);
   for (std::size_t j = 0; j < size(); ++j) {
     for (std::size_t i = 0; i < n && later[j] != 0; ++i) now_.by[j][i] -= later[j] * rate[i];
+    if (started_ && lives(j) && own_->equations.holds_anything()) stop_slips(j);
   }
   started_ = false;
 }

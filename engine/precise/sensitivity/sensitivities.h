@@ -97,6 +97,7 @@ class Sensitivities {
               double& guard_rate);
   std::optional<Contacts::Guard> guard_of(const Contacts::Record& record) const;
   bool opens_start(std::size_t parameter, const Contacts::Record& record);
+  void stop_slips(std::size_t parameter);
   template <class Function>
   void each_neighbour(const Function& function);
 
