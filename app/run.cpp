@@ -16,12 +16,14 @@
 #include "app/output.h"
 #include "app/report_error.h"
 #include "app/selection.h"
+#include "app/sensitivity_writer.h"
 #include "app/settings.h"
 #include "app/source.h"
 #include "app/trajectory_writer.h"
 #include "app/usage.h"
 #include "engine/precise/dynamics/joint_starts.h"
 #include "engine/scene/error.h"
+#include "engine/simulation/simulation.h"
 #include "harness/interrupt.h"
 #include "harness/truth_table.h"
 
@@ -32,7 +34,7 @@ struct Options {
   std::string name, engine, format = "csv", duration, rate;
   int size = 0;
   bool forces = false;
-  std::vector<std::string> commands;
+  std::vector<std::string> commands, parameters;
   SettingsOptions settings;
 };
 
@@ -120,7 +122,35 @@ int run(const Options& options, const reference::Backend& backend, const referen
   return kOk;
 }
 
+/// Prints derivatives in place of the motion: of Precise itself, as no other engine has them.
+int run_derived(const Options& options, const reference::StepSettings& settings, const Source& source,
+                int every, int samples) {
+  Simulation simulation =
+      compile(source.scene,
+              plumb::Precise{.tolerance = settings.tolerance.value_or(plumb::Precise{}.tolerance),
+                             .max_dt = settings.dt},
+              {.parameters = options.parameters});
+  SensitivityWriter writer(
+      source.scene, options.parameters,
+      options.format == "json" ? TrajectoryWriter::Format::Json : TrajectoryWriter::Format::Csv);
+  writer.write(simulation);
+  for (int i = 0; i < samples; ++i) {
+    if (harness::interrupted()) {
+      flush();
+      return kInterrupted;
+    }
+    simulation.step(every);
+    writer.write(simulation);
+  }
+  return kOk;
+}
+
 int start(Options options) {
+  if (!options.parameters.empty()) {
+    if (options.engine.empty()) options.engine = "plumb-precise";
+    if (options.engine != "plumb-precise" || options.forces)
+      throw UsageError("--sensitivities are of plumb-precise, in place of the motion or of --forces");
+  }
   const auto programs = programs_of(options.commands);
   const reference::Backend& backend = one_engine(options.engine, programs);
   options.engine = backend.name();
@@ -136,7 +166,10 @@ int start(Options options) {
       options.duration.empty() ? source.duration : parse_positive("--duration", options.duration);
   const int samples = sample_count(duration, settings.dt, every);
   return guarded(options.engine, [&] {
-    return reporting_errors([&] { return run(options, backend, settings, source, every, samples); });
+    return reporting_errors([&] {
+      return options.parameters.empty() ? run(options, backend, settings, source, every, samples)
+                                        : run_derived(options, settings, source, every, samples);
+    });
   });
 }
 
@@ -161,6 +194,13 @@ void add_run(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"csv", "json"}));
   command->add_flag("--forces", options->forces,
                     "print the forces of joints and contacts in place of the motion (plumb-precise)");
+  command
+      ->add_option("--sensitivities", options->parameters,
+                   "print d state / d parameter for these numbers of the scene in place of the motion "
+                   "(plumb-precise): gravity.y, bodies.NAME.mass, bodies.NAME.shapes.friction, "
+                   "joints.NAME.length, forces[0].stiffness")
+      ->delimiter(',')
+      ->type_name("PARAM,...");
   command->footer(
       "Examples:\n  plumb run free_fall/vacuum --engine box2d --rate 10\n"
       "  plumb run pendulum_chain[20] --engine plumb-precise --tolerance 1e-10 --format json\n"

@@ -84,6 +84,9 @@ struct Reactions {
 
 struct CompileOptions {
   bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
+  /// Precise: numbers of the scene by which states are derived (`Simulation::sensitivities`), as
+  /// "bodies.ball.mass" (scene/number.h). The bits of the run stay the same; each costs about eight runs.
+  std::vector<std::string> parameters{};
 };
 
 /// Advances compiled bodies in time. One virtual call per step, none per body.
@@ -110,6 +113,13 @@ class Driver {
   virtual Reactions reactions() {
     throw Error(Error::Kind::Unsupported, "realtime", "forces", "",
                 "fixed steps have impulses, not forces; 'plumb-precise' and Precise have forces");
+  }
+
+  /// Returns d state / d parameter by body, for the parameter of this index in `CompileOptions::parameters`;
+  /// throws `NotDifferentiable`, and `Error` (Value) for a parameter that was not asked for.
+  virtual std::vector<BodyState> sensitivities(std::size_t parameter) {
+    throw Error(Error::Kind::Value, "sensitivity", "parameter", std::to_string(parameter),
+                "was not among the parameters that the scene was compiled with");
   }
 
   virtual const Plan& plan() const = 0;

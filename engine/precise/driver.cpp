@@ -32,6 +32,9 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
   if (at_rest_[body]) allowed.velocity = {};
   if (at_rest_[body] || locked_[body]) allowed.angular_velocity = 0;
   smooth_.rewind(time_);
+  follow();
+  const auto slot = flight_.holds(body) ? std::nullopt : std::optional(slot_of(body));
+  if (sensitivities_) sensitivities_->write(body, slot, time_, allowed);
   if (flight_.holds(body)) {
     flight_.restart(body, time_, allowed);
   } else {
@@ -40,6 +43,19 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
   joints_closed_ = false;
   written_ = true;
   sampled_ = -1;
+}
+
+std::vector<BodyState> PreciseDriver::sensitivities(std::size_t parameter) {
+  if (!sensitivities_ || parameter >= sensitivities_->size()) return Driver::sensitivities(parameter);
+  return sensitivities_->at(parameter, time_, names_.size());
+}
+
+/// Takes the sensitivities to the end of the last step.
+void PreciseDriver::follow() {
+  if (!sensitivities_) return;
+  if (smooth_.leaps() != leaps_seen_) sensitivities_->fail_all(NoDerivative::Singular, smooth_.time());
+  leaps_seen_ = smooth_.leaps();
+  sensitivities_->advance(smooth_.time(), smooth_.state());
 }
 
 void PreciseDriver::profile(bool on) {
@@ -110,6 +126,7 @@ std::vector<std::byte> PreciseDriver::save() const {
   invariants_.save(out);
   out.put(equations_.evaluations());
   for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
+  if (sensitivities_) sensitivities_->save(out);
   return out.bytes();
 }
 
@@ -137,6 +154,8 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   invariants_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
+  if (sensitivities_) sensitivities_->restore(in, contacts_);
+  leaps_seen_ = smooth_.leaps();
   in.expect_end();
   written_ = true;  // its initial state no longer matters
   sampled_ = -1;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "engine/precise/integration/smooth.h"
 #include "engine/precise/invariants.h"
 #include "engine/precise/plan.h"
+#include "engine/precise/sensitivity/sensitivities.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -25,7 +27,9 @@ namespace plumb::precise {
 /// The driver that `make_precise_driver` returns.
 class PreciseDriver final : public Driver {
  public:
-  PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options);
+  /// `variations`: of the parameters by which states are derived, if any.
+  PreciseDriver(const Scene& scene, const Precise& precise, const CompileOptions& options,
+                std::vector<Variation> variations = {});
 
   void step() override;
   double time() const override { return time_; }
@@ -34,6 +38,7 @@ class PreciseDriver final : public Driver {
   std::vector<std::byte> save() const override;
   void restore(std::span<const std::byte> snapshot) override;
   Reactions reactions() override;
+  std::vector<BodyState> sensitivities(std::size_t parameter) override;
   const Plan& plan() const override { return plan_; }
   void profile(bool on) override;
   Statistics statistics() const override;
@@ -46,6 +51,8 @@ class PreciseDriver final : public Driver {
   void go_on(double end);
   double limit_of_step(double end) const;
   void arrive();
+  void settle();
+  void follow();
 
   // Helpers of these parts.
   void name_redundant_joints();
@@ -68,6 +75,8 @@ class PreciseDriver final : public Driver {
   mutable double sampled_ = -1;         // s
   Contacts contacts_;
   Invariants invariants_;
+  std::unique_ptr<Sensitivities> sensitivities_;  // null without parameters
+  std::int64_t leaps_seen_ = 0;                   // by the sensitivities
   std::vector<std::string> names_;
   std::vector<char> at_rest_, locked_;  // by body: static; without rotation
 

@@ -24,6 +24,9 @@ class ErrorEstimatingDriver final : public Driver {
   std::vector<std::byte> save() const override;
   void restore(std::span<const std::byte> snapshot) override;
   Reactions reactions() override { return main_->reactions(); }
+  std::vector<BodyState> sensitivities(std::size_t parameter) override {
+    return main_->sensitivities(parameter);
+  }
   const Plan& plan() const override { return main_->plan(); }
   void profile(bool on) override { main_->profile(on); }
   Statistics statistics() const override;

@@ -46,11 +46,9 @@ void PreciseDriver::step() {
 /// Advances the motion by one step. Steps may go beyond `end`, because states are interpolated within them:
 /// step sizes do not depend on the output times. An event ends a step.
 void PreciseDriver::go_on(double end) {
+  follow();
   arrive();
-  if (!contacts_.empty() && !contacts_.settled()) {
-    const Clock clock(profiling_, cost_[kContacts]);
-    contacts_.settle();
-  }
+  if (!contacts_.empty() && !contacts_.settled()) settle();
   {
     const Clock clock(profiling_, cost_[kRungeKutta]);
     smooth_.step(limit_of_step(end));
@@ -72,6 +70,15 @@ void PreciseDriver::go_on(double end) {
   ++statistics_.steps;
 }
 
+/// Resolves the event at which the last step ended.
+void PreciseDriver::settle() {
+  const Clock clock(profiling_, cost_[kContacts]);
+  if (!sensitivities_) return contacts_.settle();
+  const Compensated before = smooth_.state();
+  contacts_.settle();
+  sensitivities_->pass_event(before, smooth_.state(), contacts_);
+}
+
 /// Without contacts, only the motion limits the step. Ballistic flights may have any length, but longer ones
 /// have more candidate contacts. So the limit is twice the previous flight, or twice the present one so far.
 double PreciseDriver::limit_of_step(double end) const {
@@ -87,10 +94,12 @@ void PreciseDriver::arrive() {
   const double now = smooth_.time();
   if (!std::binary_search(parts_.switches.begin(), parts_.switches.end(), now)) return;
   flight_.switch_forces(now);
+  if (sensitivities_) sensitivities_->switch_forces(now);
   contacts_.unsettle();
 }
 
-PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, CompileOptions options)
+PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, const CompileOptions& options,
+                             std::vector<Variation> variations)
     : max_dt_(precise.max_dt),
       overlap_(std::min(precise.tolerance, kDeepestOverlap)),
       parts_(divide(scene)),
@@ -106,6 +115,8 @@ PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, Compile
     at_rest_.push_back(body.type == BodyType::Static);
     locked_.push_back(body.fixed_rotation);
   }
+  if (!variations.empty())
+    sensitivities_ = std::make_unique<Sensitivities>(scene, std::move(variations), precise);
   name_redundant_joints();
   const double rounding = kGapRoundings * equations_.rounding_of_gaps(), length = equations_.length();
   for (const JointStart& start : joint_starts(scene)) {
@@ -127,7 +138,9 @@ void PreciseDriver::name_redundant_joints() {
 void PreciseDriver::close_joints() {
   if (joints_closed_) return;
   refuse_open_joints();
+  const Compensated given = smooth_.state();
   smooth_.start_anew();
+  if (sensitivities_) sensitivities_->start(smooth_.time(), given, smooth_.state());
   if (!contacts_.empty()) contacts_.refuse_overlaps(overlap_);
   contacts_.unsettle();
   joints_closed_ = true;
@@ -155,15 +168,19 @@ namespace plumb {
 
 std::unique_ptr<Driver> make_precise_driver(const Scene& given, const Precise& precise,
                                             CompileOptions options) {
-  const Scene scene = precise::with_body_laws(given);
+  const Vec2d origin = precise::local_origin(precise::with_body_laws(given));
+  const auto prepared = [&](const Scene& scene) {
+    const Scene whole = precise::with_body_laws(scene);
+    return origin == Vec2d{} ? whole : precise::seen_from(whole, origin);
+  };
   const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
-    const Vec2d origin = precise::local_origin(scene);
-    if (origin == Vec2d{}) return std::make_unique<precise::PreciseDriver>(scene, p, options);
-    return std::make_unique<precise::ShiftedOriginDriver>(
-        std::make_unique<precise::PreciseDriver>(precise::seen_from(scene, origin), p, options), origin);
+    auto driver = std::make_unique<precise::PreciseDriver>(
+        prepared(given), p, options, precise::variations_of(given, options.parameters, prepared));
+    if (origin == Vec2d{}) return driver;
+    return std::make_unique<precise::ShiftedOriginDriver>(std::move(driver), origin);
   };
   if (precise.estimate_error)
-    return std::make_unique<precise::ErrorEstimatingDriver>(precise, scene.bodies.size(), make);
+    return std::make_unique<precise::ErrorEstimatingDriver>(precise, given.bodies.size(), make);
   return make(precise);
 }
 

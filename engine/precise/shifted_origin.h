@@ -39,6 +39,9 @@ class ShiftedOriginDriver final : public Driver {
     for (ContactReaction& contact : found.contacts) contact.position += origin_;
     return found;
   }
+  std::vector<BodyState> sensitivities(std::size_t parameter) override {
+    return driver_->sensitivities(parameter);
+  }
   const Plan& plan() const override { return driver_->plan(); }
   void profile(bool on) override { driver_->profile(on); }
   Statistics statistics() const override { return driver_->statistics(); }

@@ -74,6 +74,7 @@ std::string unusual_rule(const Scene& scene) {
   if (rules.yield_speed != 0) return has + "yield_speed";
   if (rules.tangential_restitution != 0) return has + "tangential_restitution";
   if (rules.friction_after_stop != 1) return has + "friction_after_stop";
+  if (rules.friction_while_sliding != 1) return has + "friction_while_sliding";
   return "";
 }
 

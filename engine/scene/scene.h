@@ -171,6 +171,8 @@ struct ContactRules {
       0;  ///< 0..1, fraction of the slip that is restored after friction has stopped it
   double friction_after_stop =
       1;  ///< 0..1, fraction of the friction that remains in an impact after the slip has stopped
+  double friction_while_sliding =
+      1;  ///< 0..1, kinetic over static friction: fraction that remains while a lasting contact slips
   friend bool operator==(const ContactRules&, const ContactRules&) = default;
 };
 

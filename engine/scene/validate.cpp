@@ -133,6 +133,8 @@ class Checker {
            Limits::ZeroToOne, "");
     number("contact_rules.friction_after_stop", scene_.contact_rules.friction_after_stop, Limits::ZeroToOne,
            "");
+    number("contact_rules.friction_while_sliding", scene_.contact_rules.friction_while_sliding,
+           Limits::ZeroToOne, "");
   }
 
   void check_body(const Body& body) {

@@ -31,7 +31,8 @@ std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
   return out;
 }
 
-std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy, CompileOptions options) {
+std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy,
+                                    const CompileOptions& options) {
   if (const auto* precise = std::get_if<Precise>(&accuracy))
     return make_precise_driver(scene, *precise, options);
   const Realtime& realtime = std::get<Realtime>(accuracy);
@@ -45,10 +46,18 @@ std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy
 Simulation compile(const Scene& scene, const Accuracy& accuracy, CompileOptions options) {
   validate(scene);
   validate(accuracy);
+  if (!options.parameters.empty() && !std::holds_alternative<Precise>(accuracy))
+    throw Error(Error::Kind::Unsupported, "realtime", "parameters", options.parameters.front(),
+                "fixed steps have no derivatives; Precise has them");
   if (const std::string reason = unsupported(scene, accuracy); !reason.empty())
     throw Error(Error::Kind::Unsupported, "scene '" + scene.name + "'", "", "", reason);
   try {
-    return {make_driver(scene, accuracy, options), scene.bodies.size(), identity_of(scene, accuracy)};
+    std::uint64_t identity = identity_of(scene, accuracy);
+    for (const std::string& parameter : options.parameters) {
+      for (const char letter : parameter) identity = mixed(identity, static_cast<unsigned char>(letter));
+      identity = mixed(identity, 0);
+    }
+    return {make_driver(scene, accuracy, options), scene.bodies.size(), identity};
   } catch (const std::bad_alloc&) {
     throw Error(Error::Kind::Run, "scene '" + scene.name + "'", "memory", "",
                 "there is not enough of it for " + std::to_string(scene.bodies.size()) + " bodies");

@@ -108,6 +108,10 @@ void Simulation::set_state(std::size_t body, const BodyState& state) {
 
 Reactions Simulation::forces() const { return driver_->reactions(); }
 
+std::vector<BodyState> Simulation::sensitivities(std::size_t parameter) const {
+  return driver_->sensitivities(parameter);
+}
+
 std::uint64_t Simulation::hash() const {
   std::vector<BodyState> states(body_count_);
   driver_->read(states);

@@ -30,6 +30,14 @@ class Simulation {
   /// redundant joints, the first carry all: one of many solutions.
   Reactions forces() const;
 
+  /// Returns d state / d parameter at `time`, by body of the scene, for the parameter of this index in
+  /// `CompileOptions::parameters`: each member is the derivative of that member of the body's state, in its
+  /// unit over the parameter's (m/kg for a position by a mass). Through impacts and changes of contacts, at a
+  /// fixed time; relative error about the tolerance, 1e-9 at best. Throws `NotDifferentiable`
+  /// (driver/sensitivity.h) from an event on at which the state has no derivative, and `Error` (Value) for an
+  /// index that is not there. docs/precise.md says when derivatives do not exist.
+  std::vector<BodyState> sensitivities(std::size_t parameter) const;
+
   /// Returns the 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for
   /// the same run.
   std::uint64_t hash() const;

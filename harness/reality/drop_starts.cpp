@@ -101,7 +101,8 @@ const std::vector<DropLaw>& drop_laws() {
     for (Body& body : scene.bodies) {
       for (Shape& shape : body.shapes) {
         shape.friction = values[4];
-        shape.restitution = values[5];
+        // Of the square alone: the larger of two equal coefficients has no derivative by one of them.
+        shape.restitution = body.type == BodyType::Dynamic ? values[5] : 0;
       }
     }
   };
@@ -117,12 +118,25 @@ const std::vector<DropLaw>& drop_laws() {
     out.push_back({"friction after the stop", "", 0.9, 0.1, 0, 1});
     return out;
   }();
+  // Friction is the geometric mean of two equal coefficients: a change of one counts half.
+  static const std::vector<std::vector<ScaledNumber>> numbers{
+      {{"bodies.square.shapes.width", 2}, {"bodies.square.shapes.height", 2}},
+      {},
+      {{"bodies.square.angle"}},
+      {{"bodies.square.inertia"}},
+      {{"bodies.square.shapes.friction", 2}},
+      {{"bodies.square.shapes.restitution"}}};
+  static const std::vector<std::vector<ScaledNumber>> later_numbers = [] {
+    auto out = numbers;
+    out.push_back({{"contact_rules.friction_after_stop"}});
+    return out;
+  }();
   static const std::vector<DropLaw> laws{
-      {"newton", "Newton's restitution, Coulomb's friction for the impulses", simple, coefficients},
-      {"poisson", "Poisson's restitution by Routh's method", simple, with_rule(ImpactRule::Poisson)},
-      {"stronge", "Stronge's energetic restitution", simple, with_rule(ImpactRule::Stronge)},
+      {"newton", "Newton's restitution, Coulomb's friction for the impulses", simple, coefficients, numbers},
+      {"poisson", "Poisson's restitution by Routh's method", simple, with_rule(ImpactRule::Poisson), numbers},
+      {"stronge", "Stronge's energetic restitution", simple, with_rule(ImpactRule::Stronge), numbers},
       {"stronge-later", "Stronge's, less friction once the slip has stopped", later,
-       with_rule(ImpactRule::Stronge)}};
+       with_rule(ImpactRule::Stronge), later_numbers}};
   return laws;
 }
 

@@ -29,12 +29,19 @@ struct DropStart {
 /// start is the parabola through these frames, which are noisier one by one.
 std::vector<DropStart> starts_of(std::span<const MeasuredDrop> drops);
 
+/// A number of a drop's scene (engine/scene/number.h) that is proportional to a parameter.
+struct ScaledNumber {
+  std::string name;
+  double scale = 1;
+};
+
 /// Law of the drops: the contact rules and coefficients of a scene from fitted values. The first two
 /// parameters are half the square's side and the delay of what was measured.
 struct DropLaw {
   std::string name, text;
   std::vector<Parameter> parameters;
   std::function<void(Scene&, std::span<const double>)> apply;
+  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: what it sets in the scene
 };
 const std::vector<DropLaw>& drop_laws();
 
@@ -43,9 +50,9 @@ Scene scene_of(const DropStart& start, const DropLaw& law, std::span<const doubl
 
 /// Differences of two motions at each of `kTimes`.
 struct Differences {
-  std::array<Estimate, kTimes.size()> position;  ///< m, median with its interval
-  std::array<double, kTimes.size()> ninetieth;   ///< m, 90th percentile
-  std::array<Estimate, kTimes.size()> angle;     ///< rad, median
+  std::array<Estimate, kTimes.size()> position;   ///< m, median with its interval
+  std::array<Estimate, kTimes.size()> ninetieth;  ///< m, 90th percentile with its interval
+  std::array<Estimate, kTimes.size()> angle;      ///< rad, median
 };
 
 /// A law solved to a tolerance, against the measurement.

@@ -20,8 +20,9 @@ std::string fitted_text(std::span<const Parameter> parameters, std::span<const d
 }
 
 std::string ellipse_line(const EllipseFinding& law, const std::string& mark) {
-  return fmt::format("  {:<24}{:>2}  {:>6.3f}  {:<22}{:>6.3f}  {}\n", law.name, law.parameters.size(),
-                     law.validated, with_interval(law.median, 1, 3), law.ninetieth.value, mark);
+  return fmt::format("  {:<24}{:>2}  {:>6.3f}  {:<22}{:<22}{}\n", law.name, law.parameters.size(),
+                     law.validated, with_interval(law.median, 1, 3), with_interval(law.ninetieth, 1, 3),
+                     mark);
 }
 
 std::string position_columns(const Differences& differences) {
@@ -40,7 +41,7 @@ std::string to_text(const Findings& findings, const Style& style) {
       title(fmt::format("Ellipse: velocity after an impact, relative error ({} impacts, {} doubted "
                         "left out; seed {})",
                         ellipse.impacts, ellipse.doubted, findings.seed));
-  out += fmt::format("  {:<24}{:>2}  {:>6}  {:<22}{:>6}\n", "law", "p", "cv", "test median", "90 %");
+  out += fmt::format("  {:<24}{:>2}  {:>6}  {:<22}{}\n", "law", "p", "cv", "test median", "90 %");
   for (std::size_t i = 0; i < ellipse.laws.size(); ++i) {
     const std::string mark = i == ellipse.best ? "best by cross-validation"
                              : i == ellipse.best_of_all_floors

@@ -56,7 +56,7 @@ std::string law_table(const DropFindings& drops) {
     out += "<tr><td>" + escaped(law.name) + "</td><td>position, mm</td>";
     for (std::size_t i = 0; i < kTimes.size(); ++i)
       out += cell(with_interval(law.model.position[i], 1e3) +
-                  fmt::format("<br>90 %: {:.3g}", 1e3 * law.model.ninetieth[i]));
+                  "<br>90 %: " + with_interval(law.model.ninetieth[i], 1e3));
     out += "<td class=\"wide\">" + escaped(fitted(law.parameters, law.values)) +
            "</td></tr>\n<tr><td></td><td>angle, deg</td>";
     for (const Estimate& angle : law.model.angle) out += cell(with_interval(angle, 180 / 3.14159265358979));
@@ -72,7 +72,7 @@ std::string engine_table(const DropFindings& drops) {
     out += "<tr><td>" + escaped(name) + "</td><td>" + kind + "</td>";
     for (std::size_t i = 0; i < kTimes.size(); ++i)
       out += cell(with_interval(differences.position[i], 1e3) +
-                  fmt::format("<br>90 %: {:.3g}", 1e3 * differences.ninetieth[i]));
+                  "<br>90 %: " + with_interval(differences.ninetieth[i], 1e3));
     out += "</tr>\n";
   };
   for (const EngineFinding& engine : drops.engines) {

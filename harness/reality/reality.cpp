@@ -40,7 +40,7 @@ Json differences_json(const Differences& differences) {
   for (std::size_t i = 0; i < kTimes.size(); ++i) {
     out.push_back({{"after", kTimes[i]},
                    {"position", json_of(differences.position[i])},
-                   {"position_ninetieth", differences.ninetieth[i]},
+                   {"position_ninetieth", json_of(differences.ninetieth[i])},
                    {"angle", json_of(differences.angle[i])}});
   }
   return out;
@@ -58,7 +58,8 @@ void append(std::vector<Figure>& out, Figure figure, const Differences& differen
     figure.quantity = "angle";
     figure.unit = "rad";
     figure.median = differences.angle[i];
-    figure.ninetieth = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    figure.ninetieth = {kUnknown, kUnknown, kUnknown};
     out.push_back(figure);
   }
 }
@@ -86,7 +87,7 @@ std::vector<Figure> figures_of(const Findings& findings) {
                    .unit = "1",
                    .parameters = static_cast<int>(law.parameters.size()),
                    .median = law.median,
-                   .ninetieth = law.ninetieth.value});
+                   .ninetieth = law.ninetieth});
   };
   for (const EllipseFinding& law : findings.ellipse.laws) ellipse(law);
   ellipse(findings.ellipse.bound);
@@ -113,11 +114,14 @@ std::vector<Figure> figures_of(const Findings& findings) {
 }
 
 std::string to_csv(const Findings& findings) {
-  std::string out = "body,law,engine,dt,error,after,quantity,unit,parameters,median,low,high,ninetieth\n";
+  std::string out =
+      "body,law,engine,dt,error,after,quantity,unit,parameters,median,low,high,ninetieth,ninetieth_low,"
+      "ninetieth_high\n";
   for (const Figure& f : figures_of(findings)) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", f.body, csv_field(f.law),
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", f.body, csv_field(f.law),
                        csv_field(f.engine), f.dt, f.error, f.after, f.quantity, f.unit, f.parameters,
-                       f.median.value, f.median.low, f.median.high, f.ninetieth);
+                       f.median.value, f.median.low, f.median.high, f.ninetieth.value, f.ninetieth.low,
+                       f.ninetieth.high);
   }
   return out;
 }

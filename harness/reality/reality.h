@@ -35,7 +35,7 @@ struct Figure {
   std::string_view unit;      ///< "1", "m", "rad"
   int parameters = 0;         ///< fitted on the training half
   Estimate median;
-  double ninetieth = 0;  ///< percentile; nan where it was not found
+  Estimate ninetieth;  ///< percentile; nan where it was not found
 };
 std::vector<Figure> figures_of(const Findings& findings);
 

@@ -26,6 +26,7 @@ std::map<std::string, Rule> scene_rules() {
                                     {"ContactRules.yield_speed", kNotNegative},
                                     {"ContactRules.tangential_restitution", kShare},
                                     {"ContactRules.friction_after_stop", kShare},
+                                    {"ContactRules.friction_while_sliding", kShare},
                                     {"Body.type", {0, 2}},
                                     {"Body.position", kAny},
                                     {"Body.angle", kAny},

@@ -39,7 +39,7 @@ PLUMB_MEMBERS(RatchetJoint, name, body_a, body_b, collide, break_force, break_to
 PLUMB_MEMBERS(FrictionJoint, name, body_a, body_b, anchor_a, anchor_b, collide, break_force, break_torque,
               max_force, max_torque)
 PLUMB_MEMBERS(ContactRules, friction, restitution, restitution_threshold, simultaneous, impact, yield_speed,
-              tangential_restitution, friction_after_stop)
+              tangential_restitution, friction_after_stop, friction_while_sliding)
 PLUMB_MEMBERS(Scene, name, gravity, contact_rules, bodies, joints, forces)
 PLUMB_MEMBERS(Realtime, dt, substeps, iterations, precision, integrator, solver, continuous, sleeping,
               on_violation, threads)

@@ -13,7 +13,8 @@ namespace plumb::precise {
 struct ActiveContact {
   const FeatureShape* a = nullptr;
   const FeatureShape* b = nullptr;
-  double friction = 0;
+  double friction = 0;          ///< static: up to which it sticks
+  double sliding_friction = 0;  ///< kinetic: while it slips
   int mode = 0;  ///< contact mode, 0: sticks; +1, -1: slips in this direction, friction acts against it
   int count = 0;
   Feature features[2] = {};
@@ -23,6 +24,7 @@ struct ActiveContact {
   double pushes[2] = {}, grip = 0;
 
   bool sticks() const { return friction > 0 && mode == 0; }
+  bool rubs() const { return sliding_friction > 0 && mode != 0; }
 };
 
 /// Forces of persistent contacts, N: normal ones by point, patch after patch; tangential ones by patch, on

@@ -127,8 +127,9 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
       const ContactRows rows =
           rows_of(patch.features[i], *patch.a, poses_[a], twists_[a], *patch.b, poses_[b], twists_[b]);
       constraints_.push_back(rows.normal);
-      const bool rubs = forces && patch.friction > 0 && patch.mode != 0;
-      pushes.push_back(rubs ? sum(rows.normal, -patch.mode * patch.friction, rows.tangent) : rows.normal);
+      const bool rubs = forces && patch.rubs();
+      pushes.push_back(rubs ? sum(rows.normal, -patch.mode * patch.sliding_friction, rows.tangent)
+                            : rows.normal);
       if (i == 0 && patch.sticks()) tangents.push_back(rows.tangent);
       ++points_;
     }
@@ -200,7 +201,7 @@ void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
     double normal = 0;
     for (int i = 0; i < patch.count; ++i) normal += contact_side_[point++];
     contact_forces_.tangent.push_back(patch.sticks() ? contact_side_[stuck++]
-                                                     : -patch.mode * patch.friction * normal);
+                                                     : -patch.mode * patch.sliding_friction * normal);
   }
   contact_forces_.stop.assign(contact_side_.begin() + static_cast<std::ptrdiff_t>(stuck),
                               contact_side_.end());

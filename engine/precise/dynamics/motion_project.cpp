@@ -53,7 +53,7 @@ bool EquationsOfMotion::held_works() const {
   const auto moves = [&](std::size_t body) {
     return twists_[body].velocity != Vec2d{} || twists_[body].angular_velocity != 0;
   };
-  const auto rubs = [](const ActiveContact& patch) { return patch.friction > 0 && patch.mode != 0; };
+  const auto rubs = [](const ActiveContact& patch) { return patch.rubs(); };
   bool drives = false;
   for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
     const GeneralJoints::Stop& stop = kind_joints_.stops()[k];

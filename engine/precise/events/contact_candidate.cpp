@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/trigonometry.h"
+#include "engine/precise/impact_laws/impact_law.h"
 
 namespace plumb::precise {
 namespace {
@@ -54,6 +55,18 @@ double TouchFinder::restitution(const OutlinePair& pair) const {
   return combine(rules_.restitution, outlines_[pair.a].restitution, outlines_[pair.b].restitution);
 }
 
+void TouchFinder::set_coefficients(ContactCandidate& touch) const {
+  touch.friction = friction(touch.pair);
+  touch.sliding_friction = rules_.friction_while_sliding * touch.friction;
+  touch.restitution = restitution(touch.pair);
+}
+
+double TouchFinder::restitution_at(const ContactCandidate& touch, int point) const {
+  const double speed = -touch.closing[point];
+  if (speed < rules_.restitution_threshold) return 0;
+  return falling_restitution(touch.restitution, speed, rules_.yield_speed);
+}
+
 double TouchFinder::near(std::span<const BodyState> states) const {
   double extent = 0;
   for (const FeatureShape& o : outlines_) {
@@ -78,8 +91,7 @@ std::vector<ContactCandidate> TouchFinder::touches(std::span<const BodyState> st
     if (separation(a, poses[pair.a], b, poses[pair.b]).distance > near) continue;
     ContactCandidate touch;
     touch.pair = pair;
-    touch.friction = friction(pair);
-    touch.restitution = restitution(pair);
+    set_coefficients(touch);
     for (const Feature& f : touching_features(a, poses[pair.a], twist_of(states[a.body]), b, poses[pair.b],
                                               twist_of(states[b.body]), near)) {
       const Gap gap = gap_of(f, a, poses[pair.a], b, poses[pair.b]);

@@ -21,7 +21,9 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
 struct ContactCandidate {
   OutlinePair pair{};
   std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
-  double friction = 0, restitution = 0;
+  double friction = 0;                ///< static, and of impacts
+  double sliding_friction = 0;        ///< kinetic, of a lasting contact that slips
+  double restitution = 0;
   int count = 0;
   Feature features[2] = {};
   ContactRows rows[2] = {};
@@ -50,7 +52,11 @@ class TouchFinder {
   bool may_meet(std::size_t a, std::size_t b) const;
   double friction(const OutlinePair& pair) const;
   double restitution(const OutlinePair& pair) const;
+  /// Sets the coefficients of a touch of two shapes.
+  void set_coefficients(ContactCandidate& touch) const;
   const ContactRules& rules() const { return rules_; }
+  /// Returns the restitution of one impact, at the speed of approach that it has.
+  double restitution_at(const ContactCandidate& touch, int point) const;
   double scale_of_speed() const { return speed_; }
   double scale_of_length() const { return length_; }
 

@@ -31,6 +31,8 @@ Feature feature_of_height(const Feature& f, const FeatureShape& a, const Feature
 
 void Contacts::stop() {
   if (empty()) return;
+  record_.guard.reset();
+  record_.met.reset();
   paths_.take(smooth_);
   double until = smooth_.time();
   std::optional<Event> event;
@@ -38,7 +40,7 @@ void Contacts::stop() {
   if (event) until = event->time;
   if (const auto met = stops_.first_met(paths_, smooth_, until)) {
     until = met->time;
-    event = Event{until, Quantity::Stop, std::nullopt, std::nullopt, met->limit};
+    event = Event{until, Quantity::Stop, std::nullopt, std::nullopt, met->limit, {}};
   }
   if (const auto change = first_change(until)) event = change;
   if (!event) {
@@ -50,6 +52,7 @@ void Contacts::stop() {
   }
   smooth_.cut(std::max(event->time, std::nextafter(smooth_.start(), event->time + 1)));
   refine(*event);
+  note(*event);
   switch (event->quantity) {
     case Quantity::Force:
       count(ContactEvent::Separation, smooth_.time());
@@ -85,7 +88,7 @@ std::optional<Contacts::Event> Contacts::first_toi_event(double until) {
       const ConservativeAdvancement::Departure departure = search_.departure(pair, until, near_);
       if (departure.pressed) {
         until = *departure.pressed;
-        first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
+        first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt, {}};
         continue;
       }
       if (!departure.apart) continue;
@@ -94,7 +97,7 @@ std::optional<Contacts::Event> Contacts::first_toi_event(double until) {
     const auto time = search_.first(pair, from, until, near_ / 8);
     if (!time) continue;
     until = *time;
-    first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt};
+    first = Event{until, Quantity::Height, pair, std::nullopt, std::nullopt, {}};
   }
   return first;
 }
@@ -161,45 +164,124 @@ void Contacts::evaluate(double time, std::span<double> values) {
     if (watched.quantity == Quantity::Stop) {
       values[w] = stop_values_[watched.stop];
     } else {
-      evaluate_contact(watched, forces, first_point[watched.patch], time, values[w]);
+      values[w] = contact_value(watched, forces, first_point[watched.patch],
+                                [&](const FeatureShape& o) { return paths_.at(o.body, time); });
     }
   }
 }
 
-void Contacts::evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first,
-                                double time, double& value) {
+/// Returns a monitored quantity of a held contact; `placed` gives the pose and the twist of a shape's body.
+template <class Placed>
+double Contacts::contact_value(const Watched& watched, const ContactForces& forces, std::size_t first,
+                               const Placed& placed) const {
   const ActiveContact& patch = equations_.held()[watched.patch];
-  const auto placed = [&](const FeatureShape& o) { return paths_.at(o.body, time); };
   switch (watched.quantity) {
     case Quantity::Force:
-      value = forces.normal[first + static_cast<std::size_t>(watched.point)];
-      break;
+      return forces.normal[first + static_cast<std::size_t>(watched.point)];
     case Quantity::Cone: {
       double normal = 0;
       for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
       // At the tip of the cone the contact opens, which is not a slip. Without a tangential force the cone is
       // never left.
-      value = patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[watched.patch]);
-      break;
+      return patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[watched.patch]);
     }
     case Quantity::Slip: {
       const StepMotionBounds::Placed a = placed(*patch.a), b = placed(*patch.b);
       const ContactRows rows =
           rows_of(patch.features[0], *patch.a, a.pose, a.twist, *patch.b, b.pose, b.twist);
-      value = patch.mode * speed_along(rows.tangent, a.twist, b.twist);
-      break;
+      return patch.mode * speed_along(rows.tangent, a.twist, b.twist);
     }
     case Quantity::Range:
     case Quantity::Height: {
       const int index = watched.quantity == Quantity::Height ? 0 : watched.point / 4;
       const Limits limits =
           limits_of(patch.features[index], *patch.a, placed(*patch.a).pose, *patch.b, placed(*patch.b).pose);
-      value = limits.value[watched.point % 4];
-      break;
+      return limits.value[watched.point % 4];
     }
     case Quantity::Stop:
       break;
   }
+  return 0;
+}
+
+/// Records what ended the last step.
+void Contacts::note(const Event& event) {
+  if (event.meet) {
+    record_.met = event.meet;
+  } else if (event.limit) {
+    record_.guard = Guard{.kind = Guard::Kind::Limit, .stop = *event.limit};
+  } else if (event.down) {
+    record_.guard =
+        Guard{.kind = Guard::Kind::Gap, .pair = held_[event.down->first], .feature = event.down->second};
+  } else {
+    record_.guard = Guard{.kind = Guard::Kind::Quantity,
+                          .stop = event.watched.stop,
+                          .patch = event.watched.patch,
+                          .watched = static_cast<int>(event.watched.quantity),
+                          .point = event.watched.point};
+  }
+}
+
+double Contacts::guard_value(const Guard& guard, double time, std::span<const double> y) {
+  if (guard.kind == Guard::Kind::Limit) return stops_.approach(guard.stop, time, y).gap;
+  look_at_states(time, y);
+  const auto placed = [&](const FeatureShape& o) {
+    const BodyState& s = states_[o.body];
+    return StepMotionBounds::Placed{{s.position, rotation_of(s.angle)}, {s.velocity, s.angular_velocity}};
+  };
+  if (guard.kind == Guard::Kind::Gap) {
+    const FeatureShape &a = finder_.outlines()[guard.pair.a], &b = finder_.outlines()[guard.pair.b];
+    return gap_of(guard.feature, a, placed(a).pose, b, placed(b).pose).value;
+  }
+  if (guard.kind == Guard::Kind::Rate) {
+    const FeatureShape &a = finder_.outlines()[guard.pair.a], &b = finder_.outlines()[guard.pair.b];
+    const StepMotionBounds::Placed at_a = placed(a), at_b = placed(b);
+    const ContactRows rows = rows_of(guard.feature, a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist);
+    return speed_along(rows.normal, at_a.twist, at_b.twist);
+  }
+  const auto quantity = static_cast<Quantity>(guard.watched);
+  if (quantity == Quantity::Stop) {
+    stop_values_.resize(stops_.count());
+    stops_.evaluate(time, y, stop_values_);
+    return stop_values_[guard.stop];
+  }
+  std::size_t first = 0;
+  for (std::size_t p = 0; p < guard.patch; ++p) first += static_cast<std::size_t>(equations_.held()[p].count);
+  const bool by_forces = quantity == Quantity::Force || quantity == Quantity::Cone;
+  const ContactForces& forces =
+      by_forces ? equations_.contact_forces(time, y) : equations_.last_contact_forces();
+  return contact_value({quantity, guard.patch, guard.point, {}, 0}, forces, first, placed);
+}
+
+void Contacts::follow(const Contacts& other) {
+  held_ = other.held_;
+  std::vector<ActiveContact> patches(other.equations_.held().begin(), other.equations_.held().end());
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    patches[p].a = &finder_.outlines()[held_[p].a];
+    patches[p].b = &finder_.outlines()[held_[p].b];
+    ContactCandidate own{.pair = held_[p]};
+    finder_.set_coefficients(own);
+    patches[p].friction = own.friction, patches[p].sliding_friction = own.sliding_friction;
+  }
+  equations_.hold_contacts(std::move(patches));
+  stops_.follow(other.stops_);
+}
+
+void Contacts::impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y) {
+  look_at_states(time, y.value());
+  std::span<const Row<double>> limits;
+  if (!stops_.empty()) limits = equations_.stop_rows(time, y.value());
+  for (ContactCandidate& touch : touches) {
+    if (touch.stop) {
+      touch.rows[0].normal = limits[*touch.stop];
+    } else {
+      finder_.set_coefficients(touch);
+    }
+    finder_.measure(states_, touch);
+  }
+  law_.resolve(time, touches, states_, y, [&](const ContactCandidate& touch, int point) {
+    return finder_.restitution_at(touch, point);
+  });
 }
 
 std::optional<Contacts::Event> Contacts::first_change(double until) {
@@ -210,7 +292,7 @@ std::optional<Contacts::Event> Contacts::first_change(double until) {
                           tolerance_, smooth_.start(), until, samples_until(until));
   if (!fall) return std::nullopt;
   const Watched& watched = watched_[fall->index];
-  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt};
+  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt, watched};
   if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
   return event;
 }
@@ -278,6 +360,7 @@ void Contacts::save(SnapshotWriter& out) const {
     const ActiveContact& patch = equations_.held()[p];
     out.put(held_[p]);
     out.put(patch.friction);
+    out.put(patch.sliding_friction);
     out.put(patch.mode);
     out.put(patch.count);
     out.put(patch.features);
@@ -294,7 +377,27 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(last_event_);
   out.put(events_at_once_);
   out.put(events_);
+  out.put(std::int64_t{record_.guard.has_value()});
+  out.put(record_.guard.value_or(Guard{}));
+  out.put(std::int64_t{record_.met.has_value()});
+  out.put(record_.met.value_or(OutlinePair{}));
   stops_.save(out);
+}
+
+void Contacts::restore_record(SnapshotReader& in) {
+  const bool has_guard = in.get<std::int64_t>() != 0;
+  const auto guard = in.get<Guard>();
+  const bool has_met = in.get<std::int64_t>() != 0;
+  const auto met = in.get<OutlinePair>();
+  const auto is_ours = [&](const OutlinePair& pair) {
+    const std::size_t outlines = finder_.outlines().size();
+    return outlines == 0 ? pair == OutlinePair{} : pair.a < outlines && pair.b < outlines;
+  };
+  in.expect(is_ours(guard.pair) && is_ours(met) && guard.watched >= 0 &&
+            guard.watched <= static_cast<int>(Quantity::Stop));
+  record_ = {};
+  if (has_guard) record_.guard = guard;
+  if (has_met) record_.met = met;
 }
 
 void Contacts::restore(SnapshotReader& in) {
@@ -310,6 +413,7 @@ void Contacts::restore(SnapshotReader& in) {
     patch.a = &finder_.outlines()[held_.back().a];
     patch.b = &finder_.outlines()[held_.back().b];
     patch.friction = in.get<double>();
+    patch.sliding_friction = in.get<double>();
     patch.mode = in.get<int>();
     patch.count = in.get<int>();
     in.expect(patch.count >= 0 && patch.count <= 2);
@@ -331,6 +435,7 @@ void Contacts::restore(SnapshotReader& in) {
   last_event_ = in.get<double>();
   events_at_once_ = in.get<int>();
   events_ = in.get<std::array<EventCount, kContactEvents>>();
+  restore_record(in);
   equations_.hold_contacts(std::move(patches));
   stops_.restore(in);
 }

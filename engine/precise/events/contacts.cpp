@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "engine/core/text.h"
-#include "engine/precise/impact_laws/impact_law.h"
 #include "engine/scene/error.h"
 
 // Handles events: resolves impacts, then decides which contacts persist.
@@ -51,12 +50,12 @@ void Contacts::count(ContactEvent event, double time, std::int64_t times) {
   e.last = time;
 }
 
-void Contacts::look_at_states() {
+void Contacts::look_at_states(double time, std::span<const double> y) {
   for (std::size_t body = 0; body < states_.size(); ++body) {
-    if (flight_.holds(body)) states_[body] = flight_.at(body, smooth_.time()).state;
+    if (flight_.holds(body)) states_[body] = flight_.at(body, time).state;
   }
   for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
-    states_[equations_.bodies()[slot]] = EquationsOfMotion::state(smooth_.state().value(), slot);
+    states_[equations_.bodies()[slot]] = EquationsOfMotion::state(y, slot);
   }
 }
 
@@ -97,9 +96,12 @@ void Contacts::settle() {
   equations_.set_window(now, now);
   look_at_states();
   near_ = kTouching * finder_.near(states_);
+  record_.impacts = record_.rests = record_.paradox = false;
+  record_.struck = 0;
   for (int round = 0;; ++round) {
     std::vector<ContactCandidate> touches = finder_.touches(states_, near_, passing_);
     stops_.find(now, smooth_.state().value(), finder_, states_, touches);
+    if (round == 0) record_.touches = touches;
     if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion continues as before
       touching_.clear();
       settled_ = true;
@@ -181,6 +183,8 @@ void Contacts::find_grazes(std::vector<ContactCandidate>& touches) {
 void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
   if (std::any_of(touches.begin(), touches.end(), closes)) find_grazes(touches);
   if (std::none_of(touches.begin(), touches.end(), closes)) return;
+  if (!record_.impacts) record_.touches = touches;
+  record_.impacts = true;
   const double now = smooth_.time();
   const std::vector<std::array<double, 2>> pull = pulls(touches);
   const std::vector<ContactCandidate> before = touches;
@@ -189,10 +193,7 @@ void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
   bool ends = false;
   const auto restitution = [&](const ContactCandidate& touch, int point) {
     const double speed = -touch.closing[point];
-    const ContactRules& rules = finder_.rules();
-    const double e = speed < rules.restitution_threshold
-                         ? 0
-                         : falling_restitution(touch.restitution, speed, rules.yield_speed);
+    const double e = finder_.restitution_at(touch, point);
     if (e == 0 || e == 1) return e;
     const auto place = std::find_if(before.begin(), before.end(), [&](const ContactCandidate& t) {
       return !t.stop && t.pair == touch.pair;
@@ -210,6 +211,8 @@ void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
   };
   const std::int64_t impacts = law_.resolve(now, touches, states_, smooth_.change(), restitution);
   count(ContactEvent::Impact, now, impacts);
+  record_.struck += impacts;
+  record_.rests = record_.rests || ends;
   if (ends) count(ContactEvent::Rest, limit);
 }
 
@@ -229,24 +232,45 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   }
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
     const ContactCandidate& touch = touches[p.touches[q]];
-    if (std::abs(touch.slip) > touch.quiet) p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
+    if (std::abs(touch.slip) <= touch.quiet) continue;
+    p.problem.patches[q].slip = touch.slip > 0 ? 1 : -1;
+    p.problem.patches[q].friction = touch.sliding_friction;
   }
   if (p.problem.size() > 0 &&
       std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
     p.problem.rate.assign(p.problem.size(), 0.0);  // no part of it can move
-  const CoulombSolution solution = solve(p.problem, brakes);
+  CoulombSolution solution = solve(p.problem, brakes);
+  while (solution.solved && start_sliding(touches, p, solution)) solution = solve(p.problem, brakes);
   if (!solution.solved) {
     if (!law_.jamb(now, touches, states_, smooth_.change())) {
       throw Error(Error::Kind::Run, "contacts", "forces", std::to_string(p.problem.points()) + " points",
                   "no forces obey Coulomb's law here, and no impulse either; Realtime may do");
     }
     count(ContactEvent::Paradox, now);
+    record_.paradox = true;
     return Decision::Again;
   }
   if (solution.ambiguous) count(ContactEvent::Paradox, now);
+  record_.paradox = record_.paradox || solution.ambiguous;
   activate(touches, p, solution);
   act_on_stops(touches, brakes, p, solution);
   return resolve_zeno_contacts(touches) ? Decision::Again : Decision::Done;
+}
+
+/// Gives patches that begin to slip the kinetic friction, which may be less than the static one that they
+/// have overcome. Returns true if there were any.
+bool Contacts::start_sliding(std::span<const ContactCandidate> touches, TouchProblem& p,
+                             const CoulombSolution& solution) {
+  bool any = false;
+  for (std::size_t q = 0; q < p.touches.size(); ++q) {
+    const ContactCandidate& touch = touches[p.touches[q]];
+    CoulombProblem::Patch& patch = p.problem.patches[q];
+    if (patch.slip != 0 || solution.mode[q] == 0 || touch.sliding_friction == touch.friction) continue;
+    patch.slip = solution.mode[q];
+    patch.friction = touch.sliding_friction;
+    any = true;
+  }
+  return any;
 }
 
 /// Next to far stronger motors the digits of other forces would be lost: reduce their bounds as long as the
@@ -306,6 +330,7 @@ void Contacts::activate(std::span<const ContactCandidate> touches, const TouchPr
     ActiveContact patch{&finder_.outlines()[touch.pair.a],
                         &finder_.outlines()[touch.pair.b],
                         touch.friction,
+                        touch.sliding_friction,
                         solution.mode[q],
                         0,
                         {},
@@ -369,6 +394,7 @@ bool Contacts::resolve_zeno_contacts(std::vector<ContactCandidate>& touches) {
   held_.clear();
   equations_.hold_contacts({});
   count(ContactEvent::Rest, smooth_.time());
+  record_.rests = true;
   return true;
 }
 

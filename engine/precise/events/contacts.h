@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -40,10 +41,50 @@ class Contacts {
   /// Handles the event at the motion's time; also after jumps of forces and changes from outside.
   void settle();
   bool settled() const { return settled_; }
-  void unsettle() { settled_ = false; }
+  /// Decides about contacts anew, for a reason that is not an event of the motion.
+  void unsettle() {
+    settled_ = false;
+    record_.guard.reset();
+    record_.met.reset();
+  }
 
   /// Cuts the last step at its first event, and is then unsettled.
   void stop();
+
+  /// A function that is zero where a step ended, and whose zero moves with the state and with parameters: the
+  /// gap of a feature of two shapes or its rate, the gap of a limit, or a monitored quantity of a persistent
+  /// contact.
+  struct Guard {
+    enum class Kind { Gap, Rate, Limit, Quantity };
+    Kind kind = Kind::Gap;
+    OutlinePair pair{};
+    Feature feature{};
+    std::uint64_t stop = 0;
+    std::uint64_t patch = 0;
+    int watched = 0;  // `Quantity` of a contact
+    int point = 0;
+  };
+  /// Record of the last `stop` and `settle`, for those that follow the event with other states.
+  struct Record {
+    std::optional<Guard> guard;             ///< of the event at which the step ended
+    std::optional<OutlinePair> met;         ///< shapes that met there; their features are among `touches`
+    std::vector<ContactCandidate> touches;  ///< before the impacts
+    bool impacts = false;                   ///< some of them closed
+    bool rests = false;                     ///< a Zeno cascade was brought to its limit
+    bool paradox = false;                   ///< Painleve's paradox: an impulse that is not of an impact
+    std::int64_t struck = 0;                ///< number of impacts that were resolved
+  };
+  const Record& record() const { return record_; }
+  double near() const { return near_; }  ///< m: gaps below it count as touching
+  bool holds(const OutlinePair& pair) const { return std::binary_search(held_.begin(), held_.end(), pair); }
+
+  /// The same events with another scene of the same structure (contact_variation.cpp). `follow` takes over
+  /// which contacts and stops are held and how, with this scene's own shapes and coefficients.
+  void follow(const Contacts& other);
+  /// Returns the value of a guard, and the rate of a gap.
+  double guard_value(const Guard& guard, double time, std::span<const double> y);
+  /// Resolves the impacts of `touches` at another state y: the same features, by this scene's coefficients.
+  void impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y);
 
   /// Counts of the events so far.
   const std::array<EventCount, kContactEvents>& events() const { return events_; }
@@ -68,9 +109,13 @@ class Contacts {
     std::optional<OutlinePair> meet;                      // shapes that come into contact
     std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
     std::optional<std::size_t> limit;                     // of a joint, when reached
+    Watched watched{};                                    // if a monitored quantity changed sign
   };
 
-  void look_at_states();
+  void look_at_states() { look_at_states(smooth_.time(), smooth_.state().value()); }
+  void look_at_states(double time, std::span<const double> y);
+  void note(const Event& event);
+  void restore_record(SnapshotReader& in);
   void count(ContactEvent event, double time, std::int64_t times = 1);
 
   // settle
@@ -80,6 +125,8 @@ class Contacts {
   bool is_held(const ContactCandidate& touch, int point) const;
   enum class Decision { Done, Again };
   Decision decide(std::vector<ContactCandidate>& touches);
+  static bool start_sliding(std::span<const ContactCandidate> touches, TouchProblem& problem,
+                            const CoulombSolution& solution);
   CoulombSolution solve(CoulombProblem& problem, std::span<const Brake> brakes);
   void activate(std::span<const ContactCandidate> touches, const TouchProblem& problem,
                 const CoulombSolution& solution);
@@ -97,8 +144,9 @@ class Contacts {
   void refine(const Event& event);
   void refine_limit(std::size_t limit);
   void watch_contacts();
-  void evaluate_contact(const Watched& watched, const ContactForces& forces, std::size_t first, double time,
-                        double& value);
+  template <class Placed>
+  double contact_value(const Watched& watched, const ContactForces& forces, std::size_t first,
+                       const Placed& placed) const;
 
   const Flight& flight_;
   EquationsOfMotion& equations_;
@@ -122,6 +170,7 @@ class Contacts {
   Compensated sample_;
   std::vector<double> rate_, stop_values_;
 
+  Record record_;
   std::array<EventCount, kContactEvents> events_{};
   double last_event_ = -1;
   int events_at_once_ = 0;

@@ -205,7 +205,7 @@ bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::s
   ContactResponse found;
   for (std::size_t t = 0; t < touches.size(); ++t) {
     const ContactCandidate& touch = touches[t];
-    if (std::abs(touch.slip) <= touch.quiet || touch.friction == 0) continue;
+    if (std::abs(touch.slip) <= touch.quiet || touch.sliding_friction == 0) continue;
     const int way = touch.slip > 0 ? 1 : -1;
     for (int i = 0; i < touch.count; ++i) {
       if (std::abs(touch.closing[i]) > touch.quiet) continue;
@@ -213,7 +213,7 @@ bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::s
       std::vector<double> w;
       equations_.respond(time, y.value(), {touch.rows[i].normal, touch.rows[i].tangent}, r, w);
       const double own =
-          w[0] - way * touch.friction * w[1];  // the gap's rate by a normal impulse with its friction
+          w[0] - way * touch.sliding_friction * w[1];  // the gap's rate by a normal impulse with its friction
       if (own / w[0] >= least) continue;
       least = own / w[0];
       worst = t, worst_point = i, worst_way = way;
@@ -223,7 +223,8 @@ bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::s
   }
   if (worst == touches.size()) return false;
   const ContactCandidate& touch = touches[worst];
-  const double nn = response[0], nt = response[1], tn = response[2], tt = response[3], mu = touch.friction;
+  const double nn = response[0], nt = response[1], tn = response[2], tt = response[3],
+               mu = touch.sliding_friction;
   // First phase, until the slip ends: J_t = -mu J_n.
   const double slowing = tn - worst_way * mu * tt;
   if (worst_way * slowing >= 0) return false;

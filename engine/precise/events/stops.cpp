@@ -188,6 +188,12 @@ std::optional<Stops::Met> Stops::first_met(const StepMotionBounds& paths, EventF
   return first;
 }
 
+void Stops::follow(const Stops& other) {
+  modes_ = other.modes_;
+  force_scale_ = other.force_scale_;
+  if (!empty()) equations_.hold_stops(modes_);
+}
+
 void Stops::save(SnapshotWriter& out) const {
   for (const Mode mode : modes_) out.put(static_cast<std::int64_t>(mode));
   out.put(met_ ? static_cast<std::int64_t>(*met_) : std::int64_t{-1});

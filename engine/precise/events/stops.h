@@ -65,6 +65,9 @@ class Stops {
   };
   Approach approach(std::size_t limit, double time, std::span<const double> y);
 
+  /// Takes over the modes of another scene's stops, of the same structure.
+  void follow(const Stops& other);
+
   void save(SnapshotWriter& out) const;
   void restore(SnapshotReader& in);
 

@@ -40,9 +40,10 @@ void read_version(const Fields& fields) {
 }
 
 ContactRules read_contact_rules(const View& view) {
-  const Fields fields(view, "contact_rules",
-                      {"friction", "restitution", "restitution_threshold", "simultaneous", "impact",
-                       "yield_speed", "tangential_restitution", "friction_after_stop"});
+  const Fields fields(
+      view, "contact_rules",
+      {"friction", "restitution", "restitution_threshold", "simultaneous", "impact", "yield_speed",
+       "tangential_restitution", "friction_after_stop", "friction_while_sliding"});
   ContactRules rules;
   fields.read("friction", rules.friction, kCombineNames);
   fields.read("restitution", rules.restitution, kCombineNames);
@@ -52,6 +53,7 @@ ContactRules read_contact_rules(const View& view) {
   fields.read("yield_speed", rules.yield_speed);
   fields.read("tangential_restitution", rules.tangential_restitution);
   fields.read("friction_after_stop", rules.friction_after_stop);
+  fields.read("friction_while_sliding", rules.friction_while_sliding);
   return rules;
 }
 

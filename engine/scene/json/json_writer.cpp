@@ -69,6 +69,7 @@ class Writer {
     if (rules.yield_speed != 0) write("yield_speed", rules.yield_speed);
     if (rules.tangential_restitution != 0) write("tangential_restitution", rules.tangential_restitution);
     if (rules.friction_after_stop != 1) write("friction_after_stop", rules.friction_after_stop);
+    if (rules.friction_while_sliding != 1) write("friction_while_sliding", rules.friction_while_sliding);
     out_.end('}');
   }
 

@@ -1,0 +1,525 @@
+#include "engine/precise/sensitivity/sensitivities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/integrate/dop853.h"
+#include "engine/integrate/step_control.h"
+
+namespace plumb::precise {
+namespace {
+
+constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
+
+/// Error of a step of the variational equations, relative to the derivatives' size: not below the rounding
+/// of their differences.
+constexpr double kLeastTolerance = 1e-11, kMostTolerance = 1e-9;
+/// Fraction of the derivative by which differences of two widths may disagree before a function counts as
+/// kinked. A kink gives a disagreement of the order of one, smooth functions of the fourth power of the step.
+constexpr double kKink = 1e-5;
+/// Times that the step of a difference along a state is reduced to stay on one side of a kink nearby.
+constexpr int kReductions = 4;
+constexpr double kReduction = 0.1;
+/// Number of impacts at one instant that count as a cascade.
+constexpr std::int64_t kCascade = 100;
+/// Disagreement of event times of impacts at one instant, in units of the scene's own time over the
+/// parameter's scale, up to which the parameter moves them together.
+constexpr double kTogether = 1e-7;
+constexpr int kMostSteps = 100000;
+
+Compensated as_state(std::span<const double> y) {
+  Compensated state(y.size());
+  for (std::size_t i = 0; i < y.size(); ++i) state.set(i, y[i]);
+  return state;
+}
+
+}  // namespace
+
+Sensitivities::Sensitivities(const Scene& scene, std::vector<Variation> variations, const Precise& precise)
+    : tolerance_(std::clamp(1e-3 * precise.tolerance, kLeastTolerance, kMostTolerance)),
+      own_(std::make_unique<Neighbour>(scene, precise)),
+      failures_(variations.size()),
+      values_(Variation::kPlaces.size()) {
+  for (const Variation& variation : variations) {
+    names_.push_back(variation.name);
+    steps_.push_back(variation.step);
+    of_start_.push_back(variation.of_start);
+    auto& around = beside_.emplace_back();
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      around[i] = std::make_unique<Neighbour>(variation.scenes[i], precise);
+      const Parts &parts = around[i]->parts, &own = own_->parts;
+      if (parts.integrated == own.integrated && parts.flying == own.flying &&
+          parts.outlines.size() == own.outlines.size() && parts.ballistic == own.ballistic)
+        continue;
+      throw Error(Error::Kind::Value, "parameter", "", variation.name,
+                  "its value is the one at which a force or a contact is left out of the scene: a derivative "
+                  "there has one side only; give it a value beside that");
+    }
+  }
+  const Scales scales = scales_of(scene, own_->parts);
+  own_time_ = scales.length / scales.speed;
+  const std::size_t n = own_->equations.dimension();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double lengths[kPerBody] = {scales.length, scales.length, 1, scales.length, scales.length, 1};
+    scale_.push_back(lengths[i % kPerBody] / (i % kPerBody < 3 ? 1 : own_time_));
+  }
+  const std::span<const double> start = own_->start.value();
+  now_.y.assign(start.begin(), start.end());
+  now_.by.assign(size(), Values(n, 0.0));
+  for (std::size_t j = 0; j < size(); ++j) {
+    derive_by_parameter(
+        j,
+        [](Neighbour& beside, double, std::span<const double>, std::span<double> out) {
+          std::copy(beside.start.value().begin(), beside.start.value().end(), out.begin());
+        },
+        now_.by[j]);
+  }
+}
+
+template <class Function>
+void Sensitivities::each_neighbour(const Function& function) {
+  function(*own_);
+  for (auto& around : beside_) {
+    for (auto& beside : around) function(*beside);
+  }
+}
+
+void Sensitivities::set_windows(double time) {
+  each_neighbour([&](Neighbour& any) { any.set_window(time); });
+}
+
+void Sensitivities::fail(std::size_t parameter, NoDerivative reason) {
+  if (!failures_[parameter]) failures_[parameter] = Failure{reason, now_.time};
+}
+
+void Sensitivities::fail_all(NoDerivative reason, double time) {
+  for (auto& failure : failures_) {
+    if (!failure) failure = Failure{reason, time};
+  }
+}
+
+/// Returns the length of a direction in units of the scene's scales.
+double Sensitivities::norm(std::span<const double> direction) const {
+  double largest = 0;
+  for (std::size_t i = 0; i < direction.size(); ++i)
+    largest = std::max(largest, std::abs(direction[i]) / scale_[i]);
+  return largest;
+}
+
+/// Derives a function of the scene's own laws along a direction from the present state. `values_` keeps what
+/// it found. Returns the fraction of the direction that one step is.
+template <class Function>
+double Sensitivities::derive_by_state(const Function& function, const Direction& along, std::span<double> out,
+                                      double step) {
+  std::fill(out.begin(), out.end(), 0.0);
+  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
+  if (!(size > 0)) return 0;
+  const double width = step / size;
+  at_.resize(along.state.size());
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    const double share = Variation::kPlaces[k] * width;
+    for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = now_.y[i] + share * along.state[i];
+    values_[k].resize(out.size());
+    function(*own_, now_.time + share * along.time, at_, values_[k]);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * width);
+  return width;
+}
+
+/// Derives a function by a parameter, at the present state.
+template <class Function>
+void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& function,
+                                        std::span<double> out) {
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    values_[k].resize(out.size());
+    function(*beside_[parameter][k], now_.time, now_.y, values_[k]);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * steps_[parameter]);
+}
+
+/// Derives a function along a direction and by a parameter together. Returns false if it has a kink at the
+/// present state: second differences of two widths then do not differ as those of a smooth function, whose
+/// ratio is four.
+template <class Function>
+bool Sensitivities::derive(std::size_t parameter, const Function& function, const Direction& along,
+                           std::span<const double> scale, std::span<double> out) {
+  middle_.resize(out.size());
+  part_.resize(out.size());
+  function(*own_, now_.time, now_.y, middle_);
+  // In units of `scale`: the largest derivative, and what a kink would leave.
+  const auto is_smooth = [&](std::span<const double> derivative, double width, double least) {
+    double largest = least, kink = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double near = values_[1][i] + values_[2][i] - 2 * middle_[i];
+      const double far = values_[0][i] + values_[3][i] - 2 * middle_[i];
+      largest = std::max(largest, std::abs(derivative[i]) / scale[i]);
+      kink = std::max(kink, std::abs(2 * near - 0.5 * far) / (width * scale[i]));
+      if (!std::isfinite(derivative[i])) return false;
+    }
+    return kink <= kKink * largest;
+  };
+  std::fill(out.begin(), out.end(), 0.0);
+  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
+  if (size > 0) {
+    double step = Variation::kStep;
+    for (int i = 0;; ++i, step *= kReduction) {
+      const double width = derive_by_state(function, along, out, step);
+      if (is_smooth(out, width, size)) break;
+      if (i == kReductions) return false;
+    }
+  }
+  if (of_start_[parameter]) return true;
+  derive_by_parameter(parameter, function, part_);
+  if (!is_smooth(part_, steps_[parameter], Variation::kStep / steps_[parameter])) return false;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += part_[i];
+  return true;
+}
+
+/// The state's equations and the variational equations of all parameters, one after the other.
+class Sensitivities::VariationalFlow final : public Flow {
+ public:
+  VariationalFlow(Sensitivities& all, std::span<const std::size_t> parameters)
+      : all_(all), parameters_(parameters), part_(all.scale_.size()) {}
+
+  void rate(double time, std::span<const double> y, std::span<double> out) override {
+    const std::size_t n = all_.scale_.size();
+    all_.now_.time = time;
+    all_.now_.y.assign(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n));
+    const auto law = [](Neighbour& any, double t, std::span<const double> state, std::span<double> rate) {
+      any.equations.rate(t, state, rate);
+    };
+    law(*all_.own_, time, all_.now_.y, out.first(n));
+    for (std::size_t k = 0; k < parameters_.size(); ++k) {
+      const std::span<const double> by = y.subspan((k + 1) * n, n);
+      const std::span<double> change = out.subspan((k + 1) * n, n);
+      all_.derive_by_state(law, {0, by}, change);
+      if (!all_.of_start_[parameters_[k]]) {
+        all_.derive_by_parameter(parameters_[k], law, part_);
+        for (std::size_t i = 0; i < n; ++i) change[i] += part_[i];
+      }
+      // Places change with the velocities, whatever the laws.
+      for (std::size_t i = 0; i < n; ++i) {
+        if (i % kPerBody < 3) change[i] = by[i + 3];
+      }
+    }
+  }
+
+ private:
+  Sensitivities& all_;
+  std::span<const std::size_t> parameters_;
+  Values part_;
+};
+
+/// Integrates state and derivatives to `end`, between events.
+void Sensitivities::integrate(Present& present, double end) {
+  const std::size_t n = scale_.size();
+  std::vector<std::size_t> parameters;
+  for (std::size_t j = 0; j < size(); ++j) {
+    if (lives(j)) parameters.push_back(j);
+  }
+  if (n == 0 || parameters.empty() || !(end > present.time)) {
+    present.time = end;
+    return;
+  }
+  const Present kept = now_;
+  set_windows(present.time);
+  Values y(n * (1 + parameters.size())), error_scale(y.size());
+  Dop853 method(y.size());
+  VariationalFlow flow(*this, parameters);
+  StepControl control;
+  std::copy(present.y.begin(), present.y.end(), y.begin());
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    std::copy(present.by[parameters[k]].begin(), present.by[parameters[k]].end(),
+              y.begin() + static_cast<std::ptrdiff_t>((k + 1) * n));
+  }
+  double time = present.time, proposed = end - time;
+  bool lost = false;
+  flow.rate(time, y, method.first_rate());
+  for (int steps = 0; time < end && !lost; ++steps) {
+    for (std::size_t part = 0; part * n < y.size(); ++part) {
+      const std::span<const double> by = std::span<const double>(y).subspan(part * n, n);
+      const double size = part == 0 ? 1 : std::max(norm(by), Variation::kStep / steps_[parameters[part - 1]]);
+      for (std::size_t i = 0; i < n; ++i) error_scale[part * n + i] = tolerance_ * size * scale_[i];
+      for (std::size_t i = 0; part == 0 && i < n; ++i)
+        error_scale[i] = std::max(error_scale[i], tolerance_ * std::abs(by[i]));
+    }
+    const double h = std::min(proposed, end - time);
+    method.step(flow, time, h, y);
+    const double error = method.error(h, error_scale);
+    lost = steps == kMostSteps || !(h > 4 * std::numeric_limits<double>::epsilon() * time);
+    if (!(error <= 1)) {
+      proposed = h * control.after_rejection(error);
+      continue;
+    }
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += method.increment()[i];
+    time = h == end - time ? end : time + h;
+    if (time == end) break;
+    proposed = std::max(h, proposed) * control.after_acceptance(error);
+    flow.rate(time, y, method.last_rate());
+    method.advance();
+  }
+  now_ = kept;
+  present.time = end;
+  std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n), present.y.begin());
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto from = y.begin() + static_cast<std::ptrdiff_t>((k + 1) * n);
+    std::copy(from, from + static_cast<std::ptrdiff_t>(n), present.by[parameters[k]].begin());
+    const auto infinite = [](double x) { return !std::isfinite(x); };
+    if (lost || std::any_of(from, from + static_cast<std::ptrdiff_t>(n), infinite))
+      fail(parameters[k], NoDerivative::Singular);
+  }
+}
+
+void Sensitivities::start(double time, const Compensated& given, const Compensated& closed) {
+  now_.time = time;
+  now_.y.assign(given.value().begin(), given.value().end());
+  set_windows(time);
+  const auto close = [](Neighbour& any, double t, std::span<const double> y, std::span<double> out) {
+    Compensated state = as_state(y);
+    any.close_joints(t, state);
+    std::copy(state.value().begin(), state.value().end(), out.begin());
+  };
+  Values by(scale_.size());
+  for (std::size_t j = 0; j < size(); ++j) {
+    if (!lives(j)) continue;
+    if (!derive(j, close, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
+    now_.by[j] = by;
+  }
+  now_.y.assign(closed.value().begin(), closed.value().end());
+  started_ = true;
+}
+
+void Sensitivities::advance(double time, const Compensated& y) {
+  integrate(now_, time);
+  now_.y.assign(y.value().begin(), y.value().end());
+}
+
+void Sensitivities::switch_forces(double time) {
+  each_neighbour([&](Neighbour& any) { any.flight.switch_forces(time); });
+}
+
+void Sensitivities::write(std::size_t body, std::optional<std::size_t> slot, double time,
+                          const BodyState& state) {
+  if (!slot) {
+    each_neighbour([&](Neighbour& any) { any.flight.restart(body, time, state); });
+    return;
+  }
+  for (Values& by : now_.by)
+    std::fill_n(by.begin() + static_cast<std::ptrdiff_t>(kPerBody * *slot), kPerBody, 0.0);
+}
+
+/// Returns the guard of an event; nothing if it has none that moves.
+std::optional<Contacts::Guard> Sensitivities::guard_of(const Contacts::Record& record) const {
+  if (!record.met) return record.guard;
+  for (const ContactCandidate& touch : record.touches) {
+    if (touch.stop || touch.pair != *record.met) continue;
+    int fastest = 0;
+    for (int i = 1; i < touch.count; ++i) {
+      if (touch.closing[i] < touch.closing[fastest]) fastest = i;
+    }
+    return Contacts::Guard{
+        .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[fastest]};
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// Returns a function that evaluates a guard.
+auto value_of(const Contacts::Guard& guard) {
+  return [guard](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+    out[0] = any.contacts.guard_value(guard, time, y);
+  };
+}
+
+}  // namespace
+
+/// Returns true if a parameter opens contacts that exist at the start, or presses their shapes together.
+bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
+  const double size = std::max(Variation::kStep / steps_[j], norm(now_.by[j]));
+  const double length[1] = {scale_[0]}, speed[1] = {scale_[kPerBody / 2]};
+  for (const ContactCandidate& touch : record.touches) {
+    for (int i = 0; i < touch.count && !touch.stop; ++i) {
+      const Contacts::Guard guard{
+          .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[i]};
+      double change[1] = {0};
+      if (!derive(j, value_of(guard), {0, now_.by[j]}, length, change)) return true;
+      if (std::abs(change[0]) > kTogether * length[0] * size) return true;
+      if (std::abs(touch.closing[i]) > touch.quiet) continue;
+      const Contacts::Guard rate{
+          .kind = Contacts::Guard::Kind::Rate, .pair = touch.pair, .feature = touch.features[i]};
+      if (!derive(j, value_of(rate), {0, now_.by[j]}, speed, change)) return true;
+      if (std::abs(change[0]) > kTogether * speed[0] * size) return true;
+    }
+  }
+  return false;
+}
+
+/// Friction ends slips that a parameter gives contacts which stick or roll at the start: it needs no time for
+/// slight ones, and its impulse is the one that ends them.
+void Sensitivities::stop_slips(std::size_t j) {
+  const auto project = [](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+    Compensated state = as_state(y);
+    any.equations.project(time, state);
+    std::copy(state.value().begin(), state.value().end(), out.begin());
+  };
+  Values by(scale_.size());
+  if (!derive(j, project, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
+  now_.by[j] = by;
+}
+
+/// Takes one parameter's derivative through the event up to the impacts; returns the change of the event's
+/// time.
+double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::span<const double> before_rate,
+                           const std::optional<Contacts::Guard>& guard, double guard_rate) {
+  const std::size_t n = scale_.size();
+  const double unit = Variation::kStep / steps_[j];
+  const double size_of_guard[1] = {std::abs(guard_rate) * own_time_};
+  double later = 0;
+  if (guard) {
+    double change[1] = {0};
+    if (!derive(j, value_of(*guard), {0, now_.by[j]}, size_of_guard, change)) fail(j, NoDerivative::Kink);
+    later = -change[0] / guard_rate;
+  }
+  if (started_ && !guard && opens_start(j, record)) fail(j, NoDerivative::Start);
+  for (const ContactCandidate& touch : record.touches) {
+    if (!guard || touch.stop || own_->contacts.holds(touch.pair)) continue;
+    for (int i = 0; i < touch.count; ++i) {
+      if (!closes_at(touch, i) || (touch.pair == guard->pair && touch.features[i] == guard->feature))
+        continue;
+      const Contacts::Guard other{
+          .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[i]};
+      double change[1] = {0};
+      const double size[1] = {std::abs(touch.closing[i]) * own_time_};
+      if (!derive(j, value_of(other), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
+      const double its = -change[0] / touch.closing[i];
+      if (std::abs(its - later) > kTogether * (own_time_ * unit + std::abs(later)))
+        fail(j, NoDerivative::Simultaneous);
+    }
+  }
+  if (!lives(j)) return 0;
+  Values& by = now_.by[j];
+  for (std::size_t i = 0; i < n; ++i) by[i] += later * before_rate[i];
+  if (!record.impacts) return later;
+  const auto impacts = [&](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+    Compensated state = as_state(y);
+    any.contacts.impacts_at(time, record.touches, state);
+    std::copy(state.value().begin(), state.value().end(), out.begin());
+  };
+  Values after(n);
+  if (!derive(j, impacts, {later, by}, scale_, after)) fail(j, NoDerivative::Kink);
+  by = after;
+  return later;
+}
+
+/// Computes the rate of a guard along the motion, `rate`; returns true if the motion may as well not reach
+/// its zero: a gap whose motion would end its approach within the rounding of the gap.
+bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guard,
+                           std::span<const double> rate, double& guard_rate) {
+  double found[1];
+  const double width = derive_by_state(value_of(guard), {1, rate}, found);
+  guard_rate = found[0];
+  if (!(std::abs(guard_rate) > 0)) return true;
+  if (guard.kind == Contacts::Guard::Kind::Quantity) return false;
+  // The second derivative of the gap along the motion's parabola.
+  double gap[3];
+  for (const int place : {-1, 0, 1}) {
+    const double s = place * width;
+    for (std::size_t i = 0; i < at_.size(); ++i)
+      at_[i] = now_.y[i] + s * (rate[i] + (i % kPerBody < 3 ? s / 2 * rate[i + 3] : 0));
+    value_of(guard)(*own_, now_.time + s, at_, std::span<double>(gap + 1 + place, 1));
+  }
+  const double bend = (gap[0] + gap[2] - 2 * gap[1]) / (width * width);
+  return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.near();
+}
+
+void Sensitivities::pass_event(const Compensated& before, const Compensated& after,
+                               const Contacts& contacts) {
+  const Contacts::Record& record = contacts.record();
+  const std::size_t n = scale_.size();
+  now_.y.assign(before.value().begin(), before.value().end());
+  set_windows(now_.time);
+  if (record.rests || record.struck > kCascade) fail_all(NoDerivative::Zeno, now_.time);
+  if (record.paradox) fail_all(NoDerivative::Paradox, now_.time);
+  const std::optional<Contacts::Guard> guard = guard_of(record);
+  Values rate(n);
+  own_->equations.rate(now_.time, now_.y, rate);
+  double guard_rate = 0;
+  if (guard && grazes(contacts, *guard, rate, guard_rate)) fail_all(NoDerivative::Grazing, now_.time);
+  std::vector<double> later(size(), 0.0);
+  for (std::size_t j = 0; j < size(); ++j) {
+    if (lives(j)) later[j] = pass(j, record, rate, guard, guard_rate);
+  }
+  each_neighbour([&](Neighbour& any) { any.contacts.follow(contacts); });
+  now_.y.assign(after.value().begin(), after.value().end());
+  own_->equations.rate(now_.time, now_.y, rate);
+  for (std::size_t j = 0; j < size(); ++j) {
+    for (std::size_t i = 0; i < n && later[j] != 0; ++i) now_.by[j][i] -= later[j] * rate[i];
+    if (started_ && lives(j) && own_->equations.holds_anything()) stop_slips(j);
+  }
+  started_ = false;
+}
+
+std::vector<BodyState> Sensitivities::at(std::size_t parameter, double time, std::size_t bodies) {
+  Present there = now_;
+  if (lives(parameter)) integrate(there, time);
+  if (const auto& failure = failures_[parameter])
+    throw NotDifferentiable(names_[parameter], failure->reason, failure->time);
+  std::vector<BodyState> out(bodies);
+  for (std::size_t slot = 0; slot < own_->parts.integrated.size(); ++slot)
+    out[own_->parts.integrated[slot]] = EquationsOfMotion::state(there.by[parameter], slot);
+  Values by(kPerBody);
+  for (const std::size_t body : own_->parts.flying) {
+    derive_by_parameter(
+        parameter,
+        [&](Neighbour& beside, double, std::span<const double>, std::span<double> y) {
+          const BodyState s = beside.flight.at(body, time).state;
+          const double numbers[kPerBody] = {s.position.x, s.position.y, s.angle,
+                                            s.velocity.x, s.velocity.y, s.angular_velocity};
+          std::copy(std::begin(numbers), std::end(numbers), y.begin());
+        },
+        by);
+    out[body] = EquationsOfMotion::state(by, 0);
+  }
+  return out;
+}
+
+void Sensitivities::save(SnapshotWriter& out) const {
+  out.put(now_.time);
+  out.put(std::int64_t{started_});
+  for (const double number : now_.y) out.put(number);
+  for (std::size_t j = 0; j < size(); ++j) {
+    out.put(failures_[j] ? static_cast<std::int64_t>(failures_[j]->reason) : std::int64_t{-1});
+    out.put(failures_[j] ? failures_[j]->time : 0.0);
+    for (const double number : now_.by[j]) out.put(number);
+    for (const auto& beside : beside_[j]) {
+      for (const Flight::Arc& arc : beside->flight.arcs()) out.put(arc);
+    }
+  }
+  for (const Flight::Arc& arc : own_->flight.arcs()) out.put(arc);
+}
+
+void Sensitivities::restore(SnapshotReader& in, const Contacts& contacts) {
+  now_.time = in.get<double>();
+  started_ = in.get<std::int64_t>() != 0;
+  for (double& number : now_.y) number = in.get<double>();
+  for (std::size_t j = 0; j < size(); ++j) {
+    const auto reason = in.get<std::int64_t>();
+    const auto time = in.get<double>();
+    in.expect(reason >= -1 && reason <= static_cast<std::int64_t>(NoDerivative::Singular));
+    failures_[j].reset();
+    if (reason >= 0) failures_[j] = Failure{static_cast<NoDerivative>(reason), time};
+    for (double& number : now_.by[j]) number = in.get<double>();
+    for (auto& beside : beside_[j]) {
+      for (Flight::Arc& arc : beside->flight.arcs()) arc = in.get<Flight::Arc>();
+    }
+  }
+  for (Flight::Arc& arc : own_->flight.arcs()) arc = in.get<Flight::Arc>();
+  each_neighbour([&](Neighbour& any) { any.contacts.follow(contacts); });
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/driver/accuracy.h"
+#include "engine/driver/sensitivity.h"
+#include "engine/driver/snapshot.h"
+#include "engine/integrate/compensated.h"
+#include "engine/precise/events/contacts.h"
+#include "engine/precise/sensitivity/neighbour.h"
+#include "engine/precise/sensitivity/variation.h"
+#include "engine/scene/scene.h"
+
+namespace plumb::precise {
+
+/// Forward sensitivities S = dy/dp of a run of `Precise`, carried along beside it.
+///   Between events they obey the variational equations dS/dt = f_y S + f_p, with f the laws of motion with
+/// the contact modes of that time. They are integrated together with the state.
+///   At an event, where a guard g(t, y, p) is zero, the time of the event moves by
+/// t' = -(g_y S + g_p) / (g_t + g_y f-). With the impact R(t, y, p), or the identity where only modes change,
+///   S+ = R_y (S- + f- t') + R_t t' + R_p - f+ t'     (the saltation matrix; Aizerman and Gantmakher 1958).
+///   All derivatives of f, g and R are taken in one way, as a fourth-order difference along a direction. The
+/// functions are those of the engine itself, with modes, features and order of impacts frozen, so they are
+/// smooth, and the differences never cross an event. Hence any number of a scene may be a parameter, and any
+/// law that the engine has has sensitivities. The run itself is not touched: its bits stay the same.
+class Sensitivities {
+ public:
+  /// `scene` has the laws of `variations`' middle.
+  Sensitivities(const Scene& scene, std::vector<Variation> variations, const Precise& precise);
+
+  std::size_t size() const { return names_.size(); }
+  double time() const { return now_.time; }
+
+  /// Continues from a state given from outside, `given`, of which the joints are then closed; `closed` is the
+  /// run's state after that.
+  void start(double time, const Compensated& given, const Compensated& closed);
+  /// Continues to `time` without an event; `y` is the run's state there.
+  void advance(double time, const Compensated& y);
+  /// Takes the event of the last step: `before` and `after` are the run's states, `contacts` the run's.
+  void pass_event(const Compensated& before, const Compensated& after, const Contacts& contacts);
+  /// Switches forces that change at `time`.
+  void switch_forces(double time);
+  /// Sets a body's state from outside: it does not depend on parameters any more. `slot` is that of an
+  /// integrated body.
+  void write(std::size_t body, std::optional<std::size_t> slot, double time, const BodyState& state);
+  /// Ends all derivatives.
+  void fail_all(NoDerivative reason, double time);
+
+  /// Returns d state / d parameter at `time`, from the last `advance` on, by body of the scene: units are
+  /// those of the state over the parameter's. Throws `NotDifferentiable`.
+  std::vector<BodyState> at(std::size_t parameter, double time, std::size_t bodies);
+
+  void save(SnapshotWriter& out) const;
+  /// `contacts` are the run's, restored.
+  void restore(SnapshotReader& in, const Contacts& contacts);
+
+ private:
+  using Values = std::vector<double>;
+  struct Failure {
+    NoDerivative reason{};
+    double time = 0;
+  };
+  /// The state and its derivatives by each parameter.
+  struct Present {
+    double time = 0;  // s
+    Values y;
+    std::vector<Values> by;  // by parameter
+  };
+  /// A direction in time and state along which a function is derived.
+  struct Direction {
+    double time = 0;
+    std::span<const double> state;
+  };
+  class VariationalFlow;
+
+  bool lives(std::size_t parameter) const { return !failures_[parameter]; }
+  void fail(std::size_t parameter, NoDerivative reason);
+  template <class Function>
+  double derive_by_state(const Function& function, const Direction& along, std::span<double> out,
+                         double step = Variation::kStep);
+  template <class Function>
+  void derive_by_parameter(std::size_t parameter, const Function& function, std::span<double> out);
+  template <class Function>
+  bool derive(std::size_t parameter, const Function& function, const Direction& along,
+              std::span<const double> scale, std::span<double> out);
+  double norm(std::span<const double> direction) const;
+  void integrate(Present& present, double end);
+  void set_windows(double time);
+  double pass(std::size_t parameter, const Contacts::Record& record, std::span<const double> before_rate,
+              const std::optional<Contacts::Guard>& guard, double guard_rate);
+  bool grazes(const Contacts& contacts, const Contacts::Guard& guard, std::span<const double> rate,
+              double& guard_rate);
+  std::optional<Contacts::Guard> guard_of(const Contacts::Record& record) const;
+  bool opens_start(std::size_t parameter, const Contacts::Record& record);
+  void stop_slips(std::size_t parameter);
+  template <class Function>
+  void each_neighbour(const Function& function);
+
+  const double tolerance_;
+  std::vector<std::string> names_;
+  std::vector<double> steps_;       // by parameter, in its unit
+  std::vector<char> of_start_;      // by parameter
+  std::unique_ptr<Neighbour> own_;  // of the scene itself
+  std::vector<std::array<std::unique_ptr<Neighbour>, Variation::kPlaces.size()>> beside_;  // by parameter
+  Values scale_;         // by component of y: m, rad, m/s, rad/s
+  double own_time_ = 1;  // s, in which the scene's accelerations cross its length
+  Present now_;
+  bool started_ = false;  // `start` was called since the last event
+  std::vector<std::optional<Failure>> failures_;
+  std::vector<Values> values_;  // of a function, by place of a difference
+  Values at_, middle_, part_;
+};
+
+}  // namespace plumb::precise

@@ -1,0 +1,49 @@
+#include "engine/precise/sensitivity/variation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/precise/dynamics/parts.h"
+#include "engine/scene/number.h"
+
+namespace plumb::precise {
+namespace {
+
+double scale_of(NumberKind kind, double value, double length) {
+  switch (kind) {
+    case NumberKind::Length:
+      return length;
+    case NumberKind::Angle:
+      return 1;
+    case NumberKind::Relative:
+      break;
+  }
+  return value != 0 ? std::abs(value) : 1;
+}
+
+}  // namespace
+
+std::vector<Variation> variations_of(const Scene& scene, const std::vector<std::string>& names,
+                                     const std::function<Scene(const Scene&)>& prepared) {
+  std::vector<Variation> variations;
+  if (names.empty()) return variations;
+  const Scene middle = prepared(scene);
+  const Parts parts = divide(middle);
+  const double length = scales_of(middle, parts).length;
+  for (const std::string& name : names) {
+    Variation& variation = variations.emplace_back();
+    variation.name = name;
+    Scene copy = scene;
+    variation.step = Variation::kStep * scale_of(kind_of_number(name), *numbers_at(copy, name)[0], length);
+    const auto body = body_of_start(scene, name);
+    variation.of_start = body && std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
+    for (std::size_t i = 0; i < Variation::kPlaces.size(); ++i) {
+      Scene beside = scene;
+      for (double* number : numbers_at(beside, name)) *number += Variation::kPlaces[i] * variation.step;
+      variation.scenes[i] = prepared(beside);
+    }
+  }
+  return variations;
+}
+
+}  // namespace plumb::precise

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "harness/reality/drops.h"
+#include "harness/reality/fit.h"
+
+namespace plumb::harness::reality {
+
+/// Returns the parameters of a law with the least loss over some drops: the mean over the times of the
+/// logarithm of the middle half's mean error, so that each time weighs the same although errors grow. By the
+/// Gauss-Newton method with Levenberg's damping, from the derivatives of Precise's motions through their
+/// impacts (`Simulation::sensitivities`); motions without a derivative do not direct a step, but count in the
+/// loss.
+Fit fit_drops(std::span<const DropStart* const> drops, const DropLaw& law);
+
+}  // namespace plumb::harness::reality

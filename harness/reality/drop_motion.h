@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <future>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "harness/interrupt.h"
+#include "harness/reality/drops.h"
+
+namespace plumb::harness::reality {
+
+/// Poses of a drop at its times; nothing where it was not finished.
+using Poses = std::optional<std::array<MeasuredPose, kTimes.size()>>;
+
+/// Frames after the start that are nearest to the times after the first touch: engines read there without
+/// anything between their steps being made up.
+std::array<int, kTimes.size()> frames_of(const DropStart& start, const Scene& scene,
+                                         std::span<const double> values);
+
+inline MeasuredPose pose_of(const BodyState& state) { return {state.position, state.angle}; }
+
+/// Returns the exact motion under a law, to a tolerance.
+Poses solve(const DropStart& start, const DropLaw& law, std::span<const double> values, double tolerance);
+
+/// Derivatives of a pose by the law's parameters; nothing where one does not exist.
+using PoseDerivatives = std::optional<std::vector<MeasuredPose>>;
+
+/// The exact motion with its derivatives, by time.
+struct DerivedPoses {
+  Poses poses;
+  std::array<PoseDerivatives, kTimes.size()> by;
+};
+DerivedPoses solve_derived(const DropStart& start, const DropLaw& law, std::span<const double> values,
+                           double tolerance);
+
+/// Returns the measured poses, as long after the computed ones as the delay says.
+Poses measured(const DropStart& start, const DropLaw& law, std::span<const double> values);
+/// Returns the velocities of the measured poses, 1/s: how they change with the delay.
+Poses measured_rates(const DropStart& start, const DropLaw& law, std::span<const double> values);
+
+/// Weight of a squared angle beside squared places in `pose_distance`, m^2: the inertia over the mass of a
+/// uniform square of 60 mm.
+inline constexpr double kAngleWeight = 0.06 * 0.06 / 6;
+/// Returns the difference of two poses as the norm of the kinetic energy weighs it, m.
+double pose_distance(const MeasuredPose& a, const MeasuredPose& b);
+
+/// Computes `of` for all drops on two threads.
+template <class Of>
+auto for_each(std::span<const DropStart* const> drops, const Of& of) {
+  std::vector<decltype(of(*drops[0]))> out(drops.size());
+  const auto part = [&](std::size_t first) {
+    for (std::size_t i = first; i < drops.size() && !interrupted(); i += 2) out[i] = of(*drops[i]);
+  };
+  auto other = std::async(std::launch::async, part, std::size_t{1});
+  part(0);
+  other.get();
+  return out;
+}
+
+}  // namespace plumb::harness::reality
