@@ -41,20 +41,12 @@ void reload(Parts& parts, int joint) {
   });
 }
 
-template <class Real>
-constexpr bool kIsRevolute = false;
-template <class Real>
-constexpr bool kIsRevolute<JointConstraint<Real, RevoluteRows>> = true;
-
 /// Visits the point impulse of a revolute joint, in either of its forms.
 template <class Parts, class F>
 void hinge_impulse(Parts& parts, int joint, F&& f) {
   parts.at(joint, [&]<class Constraint>(Constraint& constraint) {
-    if constexpr (kIsRevolute<Constraint>) {
+    if constexpr (std::is_same_v<typename Constraint::Definition, RevoluteDefinition>)
       f(constraint.point.impulse);
-    } else if constexpr (requires { constraint.anchor_a; }) {
-      f(constraint.impulse);
-    }
   });
 }
 
@@ -68,7 +60,7 @@ template <class Joint, class F>
 template <JointSweep kPass, class Joint, class Real>
 [[gnu::always_inline]] inline void run_alone(Joint& joint, const SolverBodies<Real>& bodies,
                                              const JointStep<Real>& step) {
-  if constexpr (kIsHinge<Joint>)
+  if constexpr (Joint::kPlainHinge)
     if (joint.held) return;
   JointVelocities<Real> v = velocities_of(bodies, joint);
   if constexpr (kPass == JointSweep::WarmStart) joint.warm_start(v);
@@ -358,7 +350,7 @@ namespace {
 template <class Parts, class Joint, class Real>
 void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
   using Definition = typename Joint::Definition;
-  if (joint.known_h != step.h)
+  if (Joint::kHasRules && joint.known_h != step.h)
     joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
   joint.share = 1;
   joint.alone = std::max(p.taken[joint.a].count, p.taken[joint.b].count) < 2;
@@ -377,7 +369,7 @@ Real share_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodi
 template <class Parts, class Joint, class Real>
 void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies,
                     const JointStep<Real>& step) {
-  if constexpr (kIsHinge<Joint>)
+  if constexpr (Joint::kPlainHinge)
     if (joint.held) return;
   const auto evaluate = [&] {
     joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
