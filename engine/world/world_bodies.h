@@ -94,7 +94,6 @@ std::size_t BasicWorld<Real>::states(std::span<BodyState> out) const {
 template <class Real>
 std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
   const WorldData<Real>& w = data();
-  const std::vector<BodyId>& slept = w.events.fell_asleep;
   std::size_t count = 0;
   const auto add = [&](BodyId body) {
     if (count < out.size()) out[count] = body;
@@ -102,7 +101,7 @@ std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
   };
   for (const int body : w.awake) add({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
   // Bodies that were woken since are in both lists.
-  for (const BodyId body : slept) {
+  for (const BodyId body : w.events.fell_asleep) {
     if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);
   }
   return count;

@@ -150,8 +150,9 @@ struct JointSet<Real>::Parts {
   /// Adds a constraint at the slot's colour.
   template <class Constraint>
   void put(int joint, const Constraint& constraint);
-  /// Removes the constraint and adds it again by the slot's new state. Its colour must not be marked.
-  void put_anew(int joint);
+  /// Sets the slot's state, and moves the constraint to the list that follows from it. Changes nothing if
+  /// memory runs out.
+  void put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b);
   void find_runs();
 
  private:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 #include "engine/core/room.h"
@@ -175,9 +176,18 @@ void JointSet<Real>::Parts::make_room(JointForm form, const JointSlot& s) {
 }
 
 template <class Real>
-void JointSet<Real>::Parts::put_anew(int joint) {
-  const JointSlot& s = slot(joint);
-  make_room(s.form, s);
+void JointSet<Real>::Parts::put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b) {
+  JointSlot& s = slot(joint);
+  const std::tuple before(s.active, s.dynamic_a, s.dynamic_b);
+  mark(s, false);
+  s.active = is_active, s.dynamic_a = dynamic_a, s.dynamic_b = dynamic_b;
+  try {
+    make_room(s.form, s);
+  } catch (...) {
+    std::tie(s.active, s.dynamic_a, s.dynamic_b) = before;
+    mark(s, true);
+    throw;
+  }
   with(s.form, [&](auto& lists) {
     const auto constraint = lists[s.colour][s.index];
     take_out(joint);
@@ -261,36 +271,18 @@ void JointSet<Real>::remove(int joint) {
 template <class Real>
 void JointSet<Real>::set_active(int joint, bool active) {
   Parts& p = *parts_;
-  JointSlot& s = p.slot(joint);
+  const JointSlot& s = p.slot(joint);
   if (s.active == active) return;
-  p.mark(s, false);
-  s.active = active;
-  try {
-    p.put_anew(joint);
-  } catch (...) {
-    s.active = !active;
-    p.mark(s, true);
-    throw;
-  }
+  p.put_anew(joint, active, s.dynamic_a, s.dynamic_b);
   p.active += active ? 1 : -1;
 }
 
 template <class Real>
 void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
   Parts& p = *parts_;
-  JointSlot& s = p.slot(joint);
+  const JointSlot& s = p.slot(joint);
   if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
-  const auto [was_a, was_b] = std::pair{s.dynamic_a, s.dynamic_b};
-  p.mark(s, false);
-  s.dynamic_a = dynamic_a;
-  s.dynamic_b = dynamic_b;
-  try {
-    p.put_anew(joint);
-  } catch (...) {
-    s.dynamic_a = was_a, s.dynamic_b = was_b;
-    p.mark(s, true);
-    throw;
-  }
+  p.put_anew(joint, s.active, dynamic_a, dynamic_b);
 }
 
 template <class Real>
