@@ -14,7 +14,9 @@ struct DistanceRows : JointTraits<0, 1> {
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
 
   DistanceRows() = default;
-  DistanceRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  DistanceRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.anchor_a - centre_a).as<Real>()),
+        anchor_b((definition.anchor_b - centre_b).as<Real>()) {}
 
   [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
@@ -30,6 +32,14 @@ struct DistanceRows : JointTraits<0, 1> {
   }
 };
 
-JointRules rules_of(const DistanceDefinition& definition);
+inline JointRules rules_of(const DistanceDefinition& definition) {
+  JointRules rules;
+  RowRules& along = rules.axial[0];
+  along.add_spring(definition.spring, definition.length);
+  along.add_motor(definition.motor);
+  along.add_limits(definition.range);
+  if (!definition.spring && !definition.range) along.add({.origin = definition.length});
+  return rules;
+}
 
 }  // namespace plumb

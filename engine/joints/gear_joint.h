@@ -14,7 +14,10 @@ struct GearRows : JointTraits<0, 1> {
   double exact_ratio = 1, reference = 0;  ///< the phase, rad
 
   GearRows() = default;
-  GearRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  GearRows(const Definition& definition, Vec2d, Vec2d)
+      : ratio(static_cast<Real>(definition.ratio)),
+        exact_ratio(definition.ratio),
+        reference(definition.phase) {}
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     out.axial[0] = {{}, {}, -ratio, 1, pose.angle};
@@ -22,6 +25,10 @@ struct GearRows : JointTraits<0, 1> {
   }
 };
 
-JointRules rules_of(const GearDefinition& definition);
+inline JointRules rules_of(const GearDefinition&) {
+  JointRules rules;
+  rules.axial[0].add({});
+  return rules;
+}
 
 }  // namespace plumb

@@ -2,70 +2,94 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "engine/core/text.h"
 #include "engine/scene/error.h"
+#include "engine/scene/joint_fields.h"
 
 namespace plumb {
+namespace {
 
-void JointCheck::refuse(const std::string& field, double value, const std::string& problem) const {
-  throw Error(Error::Kind::Value, subject_, field, shortest(value), problem);
-}
+/// Upper limit for numbers of a joint: no product of two overflows in float.
+constexpr double kLargestJointNumber = 1e15;
+/// Lower limit for numbers that must be positive: their reciprocals are no larger than the upper limit.
+constexpr double kSmallestJointNumber = 1e-15;
 
-void JointCheck::finite(const char* field, double value) const {
-  if (!(std::fabs(value) <= kLargestJointNumber)) refuse(field, value, "must be a number of at most 1e15");
-}
+/// Checks fields of one joint by their rules in joint_fields.h.
+class Check {
+ public:
+  explicit Check(const char* subject) : subject_(subject) {}
 
-void JointCheck::finite(const char* field, Vec2d value) const {
-  finite((std::string(field) + ".x").c_str(), value.x);
-  finite((std::string(field) + ".y").c_str(), value.y);
-}
+  void operator()(const std::string& field, double value, const FieldRule& rule) const {
+    if (!(std::fabs(value) <= kLargestJointNumber)) refuse(field, value, "must be a number of at most 1e15");
+    if (rule.limits == Limits::NonNegative && value < 0) refuse(field, value, "must not be negative");
+    if (rule.limits == Limits::Positive && value < kSmallestJointNumber)
+      refuse(field, value, "must be positive, at least 1e-15");
+  }
+  void operator()(const std::string& field, Vec2d value, const FieldRule& rule) const {
+    (*this)(field + ".x", value.x, FieldRule{});
+    (*this)(field + ".y", value.y, FieldRule{});
+    if (rule.limits == Limits::NotZero && value == Vec2d{})
+      refuse(field, 0, "must not be zero: a direction is wanted");
+  }
+  void operator()(const std::string& field, const Spring& spring, const FieldRule&) const {
+    (*this)(field + ".hertz", spring.hertz, FieldRule{Limits::Positive});
+    (*this)(field + ".damping_ratio", spring.damping_ratio, FieldRule{Limits::NonNegative});
+  }
+  void operator()(const std::string& field, const Motor& motor, const FieldRule&) const {
+    (*this)(field + ".speed", motor.speed, FieldRule{});
+    (*this)(field + ".max_force", motor.max_force, FieldRule{Limits::NonNegative});
+  }
+  /// Bounds may be infinite, for no bound.
+  void operator()(const std::string& field, const Range& range, const FieldRule&) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (range.lower != -kInfinity) (*this)(field + ".lower", range.lower, FieldRule{});
+    if (range.upper != kInfinity) (*this)(field + ".upper", range.upper, FieldRule{});
+    if (range.lower > range.upper)
+      refuse(field + ".lower", range.lower, "must not be above the upper bound, " + shortest(range.upper));
+  }
+  template <class T>
+  void operator()(const std::string& field, const std::optional<T>& value, const FieldRule& rule) const {
+    if (value) (*this)(field, *value, rule);
+  }
 
-void JointCheck::not_negative(const char* field, double value) const {
-  finite(field, value);
-  if (value < 0) refuse(field, value, "must not be negative");
-}
+  // Rules of one kind.
+  void whole(const DistanceDefinition& rod) const {
+    if (rod.range && rod.range->upper < 0)
+      refuse("range.upper", rod.range->upper, "must not be negative: a distance never is");
+    if (rod.motor && !rod.spring && !rod.range)
+      refuse("motor.speed", rod.motor->speed,
+             "has nothing to move: a rod's length is fixed; give a spring or a range");
+  }
+  void whole(const GearDefinition& gear) const { not_zero("ratio", gear.ratio, 1e-9); }
+  void whole(const RatchetDefinition& ratchet) const { not_zero("tooth", ratchet.tooth, 1e-6); }
+  void whole(const auto&) const {}
 
-void JointCheck::positive(const char* field, double value) const {
-  finite(field, value);
-  if (!(value >= kSmallestJointNumber)) refuse(field, value, "must be positive, at least 1e-15");
-}
+ private:
+  void not_zero(const char* field, double value, double smallest) const {
+    if (std::fabs(value) < smallest)
+      refuse(field, value, "must not be zero, but at least " + shortest(smallest) + " in size");
+  }
+  [[noreturn]] void refuse(const std::string& field, double value, const std::string& problem) const {
+    throw Error(Error::Kind::Value, subject_, field, shortest(value), problem);
+  }
 
-void JointCheck::not_zero(const char* field, double value, double smallest) const {
-  finite(field, value);
-  if (std::fabs(value) < smallest)
-    refuse(field, value, "must not be zero, but at least " + shortest(smallest) + " in size");
-}
+  const char* subject_;
+};
 
-void JointCheck::axis(const char* field, Vec2d value) const {
-  finite(field, value);
-  if (value == Vec2d{}) refuse(field, 0, "must not be zero: a direction is wanted");
-}
-
-void JointCheck::spring(const char* field, const std::optional<Spring>& spring) const {
-  if (!spring) return;
-  positive((std::string(field) + ".hertz").c_str(), spring->hertz);
-  not_negative((std::string(field) + ".damping_ratio").c_str(), spring->damping_ratio);
-}
-
-void JointCheck::motor(const char* field, const std::optional<Motor>& motor) const {
-  if (!motor) return;
-  finite((std::string(field) + ".speed").c_str(), motor->speed);
-  not_negative((std::string(field) + ".max_force").c_str(), motor->max_force);
-}
-
-void JointCheck::range(const char* field, const std::optional<Range>& range) const {
-  if (!range) return;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::string lower = std::string(field) + ".lower", upper = std::string(field) + ".upper";
-  if (range->lower != -kInfinity) finite(lower.c_str(), range->lower);
-  if (range->upper != kInfinity) finite(upper.c_str(), range->upper);
-  if (range->lower > range->upper)
-    refuse(lower, range->lower, "must not be above the upper bound, " + shortest(range->upper));
-}
+}  // namespace
 
 void validate(const JointKind& definition) {
-  std::visit([](const auto& kind) { validate(kind); }, definition);
+  const Check check(name_of(definition));
+  std::visit(
+      [&](const auto& kind) {
+        anchor_fields(kind, check);
+        own_fields(kind, check);
+        check.whole(kind);
+      },
+      definition);
 }
 
 const char* name_of(const JointKind& definition) {
@@ -74,14 +98,6 @@ const char* name_of(const JointKind& definition) {
       "mouse joint",    "gear joint",     "pulley joint",    "ratchet joint", "friction joint"};
   static_assert(std::size(kNames) == std::variant_size_v<JointKind>);
   return kNames[definition.index()];
-}
-
-Vec2d unit(Vec2d axis) {
-  // Scaled first: the square of a component must neither overflow nor underflow.
-  const double largest = std::fmax(std::fabs(axis.x), std::fabs(axis.y));
-  const Vec2d scaled{axis.x / largest, axis.y / largest};
-  const double length = std::sqrt(length_squared(scaled));
-  return {scaled.x / length, scaled.y / length};
 }
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -17,6 +18,15 @@ namespace plumb {
 template <class Real>
 [[gnu::always_inline]] inline Vec2<Real> rotated(const Rotation<Real>& q, Vec2<Real> v) {
   return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
+}
+
+/// Normalises `axis`, which is not zero.
+inline Vec2d unit(Vec2d axis) {
+  // Scaled first: the square of a component must neither overflow nor underflow.
+  const double largest = std::fmax(std::fabs(axis.x), std::fabs(axis.y));
+  const Vec2d scaled{axis.x / largest, axis.y / largest};
+  const double length = std::sqrt(length_squared(scaled));
+  return {scaled.x / length, scaled.y / length};
 }
 
 /// Relative pose of the joined bodies, from which residuals are computed.
@@ -152,6 +162,7 @@ struct JointTraits {
   static constexpr int kBlock = kBlockRows;  ///< rigid rows that are solved together
   static constexpr int kAxial = kAxialRows;  ///< coordinates with rules of their own
   static constexpr bool kPoint = false;      ///< anchors that coincide
+  static constexpr bool kSoft = false;       ///< ... by a rule that may yield
   static constexpr bool kTurn = false;       ///< rules for the angle
   static constexpr bool kGrounded = false;   ///< offsets are from points of the world
   static constexpr AngleUse kAngle = AngleUse::None;

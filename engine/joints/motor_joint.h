@@ -9,20 +9,28 @@ namespace plumb {
 template <class Real>
 struct MotorRows : JointTraits<0, 0> {
   using Definition = MotorDefinition;
-  static constexpr bool kPoint = true, kTurn = true;
+  static constexpr bool kPoint = true, kSoft = true, kTurn = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
   double reference = 0;               ///< rad, the target
 
   MotorRows() = default;
-  MotorRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  MotorRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.target_position - centre_a).as<Real>()),
+        anchor_b((-centre_b).as<Real>()),
+        reference(definition.target_angle) {}
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     out.point = anchor_point(pose, anchor_a, anchor_b).at_b();
   }
 };
 
-JointRules rules_of(const MotorDefinition& definition);
+inline JointRules rules_of(const MotorDefinition& definition) {
+  JointRules rules;
+  rules.point = {.role = RowRole::Spring, .spring = definition.spring, .max_force = definition.max_force};
+  rules.turn.add({.role = RowRole::Spring, .spring = definition.spring, .max_force = definition.max_torque});
+  return rules;
+}
 
 }  // namespace plumb

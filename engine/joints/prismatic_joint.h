@@ -16,7 +16,11 @@ struct PrismaticRows : JointTraits<2, 1> {
   double reference = 0;               ///< rad
 
   PrismaticRows() = default;
-  PrismaticRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  PrismaticRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.anchor_a - centre_a).as<Real>()),
+        anchor_b((definition.anchor_b - centre_b).as<Real>()),
+        axis(unit(definition.axis).template as<Real>()),
+        reference(definition.reference_angle) {}
 
   [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
@@ -28,6 +32,13 @@ struct PrismaticRows : JointTraits<2, 1> {
   }
 };
 
-JointRules rules_of(const PrismaticDefinition& definition);
+inline JointRules rules_of(const PrismaticDefinition& definition) {
+  JointRules rules;
+  RowRules& along = rules.axial[0];
+  along.add_spring(definition.spring, definition.target_translation);
+  along.add_motor(definition.motor);
+  along.add_limits(definition.limits);
+  return rules;
+}
 
 }  // namespace plumb

@@ -17,7 +17,12 @@ struct PulleyRows : JointTraits<0, 1> {
   Real ratio = 1;
 
   PulleyRows() = default;
-  PulleyRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  PulleyRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.anchor_a - centre_a).as<Real>()),
+        anchor_b((definition.anchor_b - centre_b).as<Real>()),
+        ground_a(definition.ground_a),
+        ground_b(definition.ground_b),
+        ratio(static_cast<Real>(definition.ratio)) {}
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const Vec2<Real> arm_a = pose.rotation_a * anchor_a, arm_b = pose.rotation_b * anchor_b;
@@ -32,6 +37,10 @@ struct PulleyRows : JointTraits<0, 1> {
   }
 };
 
-JointRules rules_of(const PulleyDefinition& definition);
+inline JointRules rules_of(const PulleyDefinition& definition) {
+  JointRules rules;
+  rules.axial[0].add({.origin = definition.length.value_or(0)});
+  return rules;
+}
 
 }  // namespace plumb

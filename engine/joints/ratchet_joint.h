@@ -20,7 +20,8 @@ struct RatchetRows : JointTraits<0, 0> {
   double tooth = 1, reference = 0;  ///< rad; the phase
 
   RatchetRows() = default;
-  RatchetRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  RatchetRows(const Definition& definition, Vec2d, Vec2d)
+      : tooth(definition.tooth), reference(definition.phase) {}
 
   void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     static_cast<void>(pose);
@@ -31,6 +32,10 @@ struct RatchetRows : JointTraits<0, 0> {
   double tooth_at(double angle) const { return std::floor(angle / tooth + kReach); }
 };
 
-JointRules rules_of(const RatchetDefinition& definition);
+inline JointRules rules_of(const RatchetDefinition& definition) {
+  JointRules rules;
+  rules.turn.add({.role = RowRole::Limit, .sign = definition.tooth > 0 ? 1.0 : -1.0});
+  return rules;
+}
 
 }  // namespace plumb

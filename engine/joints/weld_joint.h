@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/joints/joint_row.h"
+#include "engine/joints/revolute_joint.h"
 
 namespace plumb {
 
@@ -14,7 +14,10 @@ struct WeldRows : JointTraits<3, 0> {
   double reference = 0;               ///< rad
 
   WeldRows() = default;
-  WeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  WeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.anchor_a - centre_a).as<Real>()),
+        anchor_b((definition.anchor_b - centre_b).as<Real>()),
+        reference(definition.reference_angle) {}
 
   [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
@@ -28,22 +31,19 @@ struct WeldRows : JointTraits<3, 0> {
 
 /// The same with a spring for the point, for the angle or for both; the one without a spring is rigid.
 template <class Real>
-struct SoftWeldRows : JointTraits<0, 0> {
+struct SoftWeldRows : RevoluteRows<Real> {
   using Definition = WeldDefinition;
-  static constexpr bool kPoint = true, kTurn = true;
-  static constexpr AngleUse kAngle = AngleUse::Counted;
-
-  Vec2<Real> anchor_a{}, anchor_b{};
-  double reference = 0;
-
-  SoftWeldRows() = default;
-  SoftWeldRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
-
-  [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
-    out.point = anchor_point(pose, anchor_a, anchor_b).middle();
-  }
+  static constexpr bool kSoft = true;
+  using RevoluteRows<Real>::RevoluteRows;
 };
 
-JointRules rules_of(const WeldDefinition& definition);
+inline JointRules rules_of(const WeldDefinition& definition) {
+  JointRules rules;
+  if (definition.linear_spring) rules.point = {.role = RowRole::Spring, .spring = *definition.linear_spring};
+  RowRule turn;
+  if (definition.angular_spring) turn = {.role = RowRole::Spring, .spring = *definition.angular_spring};
+  rules.turn.add(turn);
+  return rules;
+}
 
 }  // namespace plumb

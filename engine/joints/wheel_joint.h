@@ -17,7 +17,10 @@ struct WheelRows : JointTraits<0, 2> {
   double reference = 0;               ///< rad
 
   WheelRows() = default;
-  WheelRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b);
+  WheelRows(const Definition& definition, Vec2d centre_a, Vec2d centre_b)
+      : anchor_a((definition.anchor_a - centre_a).as<Real>()),
+        anchor_b((definition.anchor_b - centre_b).as<Real>()),
+        axis(unit(definition.axis).template as<Real>()) {}
 
   [[gnu::always_inline]] void evaluate(const JointPose<Real>& pose, JointRows<Real>& out) const {
     const AnchorPoint<Real> point = anchor_point(pose, anchor_a, anchor_b);
@@ -28,6 +31,13 @@ struct WheelRows : JointTraits<0, 2> {
   }
 };
 
-JointRules rules_of(const WheelDefinition& definition);
+inline JointRules rules_of(const WheelDefinition& definition) {
+  JointRules rules;
+  rules.turn.add_motor(definition.motor);
+  rules.axial[0].add_spring(definition.spring, 0);
+  rules.axial[0].add_limits(definition.limits);
+  rules.axial[1].add({});
+  return rules;
+}
 
 }  // namespace plumb

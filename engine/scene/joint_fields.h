@@ -5,8 +5,9 @@
 #include "engine/scene/joint.h"
 #include "engine/scene/limits.h"
 
-/// Names and allowed values of each joint's fields in the scene format: the one list for reading, writing and
-/// validation. `visit(name, member, rule)` is called for each field in order.
+/// Names and allowed values of each joint's fields: the one list for reading, writing and validation, of
+/// joints of a scene and of definitions of a world's joints. `visit(name, member, rule)` is called for each
+/// field in order.
 namespace plumb {
 
 struct FieldRule {
@@ -15,8 +16,10 @@ struct FieldRule {
   bool required = false;
 };
 
+/// A joint of this kind, or the definition of one.
 template <class J, class Kind>
-concept Is = std::is_same_v<std::remove_const_t<J>, Kind>;
+concept Is = std::is_same_v<std::remove_cvref_t<J>, Kind> ||
+    std::is_same_v<typename std::remove_cvref_t<J>::SceneJoint, Kind>;
 
 /// Visits the anchors, if the joint has any.
 template <class J, class Visit>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/hash.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/json.h"
 
@@ -80,13 +81,9 @@ std::optional<std::size_t> find_body(const Scene& scene, std::string_view name) 
 }
 
 std::uint64_t hash(const Scene& scene) {
-  // http://www.isthe.com/chongo/tech/comp/fnv: FNV-1a, 64 bits.
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const char c : to_json(scene, -1)) {
-    h ^= static_cast<unsigned char>(c);
-    h *= 0x100000001b3u;
-  }
-  return h;
+  Fnv1a hash;
+  for (const char c : to_json(scene, -1)) hash.add(std::uint64_t{static_cast<unsigned char>(c)});
+  return hash.value();
 }
 
 }  // namespace plumb

@@ -1,7 +1,8 @@
-#include <bit>
+#include <cstdint>
 #include <new>
 #include <string>
 
+#include "engine/core/hash.h"
 #include "engine/precise/precise.h"
 #include "engine/scene/error.h"
 #include "engine/scene/validate.h"
@@ -11,24 +12,23 @@
 namespace plumb {
 namespace {
 
-/// Mixes a word into a 64-bit hash (FNV-1a's step).
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) { return (hash ^ word) * 0x100000001b3ull; }
-
 std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
-  std::uint64_t out = mixed(hash(scene), accuracy.index());
+  Fnv1a out;
+  out.add(hash(scene));
+  out.add(std::uint64_t{accuracy.index()});
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
-    out = mixed(out, std::bit_cast<std::uint64_t>(precise->tolerance));
-    out = mixed(out, std::bit_cast<std::uint64_t>(precise->max_dt));
-    out = mixed(out, static_cast<std::uint64_t>(precise->method));
-    return precise->estimate_error ? mixed(out, 1) : out;
+    out.add(precise->tolerance), out.add(precise->max_dt);
+    out.add(static_cast<std::uint64_t>(precise->method));
+    if (precise->estimate_error) out.add(std::uint64_t{1});
+    return out.value();
   }
   const Realtime& realtime = std::get<Realtime>(accuracy);
-  out = mixed(out, std::bit_cast<std::uint64_t>(realtime.dt));
+  out.add(realtime.dt);
   for (const int number : {realtime.substeps, realtime.iterations, static_cast<int>(realtime.precision),
                            static_cast<int>(realtime.integrator), static_cast<int>(realtime.solver),
                            static_cast<int>(realtime.continuous), static_cast<int>(realtime.sleeping)})
-    out = mixed(out, static_cast<std::uint64_t>(number));
-  return out;
+    out.add(static_cast<std::uint64_t>(number));
+  return out.value();
 }
 
 std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy,

@@ -1,12 +1,12 @@
 #include "engine/simulation/simulation.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <new>
 #include <string>
 
+#include "engine/core/hash.h"
 #include "engine/core/text.h"
 #include "engine/driver/snapshot.h"
 #include "engine/scene/check.h"
@@ -15,23 +15,9 @@
 namespace plumb {
 namespace {
 
-/// 64-bit FNV-1a (Fowler, Noll and Vo) over bytes, the least significant of a word first.
-class Fnv1a {
- public:
-  void add_byte(std::uint64_t byte) { value_ = (value_ ^ (byte & 0xFF)) * 0x100000001b3ull; }
-  void add(double number) {
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (int shift = 0; shift < 64; shift += 8) add_byte(bits >> shift);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ull;
-};
-
 std::uint64_t checksum(std::span<const std::byte> bytes) {
   Fnv1a hash;
-  for (const std::byte byte : bytes) hash.add_byte(static_cast<std::uint64_t>(byte));
+  for (const std::byte byte : bytes) hash.add(static_cast<std::uint64_t>(byte));
   return hash.value();
 }
 

@@ -74,11 +74,8 @@ bool BasicWorld<Real>::valid(BodyId body) const {
 }
 template <class Real>
 std::vector<BodyId> BasicWorld<Real>::bodies() const {
-  std::vector<BodyId> all;
-  const WorldData<Real>& w = data();
-  for (int body = 0; body < w.bodies.size(); ++body) {
-    if (w.bodies.used(body)) all.push_back({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
-  }
+  std::vector<BodyId> all(static_cast<std::size_t>(data().bodies.count()));
+  bodies(all);
   return all;
 }
 
@@ -97,7 +94,6 @@ std::size_t BasicWorld<Real>::states(std::span<BodyState> out) const {
 template <class Real>
 std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
   const WorldData<Real>& w = data();
-  const std::vector<BodyId>& slept = w.events.fell_asleep;
   std::size_t count = 0;
   const auto add = [&](BodyId body) {
     if (count < out.size()) out[count] = body;
@@ -105,7 +101,7 @@ std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
   };
   for (const int body : w.awake) add({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
   // Bodies that were woken since are in both lists.
-  for (const BodyId body : slept) {
+  for (const BodyId body : w.events.fell_asleep) {
     if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);
   }
   return count;
@@ -356,9 +352,8 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   const bool turns = dynamic && !rotation && record.inertia > 0;
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
-  data_->position_compensation.renew(
-      index,
-      data_->bodies.size());  // locked axes do not move by rounding residues either
+  // Locked axes do not move by rounding residues either.
+  data_->position_compensation.renew(index, data_->bodies.size());
   data_->topology_changed = true;
   invalidate_manifolds(*data_, index);
   wake(index);
@@ -441,8 +436,7 @@ double BasicWorld<Real>::angular_damping(BodyId body) const {
 }
 template <class Real>
 BodyLocks BasicWorld<Real>::locks(BodyId body) const {
-  const BodyRecord<Real>& record = data_->bodies[place(body)];
-  return record.locks();
+  return data_->bodies[place(body)].locks();
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
@@ -469,12 +463,8 @@ std::vector<JointId> BasicWorld<Real>::joints(BodyId body) const {
 }
 template <class Real>
 std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
-  std::vector<ContactReading> all;
-  for_each_edge(data_->contacts, data_->bodies[place(body)].first_contact,
-                [&](int, const ContactRecord& contact) {
-                  if (!has_points(contact)) return;
-                  all.push_back(reading_of(*data_, contact, constraint_of(*data_, contact)));
-                });
+  std::vector<ContactReading> all(contacts(body, std::span<ContactReading>{}));
+  contacts(body, all);
   return all;
 }
 template <class Real>

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "engine/joints/joint_row.h"
 #include "engine/scene/error.h"
 
 namespace plumb {

@@ -63,26 +63,26 @@ void check_derivatives(const J& joint, const Motion& a, const Motion& b) {
 }
 
 TEST(Revolute, RowsAreDerivativesOfTheGap) {
-  check_derivatives(Revolute<double>{0, 1, {0.5, -0.3}, {-0.7, 0.2}}, kFirst, kSecond);
+  check_derivatives(Revolute{0, 1, {0.5, -0.3}, {-0.7, 0.2}}, kFirst, kSecond);
 }
 
 TEST(Revolute, RowsToTheFixedFrame) {
-  check_derivatives(Revolute<double>{kFixedFrame, 1, {0.5, -0.3}, {-0.7, 0.2}}, kStill, kSecond);
-  check_derivatives(Revolute<double>{0, kFixedFrame, {0.5, -0.3}, {-0.7, 0.2}}, kFirst, kStill);
+  check_derivatives(Revolute{kFixedFrame, 1, {0.5, -0.3}, {-0.7, 0.2}}, kStill, kSecond);
+  check_derivatives(Revolute{0, kFixedFrame, {0.5, -0.3}, {-0.7, 0.2}}, kFirst, kStill);
 }
 
 TEST(Distance, RowsAreDerivativesOfTheLength) {
-  check_derivatives(Distance<double>{0, 1, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kFirst, kSecond);
+  check_derivatives(Distance{0, 1, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kFirst, kSecond);
 }
 
 TEST(Distance, RowsToTheFixedFrame) {
-  check_derivatives(Distance<double>{kFixedFrame, 1, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kStill, kSecond);
-  check_derivatives(Distance<double>{0, kFixedFrame, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kFirst, kStill);
+  check_derivatives(Distance{kFixedFrame, 1, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kStill, kSecond);
+  check_derivatives(Distance{0, kFixedFrame, {0.5, -0.3}, {-0.7, 0.2}, 1.2}, kFirst, kStill);
 }
 
 TEST(Distance, ResidualIsLengthMinusSetLength) {
   Row<double> row;
-  Distance<double>{kFixedFrame, 0, {1, 1}, {0, 0}, 4}.rows({}, {{4, 5}, {}}, {}, {}, &row);
+  Distance{kFixedFrame, 0, {1, 1}, {0, 0}, 4}.rows({}, {{4, 5}, {}}, {}, {}, &row);
   EXPECT_DOUBLE_EQ(row.residual, 1);  // the 3-4-5 triangle
   EXPECT_DOUBLE_EQ(row.linear_b.x, 0.6);
   EXPECT_DOUBLE_EQ(row.linear_b.y, 0.8);
@@ -90,7 +90,7 @@ TEST(Distance, ResidualIsLengthMinusSetLength) {
 
 TEST(Distance, CoincidentAnchorsGiveFiniteRows) {
   Row<double> row;
-  Distance<double>{kFixedFrame, 0, {}, {}, 1}.rows({}, {}, {}, {{3, 4}, 5}, &row);
+  Distance{kFixedFrame, 0, {}, {}, 1}.rows({}, {}, {}, {{3, 4}, 5}, &row);
   EXPECT_EQ(row.residual, -1);
   EXPECT_EQ(row.bias_acceleration, 0);
   EXPECT_EQ(length_squared(row.linear_b), 1);
@@ -98,7 +98,7 @@ TEST(Distance, CoincidentAnchorsGiveFiniteRows) {
 
 TEST(Revolute, CentripetalAccelerationOfASpinningAnchor) {
   Row<double> rows[2];
-  Revolute<double>{kFixedFrame, 0, {2, 0}, {2, 0}}.rows({}, {}, {}, {{}, 3}, rows);
+  Revolute{kFixedFrame, 0, {2, 0}, {2, 0}}.rows({}, {}, {}, {{}, 3}, rows);
   EXPECT_DOUBLE_EQ(rows[0].bias_acceleration, -18);  // -w^2 r
   EXPECT_DOUBLE_EQ(rows[1].bias_acceleration, 0);
 }
@@ -113,7 +113,7 @@ Scene mixed_scene() {
 }
 
 TEST(CompileJoints, ResolvesNamesAndSortsByKind) {
-  const Joints<double> joints = compile_joints<double>(mixed_scene());
+  const Joints joints = compile_joints(mixed_scene());
   ASSERT_EQ(joints.revolute.size(), 2u);
   ASSERT_EQ(joints.distance.size(), 1u);
   EXPECT_EQ(joints.row_count(), 5u);
@@ -129,18 +129,18 @@ TEST(CompileJoints, ResolvesNamesAndSortsByKind) {
 }
 
 TEST(Joints, RowsFollowTheNumbering) {
-  const Joints<float> joints = compile_joints<float>(mixed_scene());
-  std::vector<Pose<float>> poses(3);
+  const Joints joints = compile_joints(mixed_scene());
+  std::vector<Pose<double>> poses(3);
   poses[0].position = {-2, -2};
   poses[1].position = {1, 0};
-  const std::vector<Twist<float>> twists(3);
-  std::vector<Row<float>> rows(joints.row_count());
+  const std::vector<Twist<double>> twists(3);
+  std::vector<Row<double>> rows(joints.row_count());
   joints.rows(poses, twists, rows);
   EXPECT_EQ(rows[0].residual, 0);  // p: (-2, -2) + (8, 9) - (6, 7)
   EXPECT_EQ(rows[1].residual, 0);
   EXPECT_EQ(rows[2].residual, 2);  // q's anchor (2, 0) from r's (0, 0)
   EXPECT_EQ(rows[3].residual, 0);
-  EXPECT_FLOAT_EQ(rows[4].residual, std::sqrt(5.0f) - 5);  // r (3, 4) from q (2, 2)
+  EXPECT_DOUBLE_EQ(rows[4].residual, std::sqrt(5.0) - 5);  // r (3, 4) from q (2, 2)
 }
 
 }  // namespace

@@ -33,12 +33,12 @@ MUTATIONS = [
              "(0.5 * s) * arc.motion.acceleration", "s * arc.motion.acceleration"),
 
     # Joints.
-    Mutation("an anchor does not turn with its body", "engine/joints/revolute.cpp",
-             "arm_b = pose_b.rotation * anchor_b", "arm_b = anchor_b"),
-    Mutation("the sign of a joint's lever", "engine/joints/revolute.cpp",
+    Mutation("an anchor does not turn with its body", "engine/joints/joints.cpp",
+             "arm_b = pose_b.rotation * anchor_b;\n  const Vec2d gap", "arm_b = anchor_b;\n  const Vec2d gap"),
+    Mutation("the sign of a joint's lever", "engine/joints/joints.cpp",
              "arm_a.y, -arm_b.y", "arm_a.y, arm_b.y"),
-    Mutation("centripetal bias the wrong way", "engine/joints/revolute.cpp",
-             "spin_a * arm_a - spin_b * arm_b", "spin_b * arm_b - spin_a * arm_a", "precise"),
+    Mutation("centripetal bias the wrong way", "engine/joints/joints.cpp",
+             "bias = spin_a * arm_a - spin_b * arm_b", "bias = spin_b * arm_b - spin_a * arm_a", "precise"),
 
     # Contacts.
     Mutation("restitution of the wrong sign, precise", "engine/precise/events/impacts.cpp",

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/hash.h"
+
 namespace plumb {
 
 /// A set of unordered pairs of non-negative integers. Open addressing with linear probing, at most half full;
@@ -51,16 +53,8 @@ class PairSet {
     return (Key{high} + 1) << 32 | low;
   }
 
-  // The finalizer of MurmurHash3 (Appleby): each bit of the key changes each bit of the hash with a
-  // probability near one half, so that neighbouring indices do not probe each other's slots.
-  static std::size_t hash(Key key) {
-    key ^= key >> 33;
-    key *= 0xff51afd7ed558ccd;
-    key ^= key >> 33;
-    key *= 0xc4ceb9fe1a85ec53;
-    key ^= key >> 33;
-    return static_cast<std::size_t>(key);
-  }
+  // Mixed, so that neighbouring indices do not probe each other's slots.
+  static std::size_t hash(Key key) { return static_cast<std::size_t>(mixed_bits(key)); }
 
   // Returns the slot that holds `key`, or the empty one for it.
   std::size_t find(Key key) const {

@@ -28,12 +28,12 @@ bool HangingTree::find_links(const Scene& scene, const Parts& parts) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (scene.bodies[i].type == BodyType::Static) link_of[i] = kStands;
   const auto known = [&](int body) { return body == kFixedFrame ? kStands : link_of[body]; };
-  std::vector<Revolute<double>> left = equations_.joints().revolute;
+  std::vector<Revolute> left = equations_.joints().revolute;
   if (left.size() != parts.integrated.size()) return false;
   while (!left.empty()) {
     const std::size_t before = left.size();
-    std::vector<Revolute<double>> later;
-    for (Revolute<double> hinge : left) {
+    std::vector<Revolute> later;
+    for (Revolute hinge : left) {
       if (known(hinge.a) == kUnknown) {
         std::swap(hinge.a, hinge.b);
         std::swap(hinge.anchor_a, hinge.anchor_b);

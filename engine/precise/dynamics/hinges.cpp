@@ -13,13 +13,13 @@ constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revolute<double>>& hinges,
+HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revolute>& hinges,
                        std::span<const double> inverse_mass, std::span<const double> inverse_inertia) {
   const auto of = [](std::span<const double> values, int body) {
     return body == kFixedFrame ? 0.0 : values[static_cast<std::size_t>(body)];
   };
   for (const HingePlace& place : order) {
-    const Revolute<double>& hinge = hinges[static_cast<std::size_t>(place.hinge)];
+    const Revolute& hinge = hinges[static_cast<std::size_t>(place.hinge)];
     lines_.push_back({hinge.a, hinge.b, place.hinge, place.next, place.side == 1, place.next_side == 1,
                       of(inverse_mass, hinge.a), of(inverse_mass, hinge.b), of(inverse_inertia, hinge.a),
                       of(inverse_inertia, hinge.b), hinge.anchor_a, hinge.anchor_b, 0, 0});

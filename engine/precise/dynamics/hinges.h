@@ -21,7 +21,7 @@ class HingeLines {
  public:
   /// `order`: `JointSystem::hinges`, of a system whose rows are those of `hinges` alone; empty if there are
   /// none.
-  HingeLines(std::span<const HingePlace> order, const std::vector<Revolute<double>>& hinges,
+  HingeLines(std::span<const HingePlace> order, const std::vector<Revolute>& hinges,
              std::span<const double> inverse_mass, std::span<const double> inverse_inertia);
 
   bool empty() const { return lines_.empty(); }

@@ -49,7 +49,7 @@ std::vector<std::string> plain_names(const Scene& scene) {
 
 std::vector<JointStart> joint_starts(const Scene& scene) {
   const Start start(scene);
-  const Joints<double> plain = compile_joints<double>(scene);
+  const Joints plain = compile_joints(scene);
   const precise::GeneralJoints others(scene);
   std::vector<Row<double>> rows(plain.row_count() + others.row_count()), stops(others.stops().size());
   plain.rows(start.poses, start.twists, rows);

@@ -29,8 +29,7 @@ std::vector<std::string> joint_names_by_row(const Scene& scene, const GeneralJoi
 }
 
 /// Computes the rows for bodies that lie on each other: only their body indices matter.
-std::vector<Row<double>> pattern(const Joints<double>& joints, const GeneralJoints& others,
-                                 std::size_t bodies) {
+std::vector<Row<double>> pattern(const Joints& joints, const GeneralJoints& others, std::size_t bodies) {
   std::vector<Row<double>> rows(joints.row_count() + others.row_count());
   const std::vector<Pose<double>> poses(bodies);
   const std::vector<double> angles(bodies);
@@ -72,9 +71,9 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
 
 /// Returns the hinges of mechanisms that consist of hinges alone. With wide mass ratios rounding requires the
 /// refinement that rows have.
-HingeLines hinge_lines(const JointSystem<double>& system, const Joints<double>& joints,
-                       const GeneralJoints& others, const std::vector<double>& inverse_mass,
-                       const std::vector<double>& inverse_inertia, bool wide_mass_ratio) {
+HingeLines hinge_lines(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
+                       const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
+                       bool wide_mass_ratio) {
   const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio;
   return {plain ? system.hinges() : std::vector<HingePlace>{}, joints.revolute, inverse_mass,
           inverse_inertia};
@@ -95,7 +94,7 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       flight_(flight),
       gravity_(scene.gravity),
       forces_(with_laws_on(scene, parts.integrated)),
-      joints_(compile_joints<double>(scene)),
+      joints_(compile_joints(scene)),
       kind_joints_(scene),
       joint_of_row_(joint_names_by_row(scene, kind_joints_)),
       joint_ends_(ends_of_joints(scene)),

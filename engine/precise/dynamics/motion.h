@@ -163,7 +163,7 @@ class EquationsOfMotion final : public Flow {
   std::span<const Twist<double>> twists() const { return twists_; }
   std::span<const Row<double>> rows() const { return rows_; }
   std::span<const double> multipliers() const { return multipliers_; }
-  const Joints<double>& joints() const { return joints_; }
+  const Joints& joints() const { return joints_; }
   const GeneralJoints& kind_joints() const { return kind_joints_; }
   BodiesNow bodies_now() const { return {poses_, angles_, twists_}; }
   const std::string& name(std::size_t body) const { return names_[body]; }
@@ -224,7 +224,7 @@ class EquationsOfMotion final : public Flow {
   const Flight& flight_;
   Vec2d gravity_;
   Forces<double> forces_;
-  Joints<double> joints_;
+  Joints joints_;
   GeneralJoints kind_joints_;
   std::vector<std::string> joint_of_row_, names_;
   std::vector<JointEnd> joint_ends_;  // of the scene's joints, in its order: their bodies b

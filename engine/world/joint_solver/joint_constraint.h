@@ -8,6 +8,7 @@
 #include "engine/joints/joint_angle.h"
 #include "engine/joints/pulley_joint.h"
 #include "engine/joints/ratchet_joint.h"
+#include "engine/joints/revolute_joint.h"
 #include "engine/joints/spring_mobility.h"
 #include "engine/world/joint_solver/joint_block.h"
 #include "engine/world/joint_solver/joint_coordinate.h"
@@ -40,15 +41,22 @@ struct JointConstraint {
   /// Mouse joint only: body a takes no part.
   static constexpr bool kOneBody = Rows::kGrounded && !kPulley;
   static constexpr int kAxial = Rows::kAxial, kBlock = Rows::kBlock;
+  /// A plain revolute joint, which may be left to another solver.
+  static constexpr bool kPlainHinge = std::is_same_v<Rows, HingeRows<Real>>;
+  static constexpr bool kHasRows = kAxial + kBlock > 0;
+  static constexpr bool kSoftPoint = Rows::kPoint && Rows::kSoft;
+  static constexpr bool kHasRules = Rows::kTurn || kAxial > 0 || kSoftPoint;
   template <bool kHas, class Part, int kTag>
   using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
 
   int joint = 0, a = 0, b = 0;
-  Real share = 1;                   ///< under-relaxation factor of its impulses
-  bool alone = false;               ///< no other joint moves its bodies
-  Scalar<Real> known_h = 0;         ///< s, substep length that the rules are set for
-  Vec2<Real> offset{}, offset_a{};  ///< m, at the start of the step
-  Vec2<Real> arm_b{};
+  Real share = 1;            ///< under-relaxation factor of its impulses
+  bool alone = false;        ///< no other joint moves its bodies
+  Scalar<Real> known_h = 0;  ///< s, substep length that the rules are set for
+  Vec2<Real> offset{};       ///< m, at the start of the step
+  [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};
+  [[no_unique_address]] If<kHasRows, Vec2<Real>, 6> arm_b{};
+  [[no_unique_address]] If<kPlainHinge, bool, 7> held{};  ///< solved elsewhere
   Rows kind{};
   using Angle = std::conditional_t<kIsLanes<Real>, LaneAngles<Real>, JointAngle>;
   [[no_unique_address]] If<kAngle != AngleUse::None, Angle, 0> angle{};
@@ -56,7 +64,8 @@ struct JointConstraint {
   [[no_unique_address]] If<Rows::kTurn, JointCoordinate<Real, true>, 2> turn{};
   std::array<JointCoordinate<Real, false>, kAxial> axial{};
   [[no_unique_address]] If<(kBlock > 0), JointBlock<Real, kBlock>, 3> block{};
-  [[no_unique_address]] If<Rows::kPoint, JointPoint<Real>, 4> point{};
+  using Point = std::conditional_t<kSoftPoint, SoftPoint<Real>, RigidPoint<Real>>;
+  [[no_unique_address]] If<Rows::kPoint, Point, 4> point{};
 
   /// Loads the definition's parameters; keeps impulses and memory that are still valid.
   void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
@@ -73,7 +82,7 @@ struct JointConstraint {
       }
     }
     for (int i = 0; i < kAxial; ++i) axial[i].load(rules.axial[i]);
-    if constexpr (Rows::kPoint) point.load(rules.point);
+    if constexpr (kSoftPoint) point.load(rules.point);
     if constexpr (kRatchet) {
       if (kind.reference != last.reference || kind.tooth != last.tooth) memory = {};
     }
@@ -89,11 +98,13 @@ struct JointConstraint {
     const JointRules rules = rules_of(definition);
     if constexpr (Rows::kTurn) turn.set_substep(rules.turn, h);
     for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], h);
-    if constexpr (Rows::kPoint) point.set_substep(rules.point, h);
+    if constexpr (kSoftPoint) point.set_substep(rules.point, h);
     known_h = h;
   }
 
   void begin_step(const SolverBodies<Real>& bodies, const Step& step) {
+    if constexpr (kPlainHinge)
+      if (held) return;
     offset = find_offset(bodies, b);
     if constexpr (kPulley) offset_a = find_offset_a(bodies);
     if constexpr (kAngle != AngleUse::None) count_turns(bodies, step.h);
@@ -113,7 +124,7 @@ struct JointConstraint {
     const JointPose<Real> at = pose(now);
     if constexpr (kRatchet) click(at.angle);
     kind.evaluate(at, rows);
-    arm_b = rows.arm_b;
+    if constexpr (kHasRows) arm_b = rows.arm_b;
     if (time != JointTime::Between) follow(now, rows, time == JointTime::StepStarts, step.h);
     evaluate_coordinates(at, rows, v, step, {share, alone});
     if constexpr (kBlock > 0) {
@@ -131,7 +142,7 @@ struct JointConstraint {
     // Rotation since the step began (0 at that time), because the angle may have many turns.
     if constexpr (Rows::kTurn) see(turn, now.turned_b - now.turned_a);
     for (int i = 0; i < kAxial; ++i) see(axial[i], rows.axial[i].residual);
-    if constexpr (Rows::kPoint)
+    if constexpr (kSoftPoint)
       if (!starts) point.follow(rows.point.gap);
   }
 
@@ -155,12 +166,10 @@ struct JointConstraint {
         axial[i].evaluate(rows.axial[i].residual, v, step, part);
       }
     }
-    if constexpr (Rows::kPoint) {
-      if constexpr (!kIsLanes<Real>)
-        if (point_beside_rigid())
-          return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
-      point.evaluate(rows.point, v, step, part);
-    }
+    if constexpr (kSoftPoint)
+      if (point_beside_rigid())
+        return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
+    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
   }
 
   // Springs beside rigid rows of the joint refer to their effective mass given these: see
@@ -177,7 +186,7 @@ struct JointConstraint {
   }
   /// Returns true if the point has a spring beside a rigid angle.
   [[gnu::always_inline]] bool point_beside_rigid() const {
-    if constexpr (Rows::kTurn && Rows::kPoint)
+    if constexpr (Rows::kTurn && kSoftPoint)
       return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
     return false;
   }
@@ -217,6 +226,7 @@ struct JointConstraint {
 
   /// Returns the load of the present rows.
   JointLoad<Real> load(const JointVelocities<Real>& v) const {
+    if constexpr (kPlainHinge) return point_load(v, point.point.arm_a, point.point.arm_b);
     constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);
     JointRow<Real> rows[kRows];
     int count = 0;
@@ -244,8 +254,8 @@ struct JointConstraint {
   /// overcompensate, more from substep to substep.
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
                                                 Real part) {
-    if (turn_beside_rigid()) solve_point(v, kRelax);
-    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, which);
+    if (turn_beside_rigid()) solve_point(v, step, kRelax, part);
+    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, step, which, part);
     if (axial_beside_rigid()) {
       for (int i = 1; i < kAxial; ++i) axial[i].solve(v, kRelax);
       solve_block(v, step, kRelax, part);
@@ -253,7 +263,7 @@ struct JointConstraint {
     solve_turn(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
     solve_block(v, step, which, part);
-    if (!point_beside_rigid()) solve_point(v, which);
+    if (!point_beside_rigid()) solve_point(v, step, which, part);
   }
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Step& step) {
     solve_coordinates(v, step, kSolve, share);
@@ -269,7 +279,7 @@ struct JointConstraint {
     JointPose<Real> at{.rotation_a = now.rotation_a, .rotation_b = now.rotation_b};
     if constexpr (Rows::kGrounded) {
       at.offset = offset + now.moved_b;
-      at.offset_a = offset_a + now.moved_a;
+      if constexpr (kPulley) at.offset_a = offset_a + now.moved_a;
     } else {
       at.offset = offset + (now.moved_b - now.moved_a);
     }
@@ -314,29 +324,41 @@ struct JointConstraint {
   std::pair<Vec2<Real>, Real> reaction() const {
     Vec2<Real> linear{};
     Real angular = 0;
-    const auto count = [&](const JointRow<Real>& row, Real impulse) {
-      linear += impulse * row.linear_b;
-      angular += impulse * (row.angular_b - cross(arm_b, row.linear_b));
-    };
     if constexpr (Rows::kTurn) angular += turn.impulse();
-    for (int i = 0; i < kAxial; ++i) count(axial[i].row, axial[i].impulse());
-    if constexpr (kBlock > 0)
-      for (int i = 0; i < kBlock; ++i) count(block.row[i], block.impulse[i]);
+    if constexpr (kHasRows) {
+      const auto count = [&](const JointRow<Real>& row, Real impulse) {
+        linear += impulse * row.linear_b;
+        angular += impulse * (row.angular_b - cross(arm_b, row.linear_b));
+      };
+      for (const auto& coordinate : axial) count(coordinate.row, coordinate.impulse());
+      if constexpr (kBlock > 0)
+        for (int i = 0; i < kBlock; ++i) count(block.row[i], block.impulse[i]);
+    }
     if constexpr (Rows::kPoint) linear += point.impulse;
     return {linear, angular};
+  }
+
+  /// Scales all impulses.
+  void scale(Real factor) {
+    if constexpr (Rows::kTurn) turn.scale(factor);
+    for (auto& coordinate : axial) coordinate.scale(factor);
+    if constexpr (kBlock > 0)
+      for (Real& impulse : block.impulse) impulse *= factor;
+    if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
   /// Clears impulses, counts and rows. A step that failed may have left what is no number, which no factor
   /// clears, and whose sign depends on how many joints were solved side by side.
   void forget() {
-    arm_b = {};
+    if constexpr (kHasRows) arm_b = {};
     if constexpr (Rows::kTurn) turn.forget();
     for (auto& coordinate : axial) coordinate.forget();
     if constexpr (kBlock > 0) {
       for (auto& row : block.row) row = {};
       for (Real& impulse : block.impulse) impulse = 0;
     }
-    if constexpr (Rows::kPoint) point.impulse = point.drift = {};
+    if constexpr (Rows::kPoint) point.impulse = {};
+    if constexpr (kSoftPoint) point.drift = {};
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }
@@ -351,61 +373,7 @@ struct JointConstraint {
       if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
   }
 
-  // ---- Of a block of joints side by side (joint_lanes.h)
-
-  /// Returns what joints of a block have in common: the rules' roles, and whether they are alone.
-  std::uint64_t lane_kind() const {
-    std::uint64_t key = alone ? 1 : 0;
-    const auto add = [&key](const auto& coordinate) {
-      key = key << 3 | static_cast<unsigned>(coordinate.count);
-      for (int i = 0; i < coordinate.count; ++i)
-        key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
-    };
-    if constexpr (Rows::kTurn) add(turn);
-    for (const auto& coordinate : axial) add(coordinate);
-    return key;
-  }
-  bool fits_lanes() const {
-    if constexpr (Rows::kPoint) return point.rigid();
-    return true;
-  }
-  /// Takes over what joints of the kind have in common.
-  void take_kind(const JointConstraint<Scalar<Real>, Kind>& from) {
-    alone = from.alone;
-    const auto take = [](auto& coordinate, const auto& other) {
-      coordinate.count = other.count;
-      for (int i = 0; i < other.count; ++i) coordinate.rule[i].role = other.rule[i].role;
-    };
-    if constexpr (Rows::kTurn) take(turn, from.turn);
-    for (int i = 0; i < kAxial; ++i) take(axial[i], from.axial[i]);
-  }
-  /// Visits the numbers that a step starts with, of a block and of one of its joints.
-  template <class One, class Visit>
-  [[gnu::always_inline]] void inputs(One& one, const Visit& visit) {
-    const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
-      visit(x.x, y.x), visit(x.y, y.y);
-    };
-    const auto coordinate = [&](auto& x, auto& y) __attribute__((always_inline)) {
-      for (int i = 0; i < x.count; ++i) {
-        auto& p = x.rule[i];
-        auto& q = y.rule[i];
-        visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed), visit(p.most, q.most);
-        visit(p.spring.rate, q.spring.rate), visit(p.spring.compliance, q.spring.compliance);
-        visit(p.impulse, q.impulse), visit(p.drift, q.drift);
-      }
-    };
-    pair(offset, one.offset);
-    if constexpr (requires { kind.anchor_a; })
-      pair(kind.anchor_a, one.kind.anchor_a), pair(kind.anchor_b, one.kind.anchor_b);
-    if constexpr (requires { kind.axis; }) pair(kind.axis, one.kind.axis);
-    if constexpr (kAngle != AngleUse::None) visit(angle.start, one.angle.start);
-    if constexpr (Rows::kTurn) coordinate(turn, one.turn);
-    for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]);
-    if constexpr (kBlock > 0)
-      for (int i = 0; i < kBlock; ++i) visit(block.impulse[i], one.block.impulse[i]);
-    if constexpr (Rows::kPoint) pair(point.impulse, one.point.impulse);
-  }
-  /// Visits likewise the numbers that are read after a step.
+  /// Visits the numbers that are read after a step, of this joint (or block of joints) and of another.
   template <class One, class Visit>
   [[gnu::always_inline]] void results(One& one, const Visit& visit) {
     const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
@@ -419,7 +387,7 @@ struct JointConstraint {
       for (int i = 0; i < x.count; ++i)
         visit(x.rule[i].impulse, y.rule[i].impulse), visit(x.rule[i].drift, y.rule[i].drift);
     };
-    pair(arm_b, one.arm_b);
+    if constexpr (kHasRows) pair(arm_b, one.arm_b);
     if constexpr (Rows::kTurn) coordinate(turn, one.turn);
     for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
     if constexpr (kBlock > 0)
@@ -429,6 +397,7 @@ struct JointConstraint {
       pair(point.impulse, one.point.impulse);
       pair(point.point.arm_a, one.point.point.arm_a), pair(point.point.arm_b, one.point.point.arm_b);
     }
+    if constexpr (kSoftPoint) pair(point.drift, one.point.drift);
   }
 
  private:
@@ -439,8 +408,9 @@ struct JointConstraint {
                                           Real part) {
     if constexpr (kBlock > 0) block.solve(v, step, which, part);
   }
-  [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, JointPass which) {
-    if constexpr (Rows::kPoint) point.solve(v, which);
+  [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, const Step& step, JointPass which,
+                                          Real part) {
+    if constexpr (Rows::kPoint) point.solve(v, step, which, part);
   }
 
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
@@ -450,14 +420,6 @@ struct JointConstraint {
 
   Vec2<Real> find_offset_a(const SolverBodies<Real>& bodies) const {
     return (bodies.position[a] - kind.ground_a).template as<Real>();
-  }
-
-  void scale(Real factor) {
-    if constexpr (Rows::kTurn) turn.scale(factor);
-    for (auto& coordinate : axial) coordinate.scale(factor);
-    if constexpr (kBlock > 0)
-      for (Real& impulse : block.impulse) impulse *= factor;
-    if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
   /// Returns the limits of the joint's angle, rad. A ratchet's limit follows its angle.

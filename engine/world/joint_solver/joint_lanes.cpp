@@ -40,6 +40,58 @@ template <class Joint, class Act>
   };
 }
 
+/// Returns what joints of a block have in common: the rules' roles, and whether they are alone.
+template <class Joint>
+std::uint64_t kind_of_lanes(const Joint& joint) {
+  std::uint64_t key = joint.alone ? 1 : 0;
+  const auto add = [&key](const auto& coordinate) {
+    key = key << 3 | static_cast<unsigned>(coordinate.count);
+    for (int i = 0; i < coordinate.count; ++i)
+      key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
+  };
+  if constexpr (Joint::Rows::kTurn) add(joint.turn);
+  for (const auto& coordinate : joint.axial) add(coordinate);
+  return key;
+}
+
+/// Takes over what joints of the kind have in common.
+template <class Lanes, class Joint>
+void take_kind(Lanes& block, const Joint& from) {
+  block.alone = from.alone;
+  const auto take = [](auto& coordinate, const auto& other) {
+    coordinate.count = other.count;
+    for (int i = 0; i < other.count; ++i) coordinate.rule[i].role = other.rule[i].role;
+  };
+  if constexpr (Joint::Rows::kTurn) take(block.turn, from.turn);
+  for (int i = 0; i < Joint::kAxial; ++i) take(block.axial[i], from.axial[i]);
+}
+
+/// Visits the numbers that a step starts with, of a block and of one of its joints.
+template <class Lanes, class Joint, class Visit>
+[[gnu::always_inline]] inline void visit_inputs(Lanes& block, Joint& one, const Visit& visit) {
+  const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
+    visit(x.x, y.x), visit(x.y, y.y);
+  };
+  const auto coordinate = [&](auto& x, auto& y) __attribute__((always_inline)) {
+    for (int i = 0; i < x.count; ++i) {
+      auto& p = x.rule[i];
+      auto& q = y.rule[i];
+      visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed), visit(p.most, q.most);
+      visit(p.spring.rate, q.spring.rate), visit(p.spring.compliance, q.spring.compliance);
+      visit(p.impulse, q.impulse), visit(p.drift, q.drift);
+    }
+  };
+  pair(block.offset, one.offset);
+  pair(block.kind.anchor_a, one.kind.anchor_a), pair(block.kind.anchor_b, one.kind.anchor_b);
+  if constexpr (requires { one.kind.axis; }) pair(block.kind.axis, one.kind.axis);
+  if constexpr (Joint::kAngle != AngleUse::None) visit(block.angle.start, one.angle.start);
+  if constexpr (Joint::Rows::kTurn) coordinate(block.turn, one.turn);
+  for (int i = 0; i < Joint::kAxial; ++i) coordinate(block.axial[i], one.axial[i]);
+  if constexpr (Joint::kBlock > 0)
+    for (int i = 0; i < Joint::kBlock; ++i) visit(block.block.impulse[i], one.block.impulse[i]);
+  if constexpr (Joint::Rows::kPoint) pair(block.point.impulse, one.point.impulse);
+}
+
 template <class Block>
 [[gnu::always_inline]] inline void store_results(Block& block) {
   const auto store = [&]<class Number>(Number & x, const auto& lane) __attribute__((always_inline)) {
@@ -134,13 +186,13 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<
     add_block<32>(blocks32_, count_ - narrow_, from.joint, from.count, from.kind);
   };
   for (Joint& joint : joints) {
-    if constexpr (requires { joint.held; })
+    if constexpr (Joint::kPlainHinge)
       if (joint.held) continue;
-    if (!joint.fits_lanes() || (!apart.empty() && apart[joint.joint])) {
+    if (!apart.empty() && apart[joint.joint]) {
       alone_.push_back(&joint);
       continue;
     }
-    const std::uint64_t kind = joint.lane_kind() << 2 | std::uint64_t{is_dynamic(motion[joint.b])} << 1 |
+    const std::uint64_t kind = kind_of_lanes(joint) << 2 | std::uint64_t{is_dynamic(motion[joint.b])} << 1 |
                                std::uint64_t{is_dynamic(motion[joint.a])};
     int place = 0;
     while (place < kinds && waiting[place].kind != kind) ++place;
@@ -197,11 +249,11 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         }
         load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
         load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
-        block.joint.take_kind(*block.from[0]);
+        take_kind(block.joint, *block.from[0]);
         const auto load = [&](Number & x, const auto& lane) __attribute__((always_inline)) {
           x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
         };
-        block.joint.inputs(*block.from[0], in_lanes(block.from, load));
+        visit_inputs(block.joint, *block.from[0], in_lanes(block.from, load));
         block.joint.share = 1;
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
@@ -280,7 +332,7 @@ void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& b
 }
 
 #define PLUMB_FOR(Real)                                             \
-  template class JointBlocks<HingeConstraint<Real>>;                \
+  template class JointBlocks<JointConstraint<Real, HingeRows>>;     \
   template class JointBlocks<JointConstraint<Real, DistanceRows>>;  \
   template class JointBlocks<JointConstraint<Real, RevoluteRows>>;  \
   template class JointBlocks<JointConstraint<Real, PrismaticRows>>; \

@@ -17,10 +17,6 @@ template <class Real, class Number, template <class> class Kind>
 struct JointLanes<JointConstraint<Real, Kind>, Number> {
   using Type = JointConstraint<Number, Kind>;
 };
-template <class Real, class Number>
-struct JointLanes<HingeConstraint<Real>, Number> {
-  using Type = HingeConstraint<Number>;
-};
 template <class Joint, class Number>
 struct LanesOfJoints {
   static constexpr int kLanes = Number::kLanes;

@@ -14,7 +14,6 @@
 #include "engine/joints/weld_joint.h"
 #include "engine/joints/wheel_joint.h"
 #include "engine/world/joint_solver/joint_constraint.h"
-#include "engine/world/joint_solver/joint_hinge.h"
 
 namespace plumb {
 
@@ -56,15 +55,11 @@ template <class Constraint>
 using JointLists = std::array<std::vector<Constraint>, kJointColours + 2>;
 
 /// Lists by form.
+template <class Real, template <class> class... Kinds>
+using ListsOfKinds = std::tuple<JointLists<JointConstraint<Real, Kinds>>...>;
 template <class Real>
 using JointStore =
-    std::tuple<JointLists<HingeConstraint<Real>>, JointLists<JointConstraint<Real, DistanceRows>>,
-               JointLists<JointConstraint<Real, RevoluteRows>>,
-               JointLists<JointConstraint<Real, PrismaticRows>>, JointLists<JointConstraint<Real, WeldRows>>,
-               JointLists<JointConstraint<Real, SoftWeldRows>>, JointLists<JointConstraint<Real, WheelRows>>,
-               JointLists<JointConstraint<Real, MotorRows>>, JointLists<JointConstraint<Real, MouseRows>>,
-               JointLists<JointConstraint<Real, GearRows>>, JointLists<JointConstraint<Real, PulleyRows>>,
-               JointLists<JointConstraint<Real, RatchetRows>>,
-               JointLists<JointConstraint<Real, FrictionRows>>>;
+    ListsOfKinds<Real, HingeRows, DistanceRows, RevoluteRows, PrismaticRows, WeldRows, SoftWeldRows,
+                 WheelRows, MotorRows, MouseRows, GearRows, PulleyRows, RatchetRows, FrictionRows>;
 
 }  // namespace plumb

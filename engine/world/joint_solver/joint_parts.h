@@ -45,12 +45,11 @@ struct JointRun {
 inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
 
 /// Joints side by side, of the forms that have them.
+template <class Real, template <class> class... Kinds>
+using BlocksOfKinds = std::tuple<JointBlocks<JointConstraint<Real, Kinds>>...>;
 template <class Real>
 using JointLaneStore =
-    std::tuple<JointBlocks<HingeConstraint<Real>>, JointBlocks<JointConstraint<Real, DistanceRows>>,
-               JointBlocks<JointConstraint<Real, RevoluteRows>>,
-               JointBlocks<JointConstraint<Real, PrismaticRows>>,
-               JointBlocks<JointConstraint<Real, WeldRows>>, JointBlocks<JointConstraint<Real, WheelRows>>>;
+    BlocksOfKinds<Real, HingeRows, DistanceRows, RevoluteRows, PrismaticRows, WeldRows, WheelRows>;
 template <class Constraint, class... Blocks>
 constexpr bool has_blocks(const std::tuple<Blocks...>*) {
   return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
@@ -151,41 +150,17 @@ struct JointSet<Real>::Parts {
   /// Adds a constraint at the slot's colour.
   template <class Constraint>
   void put(int joint, const Constraint& constraint);
-  /// Removes the constraint and adds it again by the slot's new state. Its colour must not be marked.
-  void put_anew(int joint);
+  /// Sets the slot's state, and moves the constraint to the list that follows from it. Changes nothing if
+  /// memory runs out.
+  void put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b);
   void find_runs();
 
  private:
-  template <class Store, class F>
+  template <int kForm = 0, class Store, class F>
   static decltype(auto) dispatch(Store& store, JointForm form, F&& f) {
-    switch (form) {
-      case kHinge:
-        return f(std::get<kHinge>(store));
-      case kDistance:
-        return f(std::get<kDistance>(store));
-      case kRevolute:
-        return f(std::get<kRevolute>(store));
-      case kPrismatic:
-        return f(std::get<kPrismatic>(store));
-      case kWeld:
-        return f(std::get<kWeld>(store));
-      case kSoftWeld:
-        return f(std::get<kSoftWeld>(store));
-      case kWheel:
-        return f(std::get<kWheel>(store));
-      case kMotor:
-        return f(std::get<kMotor>(store));
-      case kMouse:
-        return f(std::get<kMouse>(store));
-      case kGear:
-        return f(std::get<kGear>(store));
-      case kPulley:
-        return f(std::get<kPulley>(store));
-      case kRatchet:
-        return f(std::get<kRatchet>(store));
-      default:
-        return f(std::get<kFriction>(store));
-    }
+    if constexpr (kForm + 1 < kForms)
+      if (form != kForm) return dispatch<kForm + 1>(store, form, std::forward<F>(f));
+    return f(std::get<kForm>(store));
   }
 };
 

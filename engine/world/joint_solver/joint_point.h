@@ -53,16 +53,45 @@ template <class Real>
           select(regular, mass.yy, by_trace)};
 }
 
+/// Two anchors that coincide: both components of the gap between them, solved together.
 template <class Real>
-[[gnu::always_inline]] inline Symmetric2<Real> point_mass(const JointVelocities<Real>& v, Vec2<Real> arm_a,
-                                                          Vec2<Real> arm_b, Real share) {
-  return mass_of(point_response(v, arm_a, arm_b), share);
-}
+struct RigidPoint {
+  Vec2<Real> impulse{};  ///< N s, on b
+  AnchorPoint<Real> point{};
+  Symmetric2<Real> mass{};
+
+  static constexpr bool rigid() { return true; }
+
+  /// Writes single components: a pair stored by halves and loaded as one would stall.
+  [[gnu::always_inline]] void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
+                                       const JointStep<Scalar<Real>>&, JointShare<Real> part) {
+    point.gap.x = at.gap.x, point.gap.y = at.gap.y;
+    point.arm_a.x = at.arm_a.x, point.arm_a.y = at.arm_a.y;
+    point.arm_b.x = at.arm_b.x, point.arm_b.y = at.arm_b.y;
+    const Symmetric2<Real> response = mass_of(point_response(v, at.arm_a, at.arm_b), part.share);
+    mass.xx = response.xx, mass.xy = response.xy, mass.yy = response.yy;
+  }
+  [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
+    v.apply(impulse, point.arm_a, point.arm_b);
+  }
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Scalar<Real>>& step,
+                                    JointPass pass, Real share) {
+    const Vec2<Real> rate = v.at(point.arm_a, point.arm_b);
+    const Softness<Scalar<Real>>& soft = step.softness;
+    const Vec2<Real> delta =
+        pass == kRelax
+            ? -(mass * rate)
+            : -(Real(soft.mass_scale) * (mass * (rate + (share * Real(soft.bias_rate)) * point.gap)) +
+                Real(soft.impulse_scale) * impulse);
+    impulse += delta;
+    v.apply(delta, point.arm_a, point.arm_b);
+  }
+};
 
 /// Both components of the gap between two anchors, solved together, by a rule that bounds the vector's
-/// length. Side by side are solved those that are rigid without a bound.
+/// length. Not side by side.
 template <class Real>
-struct JointPoint {
+struct SoftPoint {
   SolverRule<Real> rule{};  ///< without sign and origin
   Vec2<Real> impulse{};     ///< N s, on b
   Vec2<Real> drift{};       ///< m, see SolverRule
@@ -80,27 +109,20 @@ struct JointPoint {
 
   /// Records the gap at the end of a substep; the gap at its start is that of `point`.
   [[gnu::always_inline]] void follow(Vec2<Real> gap) {
-    if (kIsLanes<Real> || rule.role != RowRole::Motor) return;
-    if constexpr (!kIsLanes<Real>) {
-      const bool suffices = length_squared(impulse) < rule.most * rule.most;
-      drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
-    }
+    if (rule.role != RowRole::Motor) return;
+    const bool suffices = length_squared(impulse) < rule.most * rule.most;
+    drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
   }
 
   [[gnu::always_inline]] bool rigid() const {
-    if constexpr (kIsLanes<Real>) {
-      return true;
-    } else {
-      return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
-    }
+    return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
   }
 
   [[gnu::always_inline]] void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
-                                       const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
+                                       const JointStep<Real>& step, JointShare<Real> part) {
     const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    if constexpr (!kIsLanes<Real>)
-      if (rule.role == RowRole::Spring) return evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
+    if (rule.role == RowRole::Spring) return evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
     mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
     rule.drift = 1;
@@ -124,16 +146,13 @@ struct JointPoint {
     v.apply(impulse, point.arm_a, point.arm_b);
   }
 
-  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, JointPass pass) {
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Real>&, JointPass pass, Real) {
     const Vec2<Real> before = impulse;
     Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
-    if constexpr (!kIsLanes<Real>)
-      if (rule.role == RowRole::Spring) rate += compliance * before;
+    if (rule.role == RowRole::Spring) rate += compliance * before;
     impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
-    if constexpr (!kIsLanes<Real>) {
-      const Real size = length_squared(impulse);
-      if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
-    }
+    const Real size = length_squared(impulse);
+    if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
     v.apply(impulse - before, point.arm_a, point.arm_b);
   }
 

@@ -2,7 +2,6 @@
 
 #include "engine/world/contact_solver/follow.h"
 #include "engine/world/joint_solver/joint_constraint.h"
-#include "engine/world/joint_solver/joint_hinge.h"
 
 /// Position-based joint solver. Within a substep a body's velocity is its displacement since the substep's
 /// start over h. A projection by dx therefore changes the velocity by dx / h at once. The rules of a joint
@@ -26,21 +25,12 @@ template <class Real, template <class> class Kind>
 void begin_projection(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
                       const JointStep<Real>& step) {
   using Constraint = JointConstraint<Real, Kind>;
-  if constexpr (Kind<Real>::kTurn) joint.turn.scale(0);
-  for (auto& coordinate : joint.axial) coordinate.scale(0);
-  if constexpr (Constraint::kBlock > 0)
-    for (Real& impulse : joint.block.impulse) impulse = 0;
-  if constexpr (Kind<Real>::kPoint) joint.point.impulse = {};
+  joint.scale(0);
   // A ratchet advances at reached positions, not at predicted ones.
   if constexpr (Constraint::kRatchet) {
     joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
                    JointTime::Between);
   }
-}
-
-template <class Real>
-void begin_projection(HingeConstraint<Real>& hinge, const SolverBodies<Real>&, const JointStep<Real>&) {
-  hinge.impulse = {};
 }
 
 /// Moves the two bodies such that the joint's rules hold at the new positions.
@@ -57,7 +47,7 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
   joint.remember(motion_of(bodies, joint.a, joint.b));
   JointRows<Real> rows;
   joint.kind.evaluate(at, rows);
-  joint.arm_b = rows.arm_b;
+  if constexpr (Constraint::kHasRows) joint.arm_b = rows.arm_b;
   JointPose<Real> start = at;
   start.angle -= h * (v.w_b - v.w_a);
   if constexpr (Constraint::kBlock > 0) {
@@ -72,24 +62,6 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
   joint.evaluate_coordinates(start, rows, v, step, {});
   joint.solve_coordinates(v, step, kSolve, Real(1));
   store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
-}
-
-template <class Real>
-void project(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
-             const JointStep<Real>& step) {
-  BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
-  JointVelocities<Real> v(a, b);
-  const JointVelocities<Real> before = v;
-  const JointPose<Real> pose{.offset = hinge.offset + (b.moved - a.moved),
-                             .rotation_a = bodies.rotation[hinge.a],
-                             .rotation_b = bodies.rotation[hinge.b]};
-  const AnchorPoint<Real> point = anchor_point(pose, hinge.anchor_a, hinge.anchor_b).middle();
-  hinge.arm_a = point.arm_a, hinge.arm_b = point.arm_b;
-  const Vec2<Real> delta =
-      -(point_mass(v, point.arm_a, point.arm_b, Real(1)) * (step.softness.bias_rate * point.gap));
-  hinge.impulse += delta;
-  v.apply(delta, point.arm_a, point.arm_b);
-  store_projected(v, before, a, b, rotation[hinge.a], rotation[hinge.b], step.h);
 }
 
 }  // namespace plumb

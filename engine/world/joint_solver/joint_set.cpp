@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 #include "engine/core/room.h"
@@ -41,20 +42,12 @@ void reload(Parts& parts, int joint) {
   });
 }
 
-template <class Real>
-constexpr bool kIsRevolute = false;
-template <class Real>
-constexpr bool kIsRevolute<JointConstraint<Real, RevoluteRows>> = true;
-
 /// Visits the point impulse of a revolute joint, in either of its forms.
 template <class Parts, class F>
 void hinge_impulse(Parts& parts, int joint, F&& f) {
   parts.at(joint, [&]<class Constraint>(Constraint& constraint) {
-    if constexpr (kIsRevolute<Constraint>) {
+    if constexpr (std::is_same_v<typename Constraint::Definition, RevoluteDefinition>)
       f(constraint.point.impulse);
-    } else if constexpr (requires { constraint.anchor_a; }) {
-      f(constraint.impulse);
-    }
   });
 }
 
@@ -68,7 +61,7 @@ template <class Joint, class F>
 template <JointSweep kPass, class Joint, class Real>
 [[gnu::always_inline]] inline void run_alone(Joint& joint, const SolverBodies<Real>& bodies,
                                              const JointStep<Real>& step) {
-  if constexpr (kIsHinge<Joint>)
+  if constexpr (Joint::kPlainHinge)
     if (joint.held) return;
   JointVelocities<Real> v = velocities_of(bodies, joint);
   if constexpr (kPass == JointSweep::WarmStart) joint.warm_start(v);
@@ -183,9 +176,18 @@ void JointSet<Real>::Parts::make_room(JointForm form, const JointSlot& s) {
 }
 
 template <class Real>
-void JointSet<Real>::Parts::put_anew(int joint) {
-  const JointSlot& s = slot(joint);
-  make_room(s.form, s);
+void JointSet<Real>::Parts::put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b) {
+  JointSlot& s = slot(joint);
+  const std::tuple before(s.active, s.dynamic_a, s.dynamic_b);
+  mark(s, false);
+  s.active = is_active, s.dynamic_a = dynamic_a, s.dynamic_b = dynamic_b;
+  try {
+    make_room(s.form, s);
+  } catch (...) {
+    std::tie(s.active, s.dynamic_a, s.dynamic_b) = before;
+    mark(s, true);
+    throw;
+  }
   with(s.form, [&](auto& lists) {
     const auto constraint = lists[s.colour][s.index];
     take_out(joint);
@@ -269,36 +271,18 @@ void JointSet<Real>::remove(int joint) {
 template <class Real>
 void JointSet<Real>::set_active(int joint, bool active) {
   Parts& p = *parts_;
-  JointSlot& s = p.slot(joint);
+  const JointSlot& s = p.slot(joint);
   if (s.active == active) return;
-  p.mark(s, false);
-  s.active = active;
-  try {
-    p.put_anew(joint);
-  } catch (...) {
-    s.active = !active;
-    p.mark(s, true);
-    throw;
-  }
+  p.put_anew(joint, active, s.dynamic_a, s.dynamic_b);
   p.active += active ? 1 : -1;
 }
 
 template <class Real>
 void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
   Parts& p = *parts_;
-  JointSlot& s = p.slot(joint);
+  const JointSlot& s = p.slot(joint);
   if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
-  const auto [was_a, was_b] = std::pair{s.dynamic_a, s.dynamic_b};
-  p.mark(s, false);
-  s.dynamic_a = dynamic_a;
-  s.dynamic_b = dynamic_b;
-  try {
-    p.put_anew(joint);
-  } catch (...) {
-    s.dynamic_a = was_a, s.dynamic_b = was_b;
-    p.mark(s, true);
-    throw;
-  }
+  p.put_anew(joint, s.active, dynamic_a, dynamic_b);
 }
 
 template <class Real>
@@ -358,7 +342,7 @@ namespace {
 template <class Parts, class Joint, class Real>
 void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
   using Definition = typename Joint::Definition;
-  if (joint.known_h != step.h)
+  if (Joint::kHasRules && joint.known_h != step.h)
     joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
   joint.share = 1;
   joint.alone = std::max(p.taken[joint.a].count, p.taken[joint.b].count) < 2;
@@ -377,7 +361,7 @@ Real share_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodi
 template <class Parts, class Joint, class Real>
 void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies,
                     const JointStep<Real>& step) {
-  if constexpr (kIsHinge<Joint>)
+  if constexpr (Joint::kPlainHinge)
     if (joint.held) return;
   const auto evaluate = [&] {
     joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,

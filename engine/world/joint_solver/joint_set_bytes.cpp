@@ -3,6 +3,7 @@
 
 #include "engine/joints/joint_check.h"
 #include "engine/scene/bytes.h"
+#include "engine/scene/joint_fields.h"
 #include "engine/world/joint_solver/joint_parts.h"
 
 /// Serialises a set of joints. Writing and reading use the same lists of fields.
@@ -74,86 +75,41 @@ struct Read {
 // ---- Definitions
 
 template <class A>
-void fields(const A& ar, std::optional<double>& v) {
-  ar.optional(v);
-  if (v) ar(*v);
+void fields(const A& ar, double& v) {
+  ar(v);
 }
 template <class A>
-void fields(const A& ar, std::optional<Spring>& v) {
-  ar.optional(v);
-  if (v) ar(v->hertz), ar(v->damping_ratio);
-}
-template <class A>
-void fields(const A& ar, std::optional<Range>& v) {
-  ar.optional(v);
-  if (v) ar(v->lower), ar(v->upper);
-}
-template <class A>
-void fields(const A& ar, std::optional<Motor>& v) {
-  ar.optional(v);
-  if (v) ar(v->speed), ar(v->max_force);
+void fields(const A& ar, Vec2d& v) {
+  ar(v);
 }
 template <class A>
 void fields(const A& ar, Spring& v) {
   ar(v.hertz), ar(v.damping_ratio);
 }
 template <class A>
-void fields(const A& ar, DistanceDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.length);
-  fields(ar, d.spring), fields(ar, d.range), fields(ar, d.motor);
+void fields(const A& ar, Range& v) {
+  ar(v.lower), ar(v.upper);
 }
 template <class A>
-void fields(const A& ar, RevoluteDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.reference_angle), ar(d.target_angle);
-  fields(ar, d.limits), fields(ar, d.motor), fields(ar, d.spring);
+void fields(const A& ar, Motor& v) {
+  ar(v.speed), ar(v.max_force);
 }
-template <class A>
-void fields(const A& ar, PrismaticDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.axis), ar(d.reference_angle), ar(d.target_translation);
-  fields(ar, d.limits), fields(ar, d.motor), fields(ar, d.spring);
-}
-template <class A>
-void fields(const A& ar, WeldDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.reference_angle);
-  fields(ar, d.linear_spring), fields(ar, d.angular_spring);
-}
-template <class A>
-void fields(const A& ar, WheelDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.axis);
-  fields(ar, d.spring), fields(ar, d.limits), fields(ar, d.motor);
-}
-template <class A>
-void fields(const A& ar, MotorDefinition& d) {
-  ar(d.target_position), ar(d.target_angle), ar(d.max_force), ar(d.max_torque);
-  fields(ar, d.spring);
-}
-template <class A>
-void fields(const A& ar, MouseDefinition& d) {
-  ar(d.anchor_b), ar(d.target), ar(d.max_force);
-  fields(ar, d.spring);
-}
-template <class A>
-void fields(const A& ar, GearDefinition& d) {
-  ar(d.ratio), ar(d.phase);
-}
-template <class A>
-void fields(const A& ar, PulleyDefinition& d) {
-  ar(d.ground_a), ar(d.ground_b), ar(d.anchor_a), ar(d.anchor_b), ar(d.ratio);
-  fields(ar, d.length);
-}
-template <class A>
-void fields(const A& ar, RatchetDefinition& d) {
-  ar(d.tooth), ar(d.phase);
-}
-template <class A>
-void fields(const A& ar, FrictionDefinition& d) {
-  ar(d.anchor_a), ar(d.anchor_b), ar(d.max_force), ar(d.max_torque);
+template <class A, class T>
+void fields(const A& ar, std::optional<T>& v) {
+  ar.optional(v);
+  if (v) fields(ar, *v);
 }
 
 template <class A>
 void fields(const A& ar, JointSlot& s) {
   ar.kind(s.definition);
-  std::visit([&](auto& definition) { fields(ar, definition); }, s.definition);
+  std::visit(
+      [&](auto& definition) {
+        const auto field = [&](const char*, auto& value, const FieldRule&) { fields(ar, value); };
+        anchor_fields(definition, field);
+        own_fields(definition, field);
+      },
+      s.definition);
   ar(s.a), ar(s.b), ar(s.centre_a), ar(s.centre_b);
   ar(s.used), ar(s.dynamic_a), ar(s.dynamic_b), ar(s.active);
   ar(s.form), ar(s.colour), ar(s.index);
@@ -161,32 +117,12 @@ void fields(const A& ar, JointSlot& s) {
 
 // ---- State of constraints; the rest follows from slots and bodies
 
-template <class A, class Real>
-void fields(const A& ar, JointRow<Real>& row) {
-  ar(row.linear_a), ar(row.linear_b), ar(row.angular_a), ar(row.angular_b), ar(row.residual);
-}
-template <class A, class Real, bool kAngular>
-void fields(const A& ar, JointCoordinate<Real, kAngular>& coordinate) {
-  fields(ar, coordinate.row);
-  for (auto& rule : coordinate.rule) ar(rule.impulse), ar(rule.drift);
-}
-template <class A, class Real>
-void fields(const A& ar, HingeConstraint<Real>& hinge) {
-  ar(hinge.impulse);
-}
 template <class A, class Real, template <class> class Kind>
 void fields(const A& ar, JointConstraint<Real, Kind>& c) {
   using Constraint = JointConstraint<Real, Kind>;
-  ar(c.arm_b);
   if constexpr (Constraint::kAngle != AngleUse::None) ar(c.angle.a), ar(c.angle.b), ar(c.angle.count);
   if constexpr (Constraint::kRatchet || Constraint::kPulley) ar(c.memory.value), ar(c.memory.known);
-  if constexpr (Constraint::Rows::kTurn) fields(ar, c.turn);
-  for (auto& coordinate : c.axial) fields(ar, coordinate);
-  if constexpr (Constraint::kBlock > 0) {
-    for (auto& row : c.block.row) fields(ar, row);
-    for (auto& impulse : c.block.impulse) ar(impulse);
-  }
-  if constexpr (Constraint::Rows::kPoint) ar(c.point.impulse), ar(c.point.drift);
+  c.results(c, [&](auto& value, auto&) { ar(value); });
 }
 
 /// Returns true if each body has the colours of its joints, and joints of one colour share no body. They are
@@ -280,7 +216,7 @@ void JointSet<Real>::restore(ByteReader& in) {
           using Definition = typename std::decay_t<decltype(constraint)>::Definition;
           const Definition* definition = std::get_if<Definition>(&s.definition);
           ByteReader::require(definition != nullptr, "joints", "are of another kind than they say");
-          validate(*definition);
+          validate(s.definition);
           constraint.a = s.a;
           constraint.b = s.b;
           constraint.load(*definition, s.centre_a, s.centre_b);

@@ -11,15 +11,15 @@ template <class Real>
 HeldHinge<Real> JointSet<Real>::hold(int joint) {
   const JointSlot& slot = parts_->slot(joint);
   const auto& definition = std::get<RevoluteDefinition>(slot.definition);
-  HingeConstraint<Real>& hinge = std::get<kHinge>(parts_->store)[slot.colour][slot.index];
+  auto& hinge = std::get<kHinge>(parts_->store)[slot.colour][slot.index];
   hinge.held = true;
-  return {definition.anchor_a - slot.centre_a, definition.anchor_b - slot.centre_b, &hinge.impulse};
+  return {definition.anchor_a - slot.centre_a, definition.anchor_b - slot.centre_b, &hinge.point.impulse};
 }
 
 template <class Real>
 void JointSet<Real>::let_go() {
   for (auto& list : std::get<kHinge>(parts_->store))
-    for (HingeConstraint<Real>& hinge : list) hinge.held = false;
+    for (auto& hinge : list) hinge.held = false;
 }
 
 template bool JointSet<float>::is_hinge(int) const;

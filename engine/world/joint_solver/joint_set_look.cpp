@@ -45,19 +45,8 @@ JointError<Real> error_of(const JointConstraint<Real, Kind>& constraint, const S
     error.linear = std::max(error.linear, std::sqrt(across));
   }
   if constexpr (Rows::kPoint)
-    if (constraint.point.rule.role == RowRole::Rigid)
-      error.linear = std::sqrt(length_squared(rows.point.gap));
+    if (constraint.point.rigid()) error.linear = std::sqrt(length_squared(rows.point.gap));
   return error;
-}
-
-template <class Real>
-Vec2<Real> gap_of(const HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies) {
-  const Vec2<Real> offset = (bodies.position[hinge.b] - bodies.position[hinge.a]).template as<Real>();
-  const Vec2<Real> moved = bodies.motion[hinge.b].moved - bodies.motion[hinge.a].moved;
-  const JointPose<Real> pose{.offset = offset + moved,
-                             .rotation_a = bodies.rotation[hinge.a],
-                             .rotation_b = bodies.rotation[hinge.b]};
-  return anchor_point(pose, hinge.anchor_a, hinge.anchor_b).gap;
 }
 
 [[noreturn]] void refuse(const JointKind& definition, const char* what) {
@@ -80,20 +69,14 @@ Real JointSet<Real>::torque(int joint, Real inverse_h) const {
 
 template <class Real>
 JointError<Real> JointSet<Real>::error(int joint, const SolverBodies<Real>& bodies) const {
-  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> JointError<Real> {
-    if constexpr (kIsHinge<Constraint>) {
-      return {std::sqrt(length_squared(gap_of(constraint, bodies))), 0};
-    } else {
-      return error_of(constraint, bodies);
-    }
-  });
+  return parts_->at(joint, [&](const auto& constraint) { return error_of(constraint, bodies); });
 }
 
 template <class Real>
 Real JointSet<Real>::angle(int joint, const SolverBodies<Real>& bodies) const {
   const JointSlot& s = parts_->slot(joint);
   return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
-    if constexpr (kIsHinge<Constraint>) {
+    if constexpr (Constraint::kPlainHinge) {
       const double angle = relative_angle(bodies.rotation[s.a], bodies.rotation[s.b]);
       return static_cast<Real>(
           nearest_turn(angle - std::get<RevoluteDefinition>(s.definition).reference_angle, 0));
@@ -109,24 +92,16 @@ template <class Real>
 Real JointSet<Real>::translation(int joint, const SolverBodies<Real>& bodies) const {
   const JointSlot& s = parts_->slot(joint);
   if (s.form != kPrismatic && s.form != kWheel) refuse(s.definition, "translation");
-  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
-    if constexpr (kIsHinge<Constraint>)
-      return 0;
-    else
-      return constraint.look(bodies).second.axial[0].residual;
-  });
+  return parts_->at(joint,
+                    [&](const auto& constraint) { return constraint.look(bodies).second.axial[0].residual; });
 }
 
 template <class Real>
 Real JointSet<Real>::length(int joint, const SolverBodies<Real>& bodies) const {
   const JointSlot& s = parts_->slot(joint);
   if (s.form != kDistance && s.form != kPulley) refuse(s.definition, "length");
-  return parts_->at(joint, [&]<class Constraint>(const Constraint& constraint) -> Real {
-    if constexpr (kIsHinge<Constraint>)
-      return 0;
-    else
-      return constraint.look(bodies).second.axial[0].residual;
-  });
+  return parts_->at(joint,
+                    [&](const auto& constraint) { return constraint.look(bodies).second.axial[0].residual; });
 }
 
 template float JointSet<float>::force(int, float) const;

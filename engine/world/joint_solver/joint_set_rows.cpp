@@ -33,7 +33,11 @@ struct RowList {
     rows.push_back({.row = row, .role = RowRole::Rigid, .impulse = impulse});
   }
 
-  void add(const AnchorPoint<Real>& at, JointPoint<Real>& point, const Symmetric2<Real>& mobility) const {
+  void add(const AnchorPoint<Real>& at, RigidPoint<Real>& point, const Symmetric2<Real>&) const {
+    add_rigid(at.plain_row({1, 0}), &point.impulse.x);
+    add_rigid(at.plain_row({0, 1}), &point.impulse.y);
+  }
+  void add(const AnchorPoint<Real>& at, SoftPoint<Real>& point, const Symmetric2<Real>& mobility) const {
     for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}}) {
       JointSolverRow<Real> out{.row = at.plain_row(n), .role = point.rule.role, .most = point.rule.most};
       out.pair = n.y != 0;
@@ -48,20 +52,6 @@ struct RowList {
     }
   }
 };
-
-template <class Real>
-void add_rows(HingeConstraint<Real>& hinge, const SolverBodies<Real>& bodies,
-              std::vector<JointSolverRow<Real>>& rows) {
-  const BodyMotion<Real>&a = bodies.motion[hinge.a], &b = bodies.motion[hinge.b];
-  const HingeArms<Real> arms =
-      hinge_arms(hinge.offset, a.moved, b.moved, bodies.rotation[hinge.a] * hinge.anchor_a,
-                 bodies.rotation[hinge.b] * hinge.anchor_b);
-  const AnchorPoint<Real> at{arms.a, arms.b, arms.gap};
-  const JointVelocities<Real> v(a, b);
-  const RowList<Real> list{rows, v};
-  list.add_rigid(at.plain_row({1, 0}), &hinge.impulse.x);
-  list.add_rigid(at.plain_row({0, 1}), &hinge.impulse.y);
-}
 
 template <class Real, template <class> class Kind>
 void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/core/room.h"
 #include "engine/geometry/convex.h"
 #include "engine/world/checksum.h"
@@ -111,13 +112,10 @@ class CornerPool {
     ensure_room(corners_, corners_.size() + length);
   }
 
-  // Mixes the upper bits into the lower ones, which choose the slot, with the finalizer of MurmurHash3
-  // (Appleby). Coordinates with few digits hardly change the lower bits of the checksum.
+  // Mixes the upper bits into the lower ones, which choose the slot: coordinates with few digits hardly
+  // change the lower bits of the checksum.
   static std::size_t hash(std::span<const Corner<Real>> corners) {
-    std::uint64_t sum = checksum(std::as_bytes(corners));
-    sum = (sum ^ (sum >> 33)) * 0xff51afd7ed558ccdu;
-    sum = (sum ^ (sum >> 33)) * 0xc4ceb9fe1a85ec53u;
-    return static_cast<std::size_t>(sum ^ (sum >> 33));
+    return static_cast<std::size_t>(mixed_bits(checksum(std::as_bytes(corners))));
   }
 
   // Returns the slot of an equal run, or the empty slot where it belongs.

@@ -1,0 +1,62 @@
+#include "engine/world/contact_solver/position_contacts.h"
+#include "engine/world/integration/free_motion.h"
+#include "engine/world/solvers/solvers.h"
+
+// Solvers that project positions: bodies move by forces, then `sweeps` iterations over all constraints move
+// them back. The velocity is the displacement over h.
+namespace plumb {
+namespace {
+
+// Calls `correct(contacts)`, which corrects velocities, at the end of each substep.
+template <class Real, class Correct>
+void project_positions(WorldData<Real>& w, double h, int substeps, int sweeps, PositionFriction friction,
+                       const Correct& correct) {
+  const Real step = static_cast<Real>(h), inverse_h = static_cast<Real>(1 / h);
+  const PositionStep<Real> contacts{
+      .h = step, .inverse_h = inverse_h, .bounce_threshold = bounce_threshold(w, h * substeps)};
+  const JointStep<Real> joints{.h = step, .inverse_h = inverse_h, .softness = {inverse_h, 1, 0}};
+  const SolverBodies<Real> bodies = w.solver_bodies();
+  Rotation<Real>* rotation = w.rotation.data();
+  const bool jointed = w.joint_set.active_count() > 0;
+
+  prepare_integration(w, h, substeps, Integrator::SemiImplicitEuler);
+  if (jointed) w.joint_set.prepare(bodies, joints);
+  for (int substep = 0; substep < substeps; ++substep) {
+    if (jointed) w.joint_set.begin_projection(bodies, joints);
+    begin_position_contacts(bodies.motion, w.graph);
+    integrate_velocities(w);
+    integrate_positions(w, step, Integrator::SemiImplicitEuler);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      if (jointed) w.joint_set.project(bodies, rotation, joints);
+      project_contacts(bodies.motion, rotation, w.graph, contacts, friction);
+      enforce_motion_locks(w);
+    }
+    correct(contacts);
+    add_step_impulses(w);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
+  project_positions(
+      w, h, substeps, w.settings.iterations, PositionFriction::Coulomb,
+      [&](const PositionStep<Real>& contacts) { restore_bounces(w.motion.data(), w.graph, contacts); });
+}
+
+// One projection per substep, with compliance of soft constraints; more substeps replace iterations. Then
+// velocities: restitution and dynamic friction.
+template <class Real>
+void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
+  project_positions(w, h, substeps, 1, PositionFriction::Static, [&](const PositionStep<Real>& contacts) {
+    correct_contact_velocities(w.motion.data(), w.graph, contacts);
+  });
+}
+
+template void solve_jakobsen(WorldData<float>&, double, int);
+template void solve_jakobsen(WorldData<double>&, double, int);
+template void solve_xpbd(WorldData<float>&, double, int);
+template void solve_xpbd(WorldData<double>&, double, int);
+
+}  // namespace plumb
