@@ -378,7 +378,10 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(events_at_once_);
   out.put(events_);
   out.put(std::int64_t{record_.guard.has_value()});
-  out.put(record_.guard.value_or(Guard{}));
+  // One by one: bytes between members have no value.
+  const Guard guard = record_.guard.value_or(Guard{});
+  out.put(guard.kind), out.put(guard.pair), out.put(guard.feature), out.put(guard.stop);
+  out.put(guard.patch), out.put(guard.watched), out.put(guard.point);
   out.put(std::int64_t{record_.met.has_value()});
   out.put(record_.met.value_or(OutlinePair{}));
   stops_.save(out);
@@ -386,7 +389,10 @@ void Contacts::save(SnapshotWriter& out) const {
 
 void Contacts::restore_record(SnapshotReader& in) {
   const bool has_guard = in.get<std::int64_t>() != 0;
-  const auto guard = in.get<Guard>();
+  Guard guard;
+  guard.kind = in.get<Guard::Kind>(), guard.pair = in.get<OutlinePair>(), guard.feature = in.get<Feature>();
+  guard.stop = in.get<std::uint64_t>(), guard.patch = in.get<std::uint64_t>();
+  guard.watched = in.get<int>(), guard.point = in.get<int>();
   const bool has_met = in.get<std::int64_t>() != 0;
   const auto met = in.get<OutlinePair>();
   const auto is_ours = [&](const OutlinePair& pair) {
