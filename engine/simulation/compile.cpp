@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "engine/core/hash.h"
 #include "engine/precise/precise.h"
@@ -12,9 +13,14 @@
 namespace plumb {
 namespace {
 
-std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy) {
+std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy,
+                          const std::vector<std::string>& parameters) {
   Fnv1a out;
   out.add(hash(scene));
+  for (const std::string& parameter : parameters) {
+    for (const char letter : parameter) out.add(std::uint64_t{static_cast<unsigned char>(letter)});
+    out.add(std::uint64_t{0});
+  }
   out.add(std::uint64_t{accuracy.index()});
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
     out.add(precise->tolerance), out.add(precise->max_dt);
@@ -52,12 +58,8 @@ Simulation compile(const Scene& scene, const Accuracy& accuracy, CompileOptions 
   if (const std::string reason = unsupported(scene, accuracy); !reason.empty())
     throw Error(Error::Kind::Unsupported, "scene '" + scene.name + "'", "", "", reason);
   try {
-    std::uint64_t identity = identity_of(scene, accuracy);
-    for (const std::string& parameter : options.parameters) {
-      for (const char letter : parameter) identity = mixed(identity, static_cast<unsigned char>(letter));
-      identity = mixed(identity, 0);
-    }
-    return {make_driver(scene, accuracy, options), scene.bodies.size(), identity};
+    return {make_driver(scene, accuracy, options), scene.bodies.size(),
+            identity_of(scene, accuracy, options.parameters)};
   } catch (const std::bad_alloc&) {
     throw Error(Error::Kind::Run, "scene '" + scene.name + "'", "memory", "",
                 "there is not enough of it for " + std::to_string(scene.bodies.size()) + " bodies");
