@@ -81,7 +81,7 @@ TEST(Landing, CornersStrikeOneAfterTheOther) {
           land(plank, restitution, time);
           run(world, static_cast<int>(std::lround(60 * time)));
           SCOPED_TRACE(testing::Message() << restitution << ' ' << angle << ' ' << speed << ' ' << spin);
-          // Where impacts follow each other without end, the box lies in the end: to the contacts' slop.
+          // After impacts that follow each other without end the box lies: to the contacts' slop.
           const bool lies = plank.vy < 1e-3 * speed;
           leaps += lies ? 0 : 1;
           const double error = lies ? 2e-3 : 1e-9 * speed;

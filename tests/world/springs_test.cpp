@@ -151,7 +151,7 @@ TEST(Springs, AloneNeverSwingWiderThanTheyBegan) {
           const double start = at();
           for (int i = 0; i < 240; ++i) {
             world.step(1.0 / 60, 4);
-            // What falls passes its rest by as much again; slow springs give way by g / omega^2.
+            // A falling body passes its rest by as much again; slow springs give way by g / omega^2.
             const double omega = 2 * kPi * hertz, sag = falls ? 4 * 10 / (omega * omega) + 1e-3 : 0;
             ASSERT_LT(std::abs(at()), 1.02 * start + sag)
                 << c.name << ' ' << hertz << ' ' << damping << ' ' << falls << ' ' << i;

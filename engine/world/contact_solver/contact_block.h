@@ -114,6 +114,7 @@ template <class Number, class Real>
                 offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
   if (block.watched != Watch::Off || block.rolls)
     rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  block.step_impulse = Number(0);
   if (block.watched == Watch::Off) return;
   // A block with restitution is read again in each substep, with the step's sum so far.
   Real sums[Block::kLanes];
