@@ -79,7 +79,7 @@ struct BodyDefinition {
   bool may_sleep = true;
   bool awake = true;
   std::uint64_t user_data = 0;
-  bool continuous = true;  ///< it does not tunnel; false saves time where its tunnelling does not matter
+  bool continuous = true;  ///< prevents its tunnelling; false saves time where that does not matter
 };
 
 /// Kind of a joint, and the loads that break it or are reported.

@@ -97,7 +97,8 @@ class BasicWorld {
   /// Sets the quarantine of bodies with a non-finite state. Without it, Error (Run, or Value for a force law)
   /// ends the call; the step is then incomplete.
   void set_quarantine(bool on);
-  /// Throws Error (Value) for a number that is not finite.
+  /// Sets the speeds, m/s, at which behaviour changes; wakes all bodies if one differs. Throws Error (Value)
+  /// for a number that is not finite.
   void set_thresholds(const Thresholds& thresholds);
   Thresholds thresholds() const;
   WorldCounts counts() const;
@@ -242,7 +243,8 @@ class BasicWorld {
   void change(JointId joint, const JointKind& kind);  ///< new speeds, limits, targets; wakes the bodies
   JointReading read(JointId joint) const;
   JointDefinition definition(JointId joint) const;  ///< the present one
-  /// Sets the loads beyond which the joint is in `events().loaded`, N and N m; 0: never.
+  /// Sets the loads beyond which the joint is in `events().loaded`, N and N m; 0: never. Throws Error (Value)
+  /// for a negative number or one that is not finite.
   void set_load_events(JointId joint, double force, double torque);
   std::uint64_t user_data(JointId joint) const;
   void set_user_data(JointId joint, std::uint64_t data);
@@ -253,10 +255,10 @@ class BasicWorld {
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
   /// Sets a filter of the game's own. It is asked about two shapes that come near each other and that their
-  /// filters let touch; false: they do not collide. It is asked again when one of them has moved on, or when
-  /// `set_filter` is called for one of them; contacts that exist stay. Sensors and queries do not ask it.
-  /// Like a combine rule, it is code: it must depend on the world's state alone, snapshots do not have it,
-  /// and recorded worlds cannot. An exception ends the step before anything has moved, except from continuous
+  /// filters let touch; false: they do not collide. Contacts that exist stay, until `set_filter` is called
+  /// for one of their shapes: that ends them, and it is asked again. Sensors and queries do not ask it. Like
+  /// a combine rule, it is code: it must depend on the world's state alone, snapshots do not have it, and
+  /// recorded worlds cannot. An exception ends the step before anything has moved, except from continuous
   /// collision.
   void on_filter(std::function<bool(ShapeId, ShapeId)> filter);
 

@@ -87,6 +87,44 @@ TEST(Flight, DragConvergesWithSecondOrder) {
   EXPECT_LT(fine, 5e-5);
 }
 
+// Over a step of z = c dt / m the velocity decays by 1 / (1 + z + z^2 / 2): strong drag stops a body, and
+// under its weight it falls at m g / c, or sqrt(m g / k), from then on.
+TEST(Flight, StrongDragStopsABodyAndNeverReversesIt) {
+  for (const double z : {0.1, 1.0, 2.5, 10.0, 1e3, 1e6}) {
+    for (const bool falls : {false, true}) {
+      for (const bool quadratic : {false, true}) {
+        Body body = disc("a", {0, 0});
+        body.velocity = {3, 0};
+        body.angular_velocity = 4;
+        Scene scene = with(empty_scene(), {body});
+        scene.gravity = {0, falls ? -10.0 : 0.0};
+        const double mass = scene.bodies[0].mass, c = z * mass * 60;
+        if (quadratic) {
+          scene.forces = {QuadraticDrag{"a", c}};
+        } else {
+          scene.forces = {LinearDrag{"a", c, c}};
+        }
+        Simulation world = compile(scene, Realtime{.substeps = 1});
+        double before = 3, spin = 4;
+        for (int i = 0; i < 600; ++i) {
+          world.step();
+          const BodyState now = world.state(0);
+          EXPECT_GE(now.velocity.x, 0) << z << quadratic;
+          EXPECT_LE(now.velocity.x, before) << z << quadratic;
+          EXPECT_GE(now.angular_velocity, 0) << z;
+          EXPECT_LE(now.angular_velocity, spin) << z;
+          if (!quadratic && !falls && i == 0) {
+            EXPECT_NEAR(now.velocity.x, 3 / (1 + z + z * z / 2), 1e-12) << z;
+          }
+          before = now.velocity.x, spin = now.angular_velocity;
+        }
+        const double terminal = !falls ? 0 : quadratic ? std::sqrt(mass * 10 / c) : mass * 10 / c;
+        EXPECT_NEAR(world.state(0).velocity.y, -terminal, 1e-6 * (terminal + 1e-6)) << z << quadratic;
+      }
+    }
+  }
+}
+
 // A torque that ends within a step still gives its exact impulse.
 TEST(Flight, SwitchedTorqueGivesItsExactImpulse) {
   Scene scene = with(empty_scene(), {disc("a", {0, 0})});

@@ -370,9 +370,11 @@ Real rub(BodyMotion<Real>* motion, const StruckPoint<Real>& at) {
 template <class Real>
 void note_impact(const StruckPoint<Real>& at) {
   ContactConstraint<Real>& c = *at.bounce->contact;
-  note_approach(c, at.point, at.before);
-  c.peak_impulse[at.point] = std::max(c.peak_impulse[at.point], at.impulse);
-  c.step_impulse += at.impulse;
+  if (c.watched != Watch::Off) {
+    note_approach(c, at.point, at.before);
+    c.peak_impulse[at.point] = std::max(c.peak_impulse[at.point], at.impulse);
+    c.step_impulse += at.impulse;
+  }
   at.bounce->strikes[at.point] = false;
 }
 

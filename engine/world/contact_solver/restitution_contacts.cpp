@@ -88,7 +88,7 @@ bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionConta
       arrives = arrives || in_time;
       if (!bounce.strikes[i]) continue;
       any = true;
-      if (bounce.radii > 0) note_approach(c, i, -strike);
+      if (bounce.radii > 0 && c.watched != Watch::Off) note_approach(c, i, -strike);
       const Real left = u + strike > 0 ? std::max(h - 2 * s / (u + strike), Real(0)) : Real(0);
       const Real rebound = c.restitution * strike;
       bounce.speed[i] = std::max(rebound - a * left, Real(0));

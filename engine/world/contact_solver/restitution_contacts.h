@@ -46,7 +46,7 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 template <class Real>
 void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 
-/// The functions below treat each contact by itself: threads may share them.
+// The functions below treat each contact by itself: threads may share them.
 
 /// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
 /// be warm started: returns true if one of these had an impulse.

@@ -31,10 +31,10 @@ class SoftContacts {
   /// Solves normal impulses without bias, friction and rolling resistance: corrects velocities.
   void relax(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
-  /// Writes separations and impulses back to the contacts with restitution.
+  /// Writes back separations and impulses of the blocks that have contacts with restitution.
   void show_bounces();
 
-  /// Reads the contacts with restitution again, which may have changed since `show_bounces`.
+  /// Reads these blocks again, which may have changed since `show_bounces`.
   void take_bounces(const BodyMotion<Real>* motion);
 
   /// Writes the impulses back to the contacts.

@@ -126,6 +126,10 @@ void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConst
   });
   if (id != kNone && !thrown_apart) {
     set_touching(w, id, true);
+    if (w.contacts[id].home == ContactHome::Graph) {
+      ContactConstraint<Real>& held = constraint_of(w, w.contacts[id]);
+      held.touching = true, held.watched = watch_of(w.contacts[id], held);
+    }
   } else if (id == kNone || !w.contacts[id].touching) {
     w.log().begin.push_back({reading.shape_a, reading.shape_b});
     w.log().end.push_back({reading.shape_a, reading.shape_b});

@@ -19,8 +19,8 @@ const SweptBody* flight_in(const WorldData<Real>& w, int body) {
   return place == kNone ? nullptr : &w.scratch.swept_bodies[place];
 }
 
-/// Returns true if two shapes separate after an impact and no joint or pressing contact holds their bodies in
-/// this step. Only then may a flight bounce within the step.
+/// Returns true if neither a joint, a lock, a pre-solve hook nor a pressing contact holds the bodies of two
+/// shapes in this step of `dt`, s. Only then may a flight have an impact within the step.
 template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt);
 

@@ -145,9 +145,16 @@ class Drawing {
     Vec2d a{}, b{};
   };
 
-  static Aabb<double> box_of(const Ends& ends) {
-    return {{std::min(ends.a.x, ends.b.x), std::min(ends.a.y, ends.b.y)},
-            {std::max(ends.a.x, ends.b.x), std::max(ends.a.y, ends.b.y)}};
+  // Returns a box that contains all that is drawn of a joint: arms from the centres, ropes over pulleys with
+  // their wheels, and zigzags, which reach a sixteenth of their length to the side.
+  Aabb<double> box_of(const Ends& ends, int a, int b, const JointKind& kind) const {
+    Aabb<double> box{ends.a, ends.a};
+    const auto add = [&box](Vec2d point) { box = merged(box, Aabb<double>{point, point}); };
+    add(ends.b), add(centre(a)), add(centre(b));
+    if (const auto* pulley = std::get_if<PulleyDefinition>(&kind))
+      add(pulley->ground_a), add(pulley->ground_b);
+    const Vec2d size = box.upper - box.lower;
+    return box.grown((size.x + size.y) / 16);
   }
 
   Ends ends_of(int a, int b, const JointKind& kind) const {
@@ -168,7 +175,7 @@ class Drawing {
     const int a = record.body_a, b = record.body_b;
     const JointKind& kind = w_.joint_set.definition(record.slot);
     const Ends ends = ends_of(a, b, kind);
-    if (!shows(box_of(ends)) && !shows(a) && !shows(b)) return;
+    if (!shows(box_of(ends, a, b, kind))) return;
     out_.point(ends.a, DrawRole::JointLine), out_.point(ends.b, DrawRole::JointLine);
     if (const auto* pulley = std::get_if<PulleyDefinition>(&kind)) {
       draw_pulleys(out_, ends.a, pulley->ground_a, pulley->ground_b, ends.b, DrawRole::JointLine);

@@ -357,7 +357,7 @@ struct JointConstraint {
       for (auto& row : block.row) row = {};
       for (Real& impulse : block.impulse) impulse = 0;
     }
-    if constexpr (Rows::kPoint) point.impulse = {};
+    if constexpr (Rows::kPoint) point.impulse = {}, point.point = {};
     if constexpr (kSoftPoint) point.drift = {};
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};

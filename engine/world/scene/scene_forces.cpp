@@ -1,5 +1,6 @@
 #include "engine/world/scene/scene_forces.h"
 
+#include <cmath>
 #include <variant>
 
 #include "engine/forces/compile.h"
@@ -14,17 +15,37 @@ namespace {
 /// this value its energy oscillates by 2 %.
 constexpr double kStiffTurn = 0.3;
 
-Scene without_springs(const Scene& scene) {
+Scene without_springs_and_drag(const Scene& scene) {
   Scene out = scene;
-  std::erase_if(out.forces, [](const ForceLaw& law) { return std::holds_alternative<SpringForce>(law); });
+  std::erase_if(out.forces, [](const ForceLaw& law) {
+    return std::holds_alternative<SpringForce>(law) || std::holds_alternative<LinearDrag>(law) ||
+           std::holds_alternative<QuadraticDrag>(law);
+  });
   return out;
+}
+
+// Returns the length s of the velocity at the middle of a step by the implicit midpoint method:
+// a s^2 + b s = |u|, where u is that velocity without drag. Written without a difference of near numbers.
+double slowed(Vec2d u, double half, double linear, double quadratic, double mass) {
+  const double a = half * quadratic / mass, b = 1 + half * linear / mass,
+               speed = std::sqrt(length_squared(u));
+  return 2 * speed / (b + std::sqrt(b * b + 4 * a * speed));
+}
+
+// Returns the velocity of which drag is z / dt times over a step, from `start` under an acceleration that
+// changes the velocity by `gain` in half a step. The velocity then decays by 1 / (1 + z + z^2 / 2), which is
+// exp(-z) to second order, and for large z stops: the implicit midpoint method would reverse it.
+template <class Value>
+Value dragged(Value start, Value gain, double z) {
+  return (1 / (1 + z + 0.5 * z * z)) * ((1 + 0.5 * z) * start + (1 + z) * gain);
 }
 
 }  // namespace
 
 template <class Real>
 SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
-    : laws_(without_springs(scene)),
+    : laws_(without_springs_and_drag(scene)),
+      drags_(scene.bodies.size()),
       ids_(parts.bodies),
       poses_(scene.bodies.size()),
       twists_(scene.bodies.size()),
@@ -32,6 +53,16 @@ SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
   const LawCompiler<double> compiler(scene);
   std::vector<char> pulled(scene.bodies.size(), 0);
   for (const ForceLaw& law : scene.forces) {
+    if (const auto* linear = std::get_if<LinearDrag>(&law)) {
+      const std::size_t body = compiler.compile(*linear).body;
+      drags_[body].linear += linear->coefficient, drags_[body].angular += linear->angular_coefficient;
+      pulled[body] = 1;
+    }
+    if (const auto* quadratic = std::get_if<QuadraticDrag>(&law)) {
+      const std::size_t body = compiler.compile(*quadratic).body;
+      drags_[body].quadratic += quadratic->coefficient;
+      pulled[body] = 1;
+    }
     const auto* spring = std::get_if<SpringForce>(&law);
     if (spring == nullptr) continue;
     springs_.push_back({compiler.compile(*spring)});
@@ -55,7 +86,8 @@ void SceneForces<Real>::place(const BasicWorld<Real>& world) {
   }
 }
 
-/// Advances velocities to the middle of the step under the forces in `wrenches_`; positions by `place_share`.
+/// Advances velocities to the middle of the step under the forces in `wrenches_` and drag; positions by
+/// `place_share`.
 template <class Real>
 void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   const double half = 0.5 * dt;
@@ -66,8 +98,17 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
     const double ahead = place_share(world.data(), static_cast<int>(ids_[body].index), dt) * dt;
     poses_[body] = {state.position + ahead * state.velocity,
                     rotation_of(state.angle + ahead * state.angular_velocity)};
-    if (mass > 0) twist.velocity += half * (gravity_[body] + (1 / mass) * wrenches_[body].force);
-    if (inertia > 0) twist.angular_velocity += half / inertia * wrenches_[body].torque;
+    Drag& drag = drags_[body];
+    if (mass > 0) {
+      const Vec2d gain = half * (gravity_[body] + (1 / mass) * wrenches_[body].force);
+      const double speed = slowed(twist.velocity + gain, half, drag.linear, drag.quadratic, mass);
+      drag.now = drag.linear + drag.quadratic * speed;
+      twist.velocity = dragged(twist.velocity, gain, dt * drag.now / mass);
+    }
+    if (inertia > 0) {
+      const double gain = half / inertia * wrenches_[body].torque;
+      twist.angular_velocity = dragged(twist.angular_velocity, gain, dt * drag.angular / inertia);
+    }
     wrenches_[body] = {};
   }
 }
@@ -139,6 +180,16 @@ void SceneForces<Real>::add_springs(bool stiff) {
   }
 }
 
+/// Adds drag at the velocities in `twists_`.
+template <class Real>
+void SceneForces<Real>::add_drag() {
+  for (const std::size_t body : acted_on_) {
+    const Drag& drag = drags_[body];
+    wrenches_[body].force -= drag.now * twists_[body].velocity;
+    wrenches_[body].torque -= drag.angular * twists_[body].angular_velocity;
+  }
+}
+
 template <class Real>
 void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   if (empty()) return;
@@ -150,6 +201,7 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   advance(world, dt);
   laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
   add_springs(true);
+  add_drag();
   push(world);
 }
 
@@ -160,6 +212,11 @@ void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
   for (Spring& spring : springs_) spring.stiff = false;
   laws_.add(world.time(), world.time() + dt, poses_.data(), twists_.data(), wrenches_.data());
   add_springs(true);
+  for (const std::size_t body : acted_on_) {
+    Drag& drag = drags_[body];
+    drag.now = drag.linear + drag.quadratic * std::sqrt(length_squared(twists_[body].velocity));
+  }
+  add_drag();
   push(world);
 }
 

@@ -14,12 +14,13 @@ class SceneForces {
   /// The scene must be valid, and `parts` be the result of `add_scene`.
   SceneForces(const Scene& scene, const SceneParts& parts);
 
-  bool empty() const { return laws_.empty() && springs_.empty(); }
+  bool empty() const { return acted_on_.empty(); }
 
   /// Adds the laws' forces for the next step of `dt` s. They are evaluated at the middle of the step,
   /// predicted without joints and contacts, so that free flight follows the midpoint method. Laws that depend
-  /// on time act with their mean over the step. Springs too stiff for the step follow the implicit midpoint
-  /// method along their line: they oscillate too slowly, but conserve energy.
+  /// on time act with their mean over the step. Drag stops a body however strong it is, and never reverses
+  /// it. Springs too stiff for the step follow the implicit midpoint method along their line: they oscillate
+  /// too slowly, but conserve energy.
   void apply(BasicWorld<Real>& world, double dt);
 
   /// Does the same with the forces at the start of the step, as the Euler schemes take them.
@@ -33,11 +34,20 @@ class SceneForces {
     bool stiff = false;             ///< in the next step
     Wrench<double> on_a{}, on_b{};  ///< of a stiff spring
   };
+  /// All drag on a body.
+  struct Drag {
+    double linear = 0;     ///< N s/m
+    double quadratic = 0;  ///< N s^2/m^2
+    double angular = 0;    ///< N m s
+    double now = 0;        ///< N s/m: force over velocity in the next step
+  };
   void push(BasicWorld<Real>& world);
+  void add_drag();
   void stiffen(const BasicWorld<Real>& world, double dt);
   void add_springs(bool stiff);  ///< true: all springs; false: only those that are not stiff
 
-  Forces<double> laws_;  // all but springs
+  Forces<double> laws_;      // all but springs and drag
+  std::vector<Drag> drags_;  // by body
   std::vector<Spring> springs_;
   std::vector<BodyId> ids_;  // by body
   std::vector<std::size_t> acted_on_;

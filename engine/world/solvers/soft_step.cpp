@@ -77,7 +77,8 @@ const std::vector<char>& joints_apart(WorldData<Real>& w) {
 // Contacts with restitution that a thread takes at a time: some microseconds of work.
 constexpr int kBouncesOfTask = 128;
 
-// Calls `run(bounces)` for parts of the contacts with restitution. Returns true if it did for one.
+// Calls `run` for parts of the contacts with restitution, which threads share. Returns true if it returned
+// true for any.
 template <class Real, class Run>
 bool any_bounce(WorldData<Real>& w, const Run& run) {
   const std::span<RestitutionContact<Real>> all(w.scratch.bounces);
@@ -135,7 +136,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
-    if (bounces) passes.show_bounces();
+    if (bounces && substep > 0) passes.show_bounces();
     const bool parted =
         any_bounce(w, [&](std::span<Bounce> some) { return note_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.

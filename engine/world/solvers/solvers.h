@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/world_data.h"
 
 /// The solvers of a world, one file each. Each advances the awake bodies by `substeps` substeps of length
@@ -10,7 +11,7 @@ namespace plumb {
 template <class Real>
 void add_step_impulses(WorldData<Real>& w) {
   w.graph.for_each([](ContactConstraint<Real>& c) {
-    if (c.watched != Watch::Off) c.step_impulse += c.normal_impulse[0] + c.normal_impulse[1];
+    if (c.watched != Watch::Off) c.step_impulse += normal_sum(c);
   });
 }
 

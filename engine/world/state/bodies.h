@@ -21,6 +21,7 @@ void set_gravity_scale(WorldData<Real>& w, int body, double scale);
 /// Sets the rates of decay, 1/s.
 template <class Real>
 void set_damping(WorldData<Real>& w, int body, double linear, double angular);
+/// Switches continuous collision of a body on or off.
 template <class Real>
 void set_continuous(WorldData<Real>& w, int body, bool on);
 /// Teleports the body's origin, and wakes bodies that touched it or are joined to it.

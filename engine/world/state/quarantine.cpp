@@ -147,7 +147,7 @@ void forget_impulses(WorldData<Real>& w, int body) {
       c.normal_impulse[i] = c.load_estimate[i] = c.peak_impulse[i] = c.approach[i] = 0;
       c.now[i] = c.separation[i];
     }
-    c.tangent_impulse = c.rolling_impulse = 0;
+    c.tangent_impulse = c.rolling_impulse = c.step_impulse = 0;
   });
   invalidate_manifolds(w, body);
   for_each_edge(w.joints, w.bodies[body].first_joint,

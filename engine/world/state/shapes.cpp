@@ -303,6 +303,7 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
     contact.pre_solve = a.pre_solve || b.pre_solve;
     if (!has_points(contact)) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
+    if (c.watched == Watch::Off) c.step_impulse = 0;  // of an earlier step
     c.watched = watch_of(contact, c);
   });
 }

@@ -9,8 +9,9 @@
 /// at rest for long enough. It wakes as a whole.
 namespace plumb {
 
-/// Returns true if a body of this motion counts as at rest, so that its sleep timer runs. `extent` is the
-/// farthest distance of its shapes from the centre of mass, m.
+/// Returns true if a body of this motion counts as at rest, so that its sleep timer runs: up to the speed
+/// `thresholds.sleep`, by default 0.05 extents a second. `extent` is the farthest distance of its shapes from
+/// the centre of mass, m.
 template <class Real>
 bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const BodyMotion<Real>& motion,
               Real extent) {

@@ -12,8 +12,8 @@
 namespace plumb {
 namespace {
 
-// Impacts closer in time than this fraction of the step are simultaneous. Impact propagation takes those
-// within the same fraction of a substep together.
+// Impacts closer in time than this fraction of the step are simultaneous: with four substeps the same time
+// within which impact propagation takes them together.
 constexpr double kAtOnce = 2.5e-4;
 
 template <class Real>

@@ -137,7 +137,7 @@ void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touchi
   set_touching(w, c.contact, touching);
   c.touching = touching;
   c.watched = watch_of(contact, c);
-  c.step_impulse = 0;
+  c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
   if (c.watched == Watch::Off) c.approach[0] = c.approach[1] = 0;
 }
 
@@ -522,7 +522,11 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
   scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
-    if (!begun.waived) enter(w, begun.constraint);
+    if (begun.waived) {
+      set_touching(w, begun.constraint.contact, false);
+    } else {
+      enter(w, begun.constraint);
+    }
   });
   for (const ContactConstraint<Real>& c : scratch.left_impacts) enter(w, c);
 }
