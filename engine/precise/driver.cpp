@@ -47,13 +47,15 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
 
 std::vector<BodyState> PreciseDriver::sensitivities(std::size_t parameter) {
   if (!sensitivities_ || parameter >= sensitivities_->size()) return Driver::sensitivities(parameter);
+  // The last step may have leapt over a singularity, which `follow` sees only before the next one.
+  if (leapt()) sensitivities_->refuse(parameter, NoDerivative::Singular, smooth_.start());
   return sensitivities_->at(parameter, time_, names_.size());
 }
 
 /// Takes the sensitivities to the end of the last step.
 void PreciseDriver::follow() {
   if (!sensitivities_) return;
-  if (smooth_.leaps() != leaps_seen_) sensitivities_->fail_all(NoDerivative::Singular, smooth_.time());
+  if (leapt()) sensitivities_->fail_all(NoDerivative::Singular, smooth_.start());
   leaps_seen_ = smooth_.leaps();
   sensitivities_->advance(smooth_.time(), smooth_.state());
 }
@@ -126,7 +128,10 @@ std::vector<std::byte> PreciseDriver::save() const {
   invariants_.save(out);
   out.put(equations_.evaluations());
   for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
-  if (sensitivities_) sensitivities_->save(out);
+  if (sensitivities_) {
+    sensitivities_->save(out);
+    out.put(leaps_seen_);
+  }
   return out.bytes();
 }
 
@@ -154,8 +159,10 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   invariants_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
   for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
-  if (sensitivities_) sensitivities_->restore(in, contacts_);
-  leaps_seen_ = smooth_.leaps();
+  if (sensitivities_) {
+    sensitivities_->restore(in, contacts_);
+    leaps_seen_ = in.get<std::int64_t>();
+  }
   in.expect_end();
   written_ = true;  // its initial state no longer matters
   sampled_ = -1;

@@ -26,9 +26,10 @@ Precise alone(Precise precise) {
 
 }  // namespace
 
-ErrorEstimatingDriver::ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& make)
-    : main_(make(alone(precise))),
-      companion_(make(companion_of(precise))),
+ErrorEstimatingDriver::ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& main,
+                                             const Make& companion)
+    : main_(main(alone(precise))),
+      companion_(companion(companion_of(precise))),
       states_(bodies),
       companion_states_(bodies) {
   error_.known = true;

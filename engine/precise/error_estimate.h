@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -14,8 +15,9 @@ namespace plumb::precise {
 class ErrorEstimatingDriver final : public Driver {
  public:
   using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
-  /// `make` creates a driver of the scene; `bodies` is its number of bodies.
-  ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& make);
+  /// `main` and `companion` create the two drivers of the scene; `bodies` is its number of bodies. The
+  /// companion's states alone are read.
+  ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& main, const Make& companion);
 
   void step() override;
   double time() const override { return main_->time(); }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/text.h"
 #include "engine/precise/body_laws.h"
@@ -173,15 +176,16 @@ std::unique_ptr<Driver> make_precise_driver(const Scene& given, const Precise& p
     const Scene whole = precise::with_body_laws(scene);
     return origin == Vec2d{} ? whole : precise::seen_from(whole, origin);
   };
-  const auto make = [&](const Precise& p) -> std::unique_ptr<Driver> {
+  const auto make = [&](const Precise& p, const std::vector<std::string>& parameters) {
     auto driver = std::make_unique<precise::PreciseDriver>(
-        prepared(given), p, options, precise::variations_of(given, options.parameters, prepared));
-    if (origin == Vec2d{}) return driver;
-    return std::make_unique<precise::ShiftedOriginDriver>(std::move(driver), origin);
+        prepared(given), p, options, precise::variations_of(given, parameters, prepared));
+    if (origin == Vec2d{}) return std::unique_ptr<Driver>(std::move(driver));
+    return std::unique_ptr<Driver>(std::make_unique<precise::ShiftedOriginDriver>(std::move(driver), origin));
   };
-  if (precise.estimate_error)
-    return std::make_unique<precise::ErrorEstimatingDriver>(precise, given.bodies.size(), make);
-  return make(precise);
+  if (!precise.estimate_error) return make(precise, options.parameters);
+  return std::make_unique<precise::ErrorEstimatingDriver>(
+      precise, given.bodies.size(), [&](const Precise& p) { return make(p, options.parameters); },
+      [&](const Precise& p) { return make(p, {}); });
 }
 
 }  // namespace plumb

@@ -185,14 +185,19 @@ void find_in(Finder& find, ForceLaw& force) {
       force);
 }
 
-/// Takes the name or the index of one of `things` off the front of `path`; returns its index.
+/// Takes the name or the index of one of `things` off the front of `path`; returns its index. Names may have
+/// dots: of several that fit, the longest is meant.
 template <class Things, class NameOf>
 std::optional<std::size_t> take_one(Path& path, const Things& things, const NameOf& name_of) {
   if (const auto index = path.take_index()) return *index < things.size() ? index : std::nullopt;
+  std::optional<std::size_t> longest;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (path.take(name_of(things[i]))) return i;
+    const std::string_view name = name_of(things[i]);
+    if (longest && name.size() <= name_of(things[*longest]).size()) continue;
+    if (Path(path).take(name)) longest = i;
   }
-  return std::nullopt;
+  if (longest) path.take(name_of(things[*longest]));
+  return longest;
 }
 
 std::string_view name_of_body(const Body& body) { return body.name; }

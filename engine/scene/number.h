@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -10,8 +12,9 @@ namespace plumb {
 /// Returns the numbers of `scene` that `path` names, in the words of the scene format: "gravity.y",
 /// "contact_rules.yield_speed", "bodies.ball.mass", "bodies.ball.position.x", "bodies.ball.shapes[0].radius",
 /// "joints.hinge.length", "joints.hinge.spring.hertz", "forces[0].stiffness". Bodies, joints and forces are
-/// named or counted from 0; `shapes` without a number means that of every shape of the body, which change
-/// together. Throws `Error` (Name) if there is no such number. The pointers are valid until `scene` changes.
+/// named (of names that fit, the longest is meant) or counted from 0; `shapes` without a number means that of
+/// every shape of the body, which change together. Throws `Error` (Name) if there is no such number. The
+/// pointers are valid until `scene` changes.
 std::vector<double*> numbers_at(Scene& scene, std::string_view path);
 
 /// The meaning of a number for the choice of a difference in it.

@@ -136,7 +136,7 @@ MUTATIONS = [
     Mutation("precise: derivatives do not jump where the event's time moves",
              "engine/precise/sensitivity/sensitivities.cpp", "now_.by[j][i] -= later[j] * rate[i];",
              "now_.by[j][i] -= 0 * later[j] * rate[i];", "precise"),
-    Mutation("precise: kinks have derivatives", "engine/precise/sensitivity/sensitivities.cpp",
+    Mutation("precise: kinks have derivatives", "engine/precise/sensitivity/differences.cpp",
              "return kink <= kKink * largest;", "return kink < INFINITY;", "precise"),
     Mutation("precise: the companion is no finer than the run", "engine/precise/error_estimate.cpp",
              "kFiner = 0.1,", "kFiner = 1,", "precise"),

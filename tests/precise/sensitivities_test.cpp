@@ -320,6 +320,81 @@ TEST(Sensitivities, ASnapshotCarriesThem) {
     EXPECT_EQ(first.sensitivities(j), second.sensitivities(j)) << kOfImpact[j];
 }
 
+// Two equal cranks on the ground turn a bar. The linkage is singular where they lie on the bar.
+Scene parallelogram() {
+  Scene scene{.name = "cranks"};
+  const double angle = 0.7, speed = 8;
+  const Vec2d tip{std::cos(angle), std::sin(angle)};
+  scene.bodies.push_back({.name = "bar",
+                          .position = Vec2d{0.5, 0} + tip,
+                          .velocity = speed * perpendicular(tip),
+                          .mass = 1,
+                          .inertia = 1.0 / 12});
+  for (int i = 0; i < 2; ++i) {
+    const std::string name = "crank" + std::to_string(i);
+    const Vec2d pivot{static_cast<double>(i), 0};
+    scene.bodies.push_back({.name = name,
+                            .position = pivot + 0.5 * tip,
+                            .angle = angle,
+                            .velocity = 0.5 * speed * perpendicular(tip),
+                            .angular_velocity = speed,
+                            .mass = 1,
+                            .inertia = 1.0 / 12});
+    scene.joints.push_back(
+        RevoluteJoint{"ground" + std::to_string(i), std::string(kWorld), name, pivot, {-0.5, 0}, false});
+    scene.joints.push_back(
+        RevoluteJoint{"tip" + std::to_string(i), name, "bar", {0.5, 0}, pivot - Vec2d{0.5, 0}, false});
+  }
+  return scene;
+}
+
+void expect_singular(const Simulation& run) {
+  try {
+    run.sensitivities(0);
+    ADD_FAILURE() << "there is a derivative beyond a singularity";
+  } catch (const NotDifferentiable& error) {
+    EXPECT_EQ(error.reason(), NoDerivative::Singular);
+    EXPECT_LE(error.time(), run.time());
+  }
+}
+
+TEST(Sensitivities, ALinkageThatLeaptOverASingularityHasNoneRightAfter) {
+  const Precise precise{.tolerance = 1e-8, .max_dt = 1e-3};
+  const CompileOptions options{.parameters = {"gravity.y"}};
+  Simulation run = compile(parallelogram(), precise, options),
+             other = compile(parallelogram(), precise, options);
+  while (run.statistics().leaps == 0 && run.time() < 0.5) run.step(1);
+  ASSERT_EQ(run.statistics().leaps, 1);
+  expect_singular(run);
+  other.restore(run.save());
+  expect_singular(other);
+  run.step(30), other.step(30);
+  expect_singular(run);
+  expect_singular(other);
+}
+
+TEST(Sensitivities, AskingForThemChangesNothing) {
+  const Scene scene = oblique_impact(6, 0.2);
+  const Precise precise{.tolerance = 1e-10, .max_dt = 0.05};
+  Simulation asked = compile(scene, precise, {.parameters = kOfImpact});
+  Simulation silent = compile(scene, precise, {.parameters = kOfImpact});
+  for (int i = 0; i < 14; ++i) {
+    asked.step(1), silent.step(1);
+    for (std::size_t j = 0; j < kOfImpact.size(); ++j) asked.sensitivities(j);
+    EXPECT_EQ(asked.save(), silent.save()) << i;
+  }
+}
+
+TEST(Sensitivities, AnEstimateOfTheErrorLeavesThemAsTheyAre) {
+  const Scene scene = oblique_impact(6, 0.2);
+  const CompileOptions options{.parameters = kOfImpact};
+  Simulation alone = compile(scene, Precise{.max_dt = 0.05}, options);
+  Simulation estimated = compile(scene, Precise{.max_dt = 0.05, .estimate_error = true}, options);
+  alone.step(14), estimated.step(14);
+  for (std::size_t j = 0; j < kOfImpact.size(); ++j)
+    EXPECT_EQ(alone.sensitivities(j), estimated.sensitivities(j)) << kOfImpact[j];
+}
+
 TEST(Sensitivities, AStateSetFromOutsideDependsOnNothingBefore) {
   Simulation run = compile(falling_ball(5, 0.5), Precise{.max_dt = 0.1}, {.parameters = {"gravity.y"}});
   run.step(2);

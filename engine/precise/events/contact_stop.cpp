@@ -27,6 +27,20 @@ Feature feature_of_height(const Feature& f, const FeatureShape& a, const Feature
   return other;
 }
 
+/// Returns true if two outlines have the corners and the edge that a feature names.
+bool is_feature(const Feature& f, const FeatureShape& a, const FeatureShape& b) {
+  if (f.a < 0 || f.a >= a.count() || f.b < 0 || f.b >= b.count()) return false;
+  switch (f.kind) {
+    case Feature::Kind::Corners:
+      return true;
+    case Feature::Kind::CornerOfB:
+      return f.a < a.edges();
+    case Feature::Kind::CornerOfA:
+      return f.b < b.edges();
+  }
+  return false;  // a number of no kind
+}
+
 }  // namespace
 
 void Contacts::stop() {
@@ -377,17 +391,53 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(last_event_);
   out.put(events_at_once_);
   out.put(events_);
-  out.put(std::int64_t{record_.guard.has_value()});
+  // An event that is settled is over: its guard may name contacts that are held no longer.
+  const bool open = !settled_;
+  out.put(std::int64_t{open && record_.guard});
   // One by one: bytes between members have no value.
-  const Guard guard = record_.guard.value_or(Guard{});
+  const Guard guard = open ? record_.guard.value_or(Guard{}) : Guard{};
   out.put(guard.kind), out.put(guard.pair), out.put(guard.feature), out.put(guard.stop);
   out.put(guard.patch), out.put(guard.watched), out.put(guard.point);
-  out.put(std::int64_t{record_.met.has_value()});
-  out.put(record_.met.value_or(OutlinePair{}));
+  out.put(std::int64_t{open && record_.met});
+  out.put(open ? record_.met.value_or(OutlinePair{}) : OutlinePair{});
   stops_.save(out);
 }
 
-void Contacts::restore_record(SnapshotReader& in) {
+/// Returns true if a guard names what this scene and its held contacts have.
+bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) const {
+  const std::span<const FeatureShape> outlines = finder_.outlines();
+  switch (guard.kind) {
+    case Guard::Kind::Gap:
+    case Guard::Kind::Rate:
+      return guard.pair.a < outlines.size() && guard.pair.b < outlines.size() &&
+             is_feature(guard.feature, outlines[guard.pair.a], outlines[guard.pair.b]);
+    case Guard::Kind::Limit:
+      return guard.stop < stops_.count();
+    case Guard::Kind::Quantity:
+      break;
+    default:
+      return false;  // a number of no kind
+  }
+  if (guard.watched == static_cast<int>(Quantity::Stop)) return guard.stop < stops_.count();
+  if (guard.patch >= patches.size() || guard.point < 0) return false;
+  const int points = patches[guard.patch].count;
+  switch (static_cast<Quantity>(guard.watched)) {
+    case Quantity::Force:
+      return guard.point < points;
+    case Quantity::Cone:
+    case Quantity::Slip:
+      return guard.point == 0;
+    case Quantity::Range:
+      return guard.point < Limits::kMost * points;
+    case Quantity::Height:
+      return guard.point < Limits::kMost;
+    case Quantity::Stop:
+      break;
+  }
+  return false;
+}
+
+void Contacts::restore_record(SnapshotReader& in, std::span<const ActiveContact> patches) {
   const bool has_guard = in.get<std::int64_t>() != 0;
   Guard guard;
   guard.kind = in.get<Guard::Kind>(), guard.pair = in.get<OutlinePair>(), guard.feature = in.get<Feature>();
@@ -399,8 +449,7 @@ void Contacts::restore_record(SnapshotReader& in) {
     const std::size_t outlines = finder_.outlines().size();
     return outlines == 0 ? pair == OutlinePair{} : pair.a < outlines && pair.b < outlines;
   };
-  in.expect(is_ours(guard.pair) && is_ours(met) && guard.watched >= 0 &&
-            guard.watched <= static_cast<int>(Quantity::Stop));
+  in.expect(is_ours(met) && (!has_guard || fits(guard, patches)));
   record_ = {};
   if (has_guard) record_.guard = guard;
   if (has_met) record_.met = met;
@@ -425,8 +474,7 @@ void Contacts::restore(SnapshotReader& in) {
     in.expect(patch.count >= 0 && patch.count <= 2);
     for (Feature& feature : patch.features) {
       feature = in.get<Feature>();
-      in.expect(feature.a >= 0 && feature.a < patch.a->count() && feature.b >= 0 &&
-                feature.b < patch.b->count());
+      in.expect(is_feature(feature, *patch.a, *patch.b));
     }
     for (double& force : patch.pushes) force = in.get<double>();
     patch.grip = in.get<double>();
@@ -441,7 +489,7 @@ void Contacts::restore(SnapshotReader& in) {
   last_event_ = in.get<double>();
   events_at_once_ = in.get<int>();
   events_ = in.get<std::array<EventCount, kContactEvents>>();
-  restore_record(in);
+  restore_record(in, patches);
   equations_.hold_contacts(std::move(patches));
   stops_.restore(in);
 }

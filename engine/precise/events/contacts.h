@@ -78,10 +78,10 @@ class Contacts {
   double near() const { return near_; }  ///< m: gaps below it count as touching
   bool holds(const OutlinePair& pair) const { return std::binary_search(held_.begin(), held_.end(), pair); }
 
-  /// The same events with another scene of the same structure (contact_variation.cpp). `follow` takes over
+  /// The same events with another scene of the same structure (contact_stop.cpp). `follow` takes over
   /// which contacts and stops are held and how, with this scene's own shapes and coefficients.
   void follow(const Contacts& other);
-  /// Returns the value of a guard, and the rate of a gap.
+  /// Returns the value of a guard: m, m/s for a rate, or the unit of the monitored quantity.
   double guard_value(const Guard& guard, double time, std::span<const double> y);
   /// Resolves the impacts of `touches` at another state y: the same features, by this scene's coefficients.
   void impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y);
@@ -115,7 +115,8 @@ class Contacts {
   void look_at_states() { look_at_states(smooth_.time(), smooth_.state().value()); }
   void look_at_states(double time, std::span<const double> y);
   void note(const Event& event);
-  void restore_record(SnapshotReader& in);
+  void restore_record(SnapshotReader& in, std::span<const ActiveContact> patches);
+  bool fits(const Guard& guard, std::span<const ActiveContact> patches) const;
   void count(ContactEvent event, double time, std::int64_t times = 1);
 
   // settle

@@ -16,12 +16,6 @@ constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 /// Error of a step of the variational equations, relative to the derivatives' size: not below the rounding
 /// of their differences.
 constexpr double kLeastTolerance = 1e-11, kMostTolerance = 1e-9;
-/// Fraction of the derivative by which differences of two widths may disagree before a function counts as
-/// kinked. A kink gives a disagreement of the order of one, smooth functions of the fourth power of the step.
-constexpr double kKink = 1e-5;
-/// Times that the step of a difference along a state is reduced to stay on one side of a kink nearby.
-constexpr int kReductions = 4;
-constexpr double kReduction = 0.1;
 /// Number of impacts at one instant that count as a cascade.
 constexpr std::int64_t kCascade = 100;
 /// Disagreement of event times of impacts at one instant, in units of the scene's own time over the
@@ -74,15 +68,15 @@ Sensitivities::Sensitivities(const Scene& scene, std::vector<Variation> variatio
         [](Neighbour& beside, double, std::span<const double>, std::span<double> out) {
           std::copy(beside.start.value().begin(), beside.start.value().end(), out.begin());
         },
-        now_.by[j]);
+        present(), now_.by[j]);
   }
 }
 
-template <class Function>
-void Sensitivities::each_neighbour(const Function& function) {
-  function(*own_);
+template <class Change>
+void Sensitivities::each_neighbour(const Change& change) {
+  change(*own_);
   for (auto& around : beside_) {
-    for (auto& beside : around) function(*beside);
+    for (auto& beside : around) change(*beside);
   }
 }
 
@@ -100,83 +94,17 @@ void Sensitivities::fail_all(NoDerivative reason, double time) {
   }
 }
 
+void Sensitivities::refuse(std::size_t parameter, NoDerivative reason, double time) const {
+  const Failure failure = failures_[parameter].value_or(Failure{reason, time});
+  throw NotDifferentiable(names_[parameter], failure.reason, failure.time);
+}
+
 /// Returns the length of a direction in units of the scene's scales.
 double Sensitivities::norm(std::span<const double> direction) const {
   double largest = 0;
   for (std::size_t i = 0; i < direction.size(); ++i)
     largest = std::max(largest, std::abs(direction[i]) / scale_[i]);
   return largest;
-}
-
-/// Derives a function of the scene's own laws along a direction from the present state. `values_` keeps what
-/// it found. Returns the fraction of the direction that one step is.
-template <class Function>
-double Sensitivities::derive_by_state(const Function& function, const Direction& along, std::span<double> out,
-                                      double step) {
-  std::fill(out.begin(), out.end(), 0.0);
-  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
-  if (!(size > 0)) return 0;
-  const double width = step / size;
-  at_.resize(along.state.size());
-  for (std::size_t k = 0; k < values_.size(); ++k) {
-    const double share = Variation::kPlaces[k] * width;
-    for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = now_.y[i] + share * along.state[i];
-    values_[k].resize(out.size());
-    function(*own_, now_.time + share * along.time, at_, values_[k]);
-  }
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * width);
-  return width;
-}
-
-/// Derives a function by a parameter, at the present state.
-template <class Function>
-void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& function,
-                                        std::span<double> out) {
-  for (std::size_t k = 0; k < values_.size(); ++k) {
-    values_[k].resize(out.size());
-    function(*beside_[parameter][k], now_.time, now_.y, values_[k]);
-  }
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * steps_[parameter]);
-}
-
-/// Derives a function along a direction and by a parameter together. Returns false if it has a kink at the
-/// present state: second differences of two widths then do not differ as those of a smooth function, whose
-/// ratio is four.
-template <class Function>
-bool Sensitivities::derive(std::size_t parameter, const Function& function, const Direction& along,
-                           std::span<const double> scale, std::span<double> out) {
-  middle_.resize(out.size());
-  part_.resize(out.size());
-  function(*own_, now_.time, now_.y, middle_);
-  // In units of `scale`: the largest derivative, and what a kink would leave.
-  const auto is_smooth = [&](std::span<const double> derivative, double width, double least) {
-    double largest = least, kink = 0;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double near = values_[1][i] + values_[2][i] - 2 * middle_[i];
-      const double far = values_[0][i] + values_[3][i] - 2 * middle_[i];
-      largest = std::max(largest, std::abs(derivative[i]) / scale[i]);
-      kink = std::max(kink, std::abs(2 * near - 0.5 * far) / (width * scale[i]));
-      if (!std::isfinite(derivative[i])) return false;
-    }
-    return kink <= kKink * largest;
-  };
-  std::fill(out.begin(), out.end(), 0.0);
-  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
-  if (size > 0) {
-    double step = Variation::kStep;
-    for (int i = 0;; ++i, step *= kReduction) {
-      const double width = derive_by_state(function, along, out, step);
-      if (is_smooth(out, width, size)) break;
-      if (i == kReductions) return false;
-    }
-  }
-  if (of_start_[parameter]) return true;
-  derive_by_parameter(parameter, function, part_);
-  if (!is_smooth(part_, steps_[parameter], Variation::kStep / steps_[parameter])) return false;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] += part_[i];
-  return true;
 }
 
 /// The state's equations and the variational equations of all parameters, one after the other.
@@ -187,18 +115,14 @@ class Sensitivities::VariationalFlow final : public Flow {
 
   void rate(double time, std::span<const double> y, std::span<double> out) override {
     const std::size_t n = all_.scale_.size();
-    all_.now_.time = time;
-    all_.now_.y.assign(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n));
-    const auto law = [](Neighbour& any, double t, std::span<const double> state, std::span<double> rate) {
-      any.equations.rate(t, state, rate);
-    };
-    law(*all_.own_, time, all_.now_.y, out.first(n));
+    const Point from{time, y.first(n)};
+    law_(*all_.own_, time, from.y, out.first(n));
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
       const std::span<const double> by = y.subspan((k + 1) * n, n);
       const std::span<double> change = out.subspan((k + 1) * n, n);
-      all_.derive_by_state(law, {0, by}, change);
+      all_.derive_by_state(law_, from, {0, by}, change);
       if (!all_.of_start_[parameters_[k]]) {
-        all_.derive_by_parameter(parameters_[k], law, part_);
+        all_.derive_by_parameter(parameters_[k], law_, from, part_);
         for (std::size_t i = 0; i < n; ++i) change[i] += part_[i];
       }
       // Places change with the velocities, whatever the laws.
@@ -212,20 +136,20 @@ class Sensitivities::VariationalFlow final : public Flow {
   Sensitivities& all_;
   std::span<const std::size_t> parameters_;
   Values part_;
+  const Function law_ = [](Neighbour& any, double time, std::span<const double> y, std::span<double> rate) {
+    any.equations.rate(time, y, rate);
+  };
 };
 
-/// Integrates state and derivatives to `end`, between events.
-void Sensitivities::integrate(Present& present, double end) {
+/// Integrates the state and the derivatives by `parameters` to `end`, between events. Returns those of them
+/// whose derivatives are lost on the way: no step is short enough, or they are not finite.
+std::vector<std::size_t> Sensitivities::integrate(Present& present, std::span<const std::size_t> parameters,
+                                                  double end) {
   const std::size_t n = scale_.size();
-  std::vector<std::size_t> parameters;
-  for (std::size_t j = 0; j < size(); ++j) {
-    if (lives(j)) parameters.push_back(j);
-  }
   if (n == 0 || parameters.empty() || !(end > present.time)) {
     present.time = end;
-    return;
+    return {};
   }
-  const Present kept = now_;
   set_windows(present.time);
   Values y(n * (1 + parameters.size())), error_scale(y.size());
   Dop853 method(y.size());
@@ -262,16 +186,17 @@ void Sensitivities::integrate(Present& present, double end) {
     flow.rate(time, y, method.last_rate());
     method.advance();
   }
-  now_ = kept;
   present.time = end;
   std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n), present.y.begin());
+  std::vector<std::size_t> all_lost;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto from = y.begin() + static_cast<std::ptrdiff_t>((k + 1) * n);
     std::copy(from, from + static_cast<std::ptrdiff_t>(n), present.by[parameters[k]].begin());
     const auto infinite = [](double x) { return !std::isfinite(x); };
     if (lost || std::any_of(from, from + static_cast<std::ptrdiff_t>(n), infinite))
-      fail(parameters[k], NoDerivative::Singular);
+      all_lost.push_back(parameters[k]);
   }
+  return all_lost;
 }
 
 void Sensitivities::start(double time, const Compensated& given, const Compensated& closed) {
@@ -294,7 +219,11 @@ void Sensitivities::start(double time, const Compensated& given, const Compensat
 }
 
 void Sensitivities::advance(double time, const Compensated& y) {
-  integrate(now_, time);
+  std::vector<std::size_t> living;
+  for (std::size_t j = 0; j < size(); ++j) {
+    if (lives(j)) living.push_back(j);
+  }
+  for (const std::size_t j : integrate(now_, living, time)) fail(j, NoDerivative::Singular);
   now_.y.assign(y.value().begin(), y.value().end());
 }
 
@@ -421,7 +350,7 @@ double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::s
 bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guard,
                            std::span<const double> rate, double& guard_rate) {
   double found[1];
-  const double width = derive_by_state(value_of(guard), {1, rate}, found);
+  const double width = derive_by_state(value_of(guard), present(), {1, rate}, found);
   guard_rate = found[0];
   if (!(std::abs(guard_rate) > 0)) return true;
   if (guard.kind == Contacts::Guard::Kind::Quantity) return false;
@@ -466,9 +395,9 @@ void Sensitivities::pass_event(const Compensated& before, const Compensated& aft
 
 std::vector<BodyState> Sensitivities::at(std::size_t parameter, double time, std::size_t bodies) {
   Present there = now_;
-  if (lives(parameter)) integrate(there, time);
-  if (const auto& failure = failures_[parameter])
-    throw NotDifferentiable(names_[parameter], failure->reason, failure->time);
+  const std::size_t asked[] = {parameter};
+  if (!lives(parameter) || !integrate(there, asked, time).empty())
+    refuse(parameter, NoDerivative::Singular, time);
   std::vector<BodyState> out(bodies);
   for (std::size_t slot = 0; slot < own_->parts.integrated.size(); ++slot)
     out[own_->parts.integrated[slot]] = EquationsOfMotion::state(there.by[parameter], slot);
@@ -482,7 +411,7 @@ std::vector<BodyState> Sensitivities::at(std::size_t parameter, double time, std
                                             s.velocity.x, s.velocity.y, s.angular_velocity};
           std::copy(std::begin(numbers), std::end(numbers), y.begin());
         },
-        by);
+        present(), by);
     out[body] = EquationsOfMotion::state(by, 0);
   }
   return out;

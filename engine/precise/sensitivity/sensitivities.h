@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/driver/accuracy.h"
@@ -52,8 +54,11 @@ class Sensitivities {
   void fail_all(NoDerivative reason, double time);
 
   /// Returns d state / d parameter at `time`, from the last `advance` on, by body of the scene: units are
-  /// those of the state over the parameter's. Throws `NotDifferentiable`.
+  /// those of the state over the parameter's. Throws `NotDifferentiable`. Leaves all derivatives as they are.
   std::vector<BodyState> at(std::size_t parameter, double time, std::size_t bodies);
+
+  /// Throws `NotDifferentiable` with what ended the derivative before, or else with `reason` and `time`, s.
+  [[noreturn]] void refuse(std::size_t parameter, NoDerivative reason, double time) const;
 
   void save(SnapshotWriter& out) const;
   /// `contacts` are the run's, restored.
@@ -71,6 +76,13 @@ class Sensitivities {
     Values y;
     std::vector<Values> by;  // by parameter
   };
+  /// A function of a scene's laws, the time and the state; fills its last argument.
+  using Function = std::function<void(Neighbour&, double, std::span<const double>, std::span<double>)>;
+  /// A time and a state at which functions are derived.
+  struct Point {
+    double time = 0;  // s
+    std::span<const double> y;
+  };
   /// A direction in time and state along which a function is derived.
   struct Direction {
     double time = 0;
@@ -80,16 +92,15 @@ class Sensitivities {
 
   bool lives(std::size_t parameter) const { return !failures_[parameter]; }
   void fail(std::size_t parameter, NoDerivative reason);
-  template <class Function>
-  double derive_by_state(const Function& function, const Direction& along, std::span<double> out,
-                         double step = Variation::kStep);
-  template <class Function>
-  void derive_by_parameter(std::size_t parameter, const Function& function, std::span<double> out);
-  template <class Function>
+  Point present() const { return {now_.time, now_.y}; }
+  double derive_by_state(const Function& function, const Point& from, const Direction& along,
+                         std::span<double> out, double step = Variation::kStep);
+  void derive_by_parameter(std::size_t parameter, const Function& function, const Point& from,
+                           std::span<double> out);
   bool derive(std::size_t parameter, const Function& function, const Direction& along,
               std::span<const double> scale, std::span<double> out);
   double norm(std::span<const double> direction) const;
-  void integrate(Present& present, double end);
+  std::vector<std::size_t> integrate(Present& present, std::span<const std::size_t> parameters, double end);
   void set_windows(double time);
   double pass(std::size_t parameter, const Contacts::Record& record, std::span<const double> before_rate,
               const std::optional<Contacts::Guard>& guard, double guard_rate);
@@ -98,8 +109,8 @@ class Sensitivities {
   std::optional<Contacts::Guard> guard_of(const Contacts::Record& record) const;
   bool opens_start(std::size_t parameter, const Contacts::Record& record);
   void stop_slips(std::size_t parameter);
-  template <class Function>
-  void each_neighbour(const Function& function);
+  template <class Change>
+  void each_neighbour(const Change& change);
 
   const double tolerance_;
   std::vector<std::string> names_;

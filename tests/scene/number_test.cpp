@@ -1,0 +1,40 @@
+#include "engine/scene/number.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/error.h"
+
+namespace plumb {
+namespace {
+
+// Names may have dots, so that one may begin like another, in any order of the bodies.
+TEST(NumbersOfAScene, TheLongestNameThatFitsIsMeant) {
+  for (const bool longer_first : {false, true}) {
+    Scene scene;
+    scene.bodies = {{.name = "a", .mass = 1}, {.name = "a.b", .mass = 2}};
+    if (longer_first) std::swap(scene.bodies[0], scene.bodies[1]);
+    const std::size_t longer = longer_first ? 0 : 1;
+    EXPECT_EQ(numbers_at(scene, "bodies.a.b.mass"), std::vector{&scene.bodies[longer].mass});
+    EXPECT_EQ(numbers_at(scene, "bodies.a.mass"), std::vector{&scene.bodies[1 - longer].mass});
+    EXPECT_EQ(body_of_start(scene, "bodies.a.b.angle"), longer);
+    EXPECT_EQ(body_of_start(scene, "bodies.a.angle"), 1 - longer);
+    EXPECT_THROW(numbers_at(scene, "bodies.a.c.mass"), Error);
+  }
+}
+
+TEST(NumbersOfAScene, JointsAreFoundByTheirLongestName) {
+  Scene scene;
+  DistanceJoint rod, end;
+  rod.name = "rod", rod.length = 1;
+  end.name = "rod.end", end.length = 2;
+  scene.joints = {rod, end};
+  EXPECT_EQ(*numbers_at(scene, "joints.rod.end.length")[0], 2);
+  EXPECT_EQ(*numbers_at(scene, "joints.rod.length")[0], 1);
+}
+
+}  // namespace
+}  // namespace plumb
