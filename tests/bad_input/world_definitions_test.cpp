@@ -23,7 +23,10 @@ std::map<std::string, Rule> world_rules() {
           {"WorldDefinition.combine_restitution", {0, 4}},
           {"WorldDefinition.solver", {0, 4}},
           {"WorldDefinition.integrator", {0, 2}},
-          {"WorldDefinition.iterations", {1, 1000}}};
+          {"WorldDefinition.iterations", {1, 1000}},
+          {"Thresholds.hit", kAny},
+          {"Thresholds.bounce", kAny},
+          {"Thresholds.sleep", kAny}};
 }
 
 std::map<std::string, Rule> body_rules() {
@@ -89,7 +92,9 @@ std::map<std::string, Rule> joint_rules() {
                                     {"RatchetDefinition.tooth", kAngleNotZero},
                                     {"RatchetDefinition.phase", kJointAny},
                                     {"JointDefinition.break_force", kNotNegative},
-                                    {"JointDefinition.break_torque", kNotNegative}};
+                                    {"JointDefinition.break_torque", kNotNegative},
+                                    {"JointDefinition.report_force", kNotNegative},
+                                    {"JointDefinition.report_torque", kNotNegative}};
   for (const char* kind : {"Distance", "Revolute", "Prismatic", "Weld", "Wheel", "Pulley", "Friction"})
     rules[std::string(kind) + "Definition.anchor_a"] = rules[std::string(kind) + "Definition.anchor_b"] =
         kJointAny;

@@ -266,7 +266,7 @@ MUTATIONS = [
     Mutation("world: shapes deep in each other fall asleep", "engine/world/state/sleeping.cpp",
              "if (lies_deep(c)) cannot_sleep[c.body_a] = cannot_sleep[c.body_b] = 1;", "", "world", ("world/resting",)),
     Mutation("world: all impacts of a body that has two are the solver's", "engine/world/step/expected_impacts.cpp",
-             "if (time > earliest[body] + Real(kAtOnce) * dt) continue;", "", "world", ("world/impacts",)),
+             "if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kAtOnce) * dt) continue;", "", "world", ("world/impacts",)),
     Mutation("world: discs that pass each other hold each other", "engine/world/step/expected_impacts.cpp",
              "if (c.watched != Watch::Motion) return holds(w, c, dt);", "return holds(w, c, dt);", "world",
              ("world/impacts",)),

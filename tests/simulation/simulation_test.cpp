@@ -203,12 +203,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 12136856006975867482ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 7273632845365267968ull},
-      {Precision::Double, Solver::Direct, 0.5, 17088822052058736431ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 18287152695072332993ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 16140404775762130959ull},
-      {Precision::Float, Solver::Direct, 0.5, 15180854210104062730ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 18394934796639698700ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 10514350362562642363ull},
+      {Precision::Double, Solver::Direct, 0.5, 13698393009533091943ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 5237815337540893440ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 5042955557783259400ull},
+      {Precision::Float, Solver::Direct, 0.5, 5151255295175055322ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -10,6 +10,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/quarantine.h"
 #include "engine/world/state/sleeping.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/expected_impacts.h"
@@ -103,9 +104,12 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   double wanted[2] = {};
   for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -double(c.restitution) * double(c.approach[i]) : 0;
   const ContactImpulses impulses = impact_of(pair.a, pair.b, c, strikes, wanted);
+  const Real first = static_cast<Real>(impulses.normal[0]), second = static_cast<Real>(impulses.normal[1]),
+             friction = static_cast<Real>(impulses.friction);
+  if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction)) return Throw::None;
   c.tangent_impulse = c.rolling_impulse = 0;
-  pair.push(static_cast<Real>(impulses.normal[0]), static_cast<Real>(impulses.normal[1]));
-  pair.rub(static_cast<Real>(impulses.friction));
+  pair.push(first, second);
+  pair.rub(friction);
   pair.resist_rolling();
   c.watched = Watch::Motion;
   pair.note_peaks();
@@ -177,7 +181,10 @@ bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int othe
   ContactConstraint<Real> c = constraint_between(w, contact);
   // Ends a cascade of impacts that loses energy each time.
   const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
-  const Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  // Beyond the range of numbers the bodies stop here, and the next step's solver and quarantine treat them.
+  for (const int body : {contact.body_a, contact.body_b})
+    if (w.is_dynamic(body) && !is_sound_motion(w.motion[body])) thrown = Throw::None;
   if (thrown != Throw::None) report(w, contact, c, thrown == Throw::Bounce && c.restitution > 0);
   const Vec2d normal = c.normal.template as<double>();
   const auto go_on = [&](SweptBody* flight, Kept<Real>& kept) {

@@ -65,7 +65,8 @@ Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
 
 // Leaves bodies whose first impact is with two or more dynamic bodies at once to the solver, which resolves
 // simultaneous impacts together. Impacts one after the other are placed at their times in flight: those
-// after a body's first may not come about, or at another time.
+// after a body's first may not come about, or at another time. Without restitution bodies stay together and
+// press on others within the step, which contacts alone pass on: such impacts with several are the solver's.
 template <class Real>
 void leave_simultaneous(WorldData<Real>& w, Real dt) {
   std::vector<char>& met = w.scratch.expecting;
@@ -89,7 +90,7 @@ void leave_simultaneous(WorldData<Real>& w, Real dt) {
     if (!is_dynamic(impact.constraint)) continue;
     const Real time = time_until(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
-      if (time > earliest[body] + Real(kAtOnce) * dt) continue;
+      if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kAtOnce) * dt) continue;
       if (met.size() > static_cast<std::size_t>(body) && met[body]) {
         note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
       } else {
