@@ -67,7 +67,7 @@ TEST(Landing, CornersStrikeOneAfterTheOther) {
   int leaps = 0;
   for (const double restitution : {0.0, 0.3, 0.7}) {
     for (const double angle : {0.03, 0.1, -0.4, 1.2}) {
-      for (const double speed : {3.0, 10.0, 50.0}) {
+      for (const double speed : {50.0, 200.0, 1000.0}) {
         for (const double spin : {0.0, -4.0}) {
           Plank plank{.y = 2, .angle = angle, .vy = -speed, .w = spin};
           DoubleWorld world({.gravity = {0, 0}, .sleeping = false});
@@ -77,14 +77,15 @@ TEST(Landing, CornersStrikeOneAfterTheOther) {
           const BodyId box = world.create_body(
               {.position = {0, plank.y}, .angle = angle, .velocity = {0, -speed}, .angular_velocity = spin},
               {.geometry = Box{kWidth, kHeight}, .density = kMass / (kWidth * kHeight), .material = smooth});
-          const double time = std::ceil(60 * 3 / speed) / 60;
+          const double time = (std::ceil(60 * 3 / speed) + 60) / 60;
           land(plank, restitution, time);
           run(world, static_cast<int>(std::lround(60 * time)));
           SCOPED_TRACE(testing::Message() << restitution << ' ' << angle << ' ' << speed << ' ' << spin);
           // After impacts that follow each other without end the box lies: to the contacts' slop.
           const bool lies = plank.vy < 1e-3 * speed;
           leaps += lies ? 0 : 1;
-          const double error = lies ? 2e-3 : 1e-9 * speed;
+          // Without restitution a body may have become so slow that its contacts take a later impact.
+          const double error = lies ? 5e-3 : (restitution > 0 ? 1e-9 : 1e-3) * speed;
           EXPECT_NEAR(world.velocity(box).y, plank.vy, error);
           EXPECT_NEAR(world.angular_velocity(box), plank.w, error);
           EXPECT_NEAR(world.position(box).y, plank.y, error);

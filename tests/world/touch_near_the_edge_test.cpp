@@ -187,6 +187,11 @@ std::vector<Call<Real>> default_calls() {
       {WorldCall::SetSensor, [](W& w) { w.set_sensor(w->shapes(only_body(w)).front(), false); }},
       {WorldCall::SetHitEvents, [](W& w) { w.set_hit_events(w->shapes(only_body(w)).front(), false); }},
       {WorldCall::SetShapePreSolve, [](W& w) { w.set_pre_solve(w->shapes(only_body(w)).front(), false); }},
+      {WorldCall::SetBodyContinuous,
+       [](W& w) { w.set_continuous(only_body(w), BodyDefinition{}.continuous); }},
+      {WorldCall::SetLoadEvents,
+       [](W& w) { w.set_load_events(w->joints(w->bodies().front()).front(), 0, 0); }},
+      {WorldCall::SetThresholds, [](W& w) { w.set_thresholds(Thresholds{}); }},
   };
 }
 
@@ -199,10 +204,13 @@ BasicWorld<Real> unusual_world() {
                           .solver = Solver::SequentialImpulses,
                           .iterations = 7,
                           .direct_islands = false,
-                          .quarantine = false});
+                          .quarantine = false,
+                          .thresholds = {.hit = 3, .bounce = 2, .sleep = 0.1}});
   const BodyId anchor = world.create_body({.type = BodyType::Static, .position = {-3, 0}});
   const BodyId other = world.create_body({.position = {-2, -1}}, ShapeDefinition{.geometry = Box{0.3, 0.2}});
-  world.create_joint(anchor, other, {.kind = DistanceDefinition{.length = 1.4, .spring = Spring{3, 0.1}}});
+  world.create_joint(
+      anchor, other,
+      {.kind = DistanceDefinition{.length = 1.4, .spring = Spring{3, 0.1}}, .report_force = 7});
   const BodyId body = world.create_body(
       {.position = {4, 5},
        .angle = 0.4,

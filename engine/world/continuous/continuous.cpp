@@ -13,6 +13,7 @@
 #include "engine/world/continuous/swept_pair.h"
 #include "engine/world/continuous/toi_events.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/step/step.h"
@@ -340,8 +341,9 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
     return;
   }
   const int other_place = other == nullptr ? kNone : w.scratch.swept_body_places[other_body];
-  if (flight.yields && flight.impacts < tuning::kImpactsInFlight &&
-      may_rebound(w, next.shape, next.other, search.dt)) {
+  const int most = restitution_between(w, next.shape, next.other) > 0 ? tuning::kImpactsInFlight
+                                                                      : tuning::kLandingsInFlight;
+  if (flight.yields && flight.impacts < most && may_rebound(w, next.shape, next.other, search.dt)) {
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
     if (!thrown) flight.yields = false;  // they do not approach
     if (thrown) insert_swept_aabb(w, flight);

@@ -168,6 +168,9 @@ template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
   if (a.pre_solve || b.pre_solve) return false;
+  // Without restitution two dynamic bodies go on together, which their contact does for less.
+  const bool both = w.is_dynamic(a.body) && w.is_dynamic(b.body);
+  if (both && !(restitution_between(w, shape, other) > 0)) return false;
   return is_free(w, a.body, dt) && is_free(w, b.body, dt);
 }
 

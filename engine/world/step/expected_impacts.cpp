@@ -1,6 +1,7 @@
 #include "engine/world/step/expected_impacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/core/room.h"
@@ -23,11 +24,21 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Returns true if a close point neither separates nor is about to strike.
+// Returns true if a close point neither separates nor is about to bounce.
 template <class Real>
 bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
   const Real rate = rate_of(w, c, i);
-  return !(rate > 0) && !(-rate > bounce_threshold(w, static_cast<double>(dt)));
+  return !(rate > 0) && !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
+}
+
+// Returns true if a dynamic body without joints moves so far in a step that continuous collision follows it.
+template <class Real>
+bool moves_far(const WorldData<Real>& w, int body, Real dt) {
+  const BodyMotion<Real>& motion = w.motion[body];
+  const Real speed = std::abs(motion.velocity.x) + std::abs(motion.velocity.y) +
+                     std::abs(motion.angular_velocity) * w.extents[body];
+  return w.is_dynamic(body) && w.bodies[body].first_joint == kNone &&
+         dt * speed > Real(tuning::kFastShare) * w.bodies[body].half_width;
 }
 
 // Returns true if a body is in free flight until its impact, or is not dynamic.
@@ -138,6 +149,12 @@ bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
                      const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!flies || contact.pre_solve) return false;
+  if (!(c.restitution > 0)) {
+    // Slower bodies strike with one corner after the other in different substeps, and two dynamic ones go on
+    // together: contacts do both for less.
+    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;
+    if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) return false;
+  }
   const Real nearest = c.count == 2
                            ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
                            : at.manifold.points[0].separation;

@@ -88,7 +88,9 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   const Real guessed = Real(tuning::kSpeculativeMarginMost) * smaller;
   if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
   if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
-  return !is_fast(w, a, dt) && !is_fast(w, b, dt);
+  if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
+  // Two bodies of similar size, neither of them fast, approach by no more than twice that.
+  return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
 }
 
 // Returns the speculative contact at a fraction of the step.
