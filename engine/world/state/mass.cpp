@@ -126,7 +126,8 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
   for_each_part(w, body, [&](const ConvexMass& part) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);
   });
-  return {mass, record.centre.template as<double>() + centre, inertia};
+  // Corners of a damaged snapshot may go round the wrong way: their inertia counts as none.
+  return {mass, record.centre.template as<double>() + centre, inertia >= 0 ? inertia : 0};
 }
 
 template <class Real>
