@@ -283,6 +283,10 @@ class Check {
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
       const BodyRecord<Real>& record = w_.bodies[body];
+      // A step keeps their length at 1 by a step of Newton's method, which leads away from far off.
+      const Rotation<Real> q = w_.rotation[body];
+      require(std::abs(q.c * q.c + q.s * q.s - 1) < Real(0.01), "bodies",
+              "have rotations of another length than 1");
       if (record.half_width < 0)
         ++count, require(listed.has(body), "bodies", "whose shapes changed are not listed");
       require(record.mass >= 0 || own_type(w_, body) == BodyType::Static || record.half_width < 0, "bodies",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -123,6 +124,9 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
   if (!(mass > 0 && 1 / mass <= std::numeric_limits<double>::max()))
     return {1, record.centre.template as<double>(), 0};
   const Vec2d centre = (1 / mass) * moment;  // in the body's frame
+  // Corners of a damaged snapshot may lead nowhere.
+  if (!std::isfinite(centre.x) || !std::isfinite(centre.y))
+    return {1, record.centre.template as<double>(), 0};
   for_each_part(w, body, [&](const ConvexMass& part) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);
   });
