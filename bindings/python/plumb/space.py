@@ -1322,7 +1322,7 @@ class Space:
         waiting, self._waiting = self._waiting, []
         for call, objects in waiting:
             adds = call == self.add
-            # What was asked twice within the step is done once.
+            # Does once what was asked for several times within the step.
             call(*[each for each in objects if self._holds(each) != adds])
         later, self._post_step = self._post_step, {}
         for key, (callback, args, kwargs) in later.items():
