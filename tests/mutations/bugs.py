@@ -172,7 +172,7 @@ MUTATIONS = [
     Mutation("world: impacts are not handed on", "engine/world/contact_solver/impact_propagation.cpp",
              "reach(motion, *bounces[i].contact, room);", "if (within < 0) reach(motion, *bounces[i].contact, room);", "world"),
     Mutation("world: impacts that share no body are solved together", "engine/world/contact_solver/impact_propagation.cpp",
-             "while (end < struck.size() && struck[end].group == struck[first].group) ++end;", "end = struck.size();", "world"),
+             "while (end < all.size() && all[end].group == all[first].group) ++end;", "end = all.size();", "world"),
     Mutation("world: joints take no part in impacts", "engine/world/solvers/restitution.cpp",
              "joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;", "joint.rows = 0;", "world",
              ("world/jointed_impacts",)),
