@@ -126,7 +126,11 @@ struct JointConstraint {
     kind.evaluate(at, rows);
     if constexpr (kHasRows) arm_b = rows.arm_b;
     if (time != JointTime::Between) follow(now, rows, time == JointTime::StepStarts, step.h);
-    evaluate_coordinates(at, rows, v, step, {share, alone});
+    if constexpr (kIsLanes<Real>) {
+      evaluate_coordinates(at, rows, v, step, {share, alone});
+    } else {
+      evaluate_single(at, rows, v, step, {share, alone});
+    }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
@@ -170,6 +174,13 @@ struct JointConstraint {
       if (point_beside_rigid())
         return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
     if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
+  }
+
+  /// Does the same for a joint that is alone. Compiled once, and called: the larger part of a joint's code.
+  [[gnu::noinline]] void evaluate_single(const JointPose<Real>& at, const JointRows<Real>& rows,
+                                         const JointVelocities<Real>& v, const Step& step,
+                                         JointShare<Real> part) {
+    evaluate_coordinates(at, rows, v, step, part);
   }
 
   // Springs beside rigid rows of the joint refer to their effective mass given these: see
