@@ -105,7 +105,7 @@ TEST(Compose, BricksThatAreOwedToStandAreCarriedOrHeldFromAbove) {
   EXPECT_GT(held, 10);
 }
 
-// What is as thin as shapes may lie in each other is not outside when it lies in a wall.
+// A body that is as thin as shapes may lie in each other is not outside when it lies in a wall.
 TEST(Compose, ThinBodiesMayLieInTheWallsAroundThem) {
   int owed = 0;
   for (std::uint64_t index = 0; index < 30; ++index) {
