@@ -141,6 +141,23 @@ TEST(Laws, AnOpenJointIsSeen) {
                             })));
 }
 
+TEST(Laws, GapsBetweenPointsAreHeldAgainstTheScene) {
+  Case one;
+  one.scene = {.name = "two points and a ball", .gravity = {0, 0}};
+  one.scene.bodies = {{.name = "a", .position = {0, 0}},
+                      {.name = "b", .position = {1, 0}},
+                      {.name = "ball", .position = {3, 0}, .shapes = {{.geometry = Circle{0.5}}}}};
+  one.scene.joints = {DistanceJoint{.name = "rod", .body_a = "a", .body_b = "b", .length = 1}};
+  one.steps = 30;
+  const auto stretched = [](double by) {
+    return [by](std::size_t i, double t) {
+      return BodyState{.position = {i == 0 ? 0 : i == 1 ? 1 + (t > 0 ? by : 0) : 3, 0}};
+    };
+  };
+  EXPECT_FALSE(joint_gap_law(one, world(), made_up(one, stretched(1e-6))));
+  EXPECT_TRUE(joint_gap_law(one, world(), made_up(one, stretched(0.1))));
+}
+
 TEST(Laws, ExpectationsAreHeldAgainstTheStates) {
   Case one = falling();
   one.expectations = {
