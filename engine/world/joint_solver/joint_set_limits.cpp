@@ -44,7 +44,7 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
   JointVelocities<Real> way(a, b);
   way.v_a = way.v_b = {}, way.w_a = way.w_b = 0;
   block.factorise(way);
-  block.solve(way, {.softness = {.bias_rate = 1}}, kSolve, Real(1));
+  block.solve(way, {.bias_rate = 1}, kSolve, Real(1));
   shift(a, rotation[joint.a], way.v_a, way.w_a);
   shift(b, rotation[joint.b], way.v_b, way.w_b);
 }
