@@ -119,9 +119,10 @@ void add_reality(CLI::App& app, Action& chosen) {
   command->add_option("--seed", options->seed, "of the random halves (default 1)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
-  command->add_flag(
-      "--published", options->published,
-      "published laws of real matter instead, which need no measurements: column collapse, rocking block");
+  command->add_flag("--published", options->published,
+                    "published laws of real matter instead, which need no measurements: bouncing balls, "
+                    "column collapse, dominoes, "
+                    "rocking block");
   command->footer(
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/reality/published/domino_row.h"
+
 namespace plumb::harness::reality {
 namespace {
 
@@ -20,6 +22,36 @@ TEST(PublishedLaws, HaveBandsAndSources) {
     EXPECT_LT(law.low, law.high) << law.name;
     EXPECT_FALSE(law.source.empty() || law.quantity.empty()) << law.name;
   }
+}
+
+TEST(PublishedLaws, RowOfDominoesTopplesAsFastAsInVanLeeuwensTable) {
+  // Speeds over sqrt(g h) by his own program: blocks of 48 mm x 7.5 mm, friction 0.25.
+  const struct {
+    double gap, speed;
+  } rows[] = {{0.100, 1.468}, {0.204, 1.380}, {0.309, 1.321}, {0.406, 1.276}, {0.503, 1.230}, {0.600, 1.180}};
+  for (const auto& row : rows) EXPECT_NEAR(toppling_speed({1, 7.5 / 48, row.gap, 0.25, 1}), row.speed, 2e-3);
+  EXPECT_EQ(toppling_speed({1, 7.5 / 48, 0.01, 2, 1}), 0) << "with much friction the wave stops";
+}
+
+TEST(PublishedLaws, ReboundIsTheHighestPointAfterTheImpact) {
+  const PublishedLaw law = law_called("bouncing_ball[tennis]");
+  std::vector<Sample> samples(6, Sample(2));
+  const double heights[] = {3, 2, 0.1, 0.9, 1.4, 1.3};
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i][1].position.y = heights[i];
+  EXPECT_NEAR(law.measure(samples), 1.4 - 0.033, 1e-12);
+}
+
+TEST(PublishedLaws, SpeedOfDominoesIsMeasuredFarFromThePush) {
+  const PublishedLaw law = law_called("dominoes[2]");
+  // Domino i turns at 1 rad/s from 0.05 i s on.
+  std::vector<Sample> samples;
+  for (int step = 0; step < 600; ++step) {
+    Sample& sample = samples.emplace_back(law.scene.bodies.size());
+    for (std::size_t i = 1; i < sample.size(); ++i)
+      sample[i].angle = -std::max(0.0, step * law.dt - 0.05 * static_cast<double>(i));
+  }
+  EXPECT_NEAR(law.measure(samples), 3 * 0.075 / 0.05 / std::sqrt(9.81 * 0.48), 1e-9);
+  EXPECT_EQ(law.measure(std::vector<Sample>(600, samples.front())), 0) << "nothing moves";
 }
 
 TEST(PublishedLaws, RunOutEndsWhereRodsHaveRolledAwayAlone) {

@@ -21,7 +21,7 @@ Body fixed_box(const char* name, Vec2d at, Box box, double friction) {
 
 std::vector<PublishedLaw> published_laws() {
   std::vector<PublishedLaw> out;
-  for (const auto laws : {column_collapse, rocking_block})
+  for (const auto laws : {bouncing_ball, column_collapse, dominoes, rocking_block})
     for (PublishedLaw& law : laws()) out.push_back(std::move(law));
   return out;
 }

@@ -26,7 +26,9 @@ struct PublishedLaw {
 };
 
 // A file each.
+std::vector<PublishedLaw> bouncing_ball();
 std::vector<PublishedLaw> column_collapse();
+std::vector<PublishedLaw> dominoes();
 std::vector<PublishedLaw> rocking_block();
 
 /// Returns a box that does not move.
