@@ -94,6 +94,7 @@ template <class Joint, class Real>
                           __attribute__((always_inline)) { joint.solve(v, step); });
     case JointSweep::Relax:
       return for_each([&](Joint & joint, Velocities & v) __attribute__((always_inline)) {
+        if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
         evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
         joint.solve_coordinates(v, step, kRelax, joint.share);
       });
@@ -110,14 +111,16 @@ void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& 
       if constexpr (kSideBySide<One>) {
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(parts.lanes);
-          return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+          const auto visit = [&](JointCounts first, JointCounts last) {
             // Those that are alone come first: blocks of the next colour, which load a body's velocity as
             // one, would wait for what was just stored in pieces.
             if (first.alone < last.alone)
               sweep_range<One>(pass, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
                                bodies, step);
             if (first.blocks < last.blocks) blocks.sweep(pass, first.blocks, last.blocks, bodies, step);
-          });
+          };
+          return crew != nullptr && crew->shares() ? share_blocks(run, crew, visit)
+                                                   : visit(run.first, run.last);
         }
       }
       auto& list = lists[run.colour];
@@ -435,6 +438,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
   const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
     const auto share = [&](const Joint& joint) { return share_of(p, joint, bodies); };
     const JointCounts counts = blocks.counts();
+    if (counts.blocks + counts.alone == 0) return;
     share_range(counts.blocks, kBlocksOfTask, crew,
                 [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
     share_range(counts.alone, kJointsOfTask, crew, [&](int first, int last) {
@@ -454,6 +458,7 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
   const auto finish = [&](auto& blocks) {
+    if (blocks.counts().blocks == 0) return;
     share_range(blocks.counts().blocks, kBlocksOfTask, crew,
                 [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
