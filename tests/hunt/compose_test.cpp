@@ -57,7 +57,7 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
       world(reference::find_backend("plumb-float"));
-  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse"}) {
+  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse", "cradle"}) {
     int judged = 0;
     for (std::uint64_t index = 0; index < 60; ++index) {
       const Case one = compose(23, index, {&find_idiom(name)});

@@ -47,6 +47,8 @@ MUTATIONS = [
              "return std::sqrt(a * b);", "return a * b;"),
     Mutation("a hinge lets go of its load before its spring is solved", "engine/world/joint_solver/joint_constraint.h",
              "if (turn_beside_rigid()) solve_point(v, soft, kRelax, part);", "if (turn_beside_rigid()) solve_point(v, soft, which, part);", "world", ("world/springs",)),
+    Mutation("what parts by rounding flies freely", "engine/world/step/expected_impacts.cpp",
+             "return !(dt * rate > rounding_between(w, c.body_a, c.body_b)) &&", "return !(rate > 0) &&", "world", ("world/impacts",)),
     Mutation("a hinge lets go of its load after its spring is solved", "engine/world/joint_solver/joint_constraint.h",
              "if (alone && (turn_beside_rigid() || axial_beside_rigid()))", "if (false)", "world", ("world/springs",)),
     Mutation("world: without restitution corners land together", "engine/world/step/expected_impacts.cpp",

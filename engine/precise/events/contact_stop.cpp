@@ -342,12 +342,9 @@ void Contacts::refine(const Event& event) {
     if (std::abs(row.residual) <= near_ / 64 || !(closing < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - row.residual / closing;
     if (time == smooth_.time() || time <= start) return;
-    if (time < smooth_.time()) {
-      smooth_.cut(time);
-    } else {
-      smooth_.step(time);
-      if (smooth_.time() < time) return;
-    }
+    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
+    // read.
+    smooth_.cut(time);
   }
 }
 
@@ -359,12 +356,9 @@ void Contacts::refine_limit(std::size_t limit) {
     if (std::abs(at.gap) <= 1e-14 * length || !(at.rate < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - at.gap / at.rate;
     if (time == smooth_.time() || time <= start) return;
-    if (time < smooth_.time()) {
-      smooth_.cut(time);
-    } else {
-      smooth_.step(time);
-      if (smooth_.time() < time) return;
-    }
+    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
+    // read.
+    smooth_.cut(time);
   }
 }
 
