@@ -6,9 +6,11 @@ namespace plumb::harness::reality {
 namespace {
 
 /// Blocks behind the first that still move: each is slower than the one before it.
-constexpr int kBlocks = 200;
-constexpr int kSteps = 400;  // of the first block's turn between two impacts
-constexpr int kImpacts = 100;
+constexpr int kBlocks = 100;
+/// Share of a block's equation in the sum below which it and those behind it are left out.
+constexpr double kLeast = 1e-9;
+constexpr int kSteps = 50;  // of the first block's turn between two impacts, of fourth order
+constexpr int kImpacts = 40;
 
 /// Equation of motion of the leaning blocks for the first one's angle: inertia * acceleration + bend * rate^2
 /// = torque, all over m h^2 or m g h.
@@ -33,7 +35,7 @@ class Row {
     const double own = (1 + thick_ * thick_) / 3;
     Motion out;
     double x = angle, rate = 1, bend = 0, share = 1;  // rate, bend: derivatives of x by the first angle
-    for (int i = 0; i < kBlocks; ++i) {
+    for (int i = 0; i < kBlocks && share > kLeast; ++i) {
       out.inertia += share * own * rate;
       out.bend += share * own * bend;
       out.torque += share * (std::sin(x) - thick_ * std::cos(x)) / 2;
