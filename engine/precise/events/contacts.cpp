@@ -230,6 +230,8 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
     const Row<double>& row = p.response.rows[i];
     p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
   }
+  for (std::size_t b = 0; b < brakes.size(); ++b)
+    p.problem.rate[p.problem.size() - brakes.size() + b] -= stops_.gain_of_speed(brakes[b], now);
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
     const ContactCandidate& touch = touches[p.touches[q]];
     if (std::abs(touch.slip) <= touch.quiet) continue;
