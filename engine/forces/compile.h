@@ -64,8 +64,12 @@ class LawCompiler {
   }
   FormulaForceLaw compile(const FormulaForce& law) const {
     const std::size_t body = index_.at(law.body);
-    return {body, law.point, scene_.bodies[body].mass, Formula(law.x, kForceVariables),
-            Formula(law.y, kForceVariables), Formula(law.torque, kForceVariables)};
+    return {body,
+            law.point,
+            scene_.bodies[body].mass,
+            Formula(law.x, kForceVariables),
+            Formula(law.y, kForceVariables),
+            Formula(law.torque, kForceVariables)};
   }
   FormulaSpringLaw compile(const FormulaSpring& law) const {
     return {end(law.body_a), end(law.body_b), law.anchor_a, law.anchor_b,

@@ -127,7 +127,8 @@ struct Derivative {
     couple(c);
   }
 
-  // Each column from the formulas' derivatives along one coordinate; the torque r x F also changes as r turns.
+  // Each column from the formulas' derivatives along one coordinate; the torque r x F also changes as r
+  // turns.
   void operator()(const FormulaForceLaw& law) const {
     ForceBlock& b = block();
     const FormulaForceLaw::Variables now = law.variables(time, ends[0].pose, ends[0].twist);

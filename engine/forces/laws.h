@@ -49,8 +49,7 @@ class Forces {
                     Wrench<Real>* out) const;
   void add_swinging(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
                     Wrench<Real>* out) const;
-  void add_formulas(double time, const Pose<Real>* poses, const Twist<Real>* twists,
-                    Wrench<Real>* out) const;
+  void add_formulas(double time, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
   std::vector<LinearDragLaw<Real>> linear_drags_;
   std::vector<QuadraticDragLaw<Real>> quadratic_drags_;

@@ -98,7 +98,8 @@ std::string symplectic_unsupported(const Scene& given) {
   for (const Body& body : scene.bodies) {
     if (!body.motion.empty())
       return "body " + quoted(body.name) +
-             " has a prescribed motion, which does work: the symplectic method keeps energy only where none is "
+             " has a prescribed motion, which does work: the symplectic method keeps energy only where none "
+             "is "
              "added; use method = automatic";
   }
   if (precise::GeneralJoints(scene).has_springs()) {

@@ -156,13 +156,13 @@ class FormulaParser {
     Code code;
   };
   static constexpr std::array kFunctions{
-      Function{"sin", 1, Code::Sin},     Function{"cos", 1, Code::Cos},     Function{"tan", 1, Code::Tan},
-      Function{"asin", 1, Code::Asin},   Function{"acos", 1, Code::Acos},   Function{"atan", 1, Code::Atan},
-      Function{"atan2", 2, Code::Atan2}, Function{"sinh", 1, Code::Sinh},   Function{"cosh", 1, Code::Cosh},
-      Function{"tanh", 1, Code::Tanh},   Function{"exp", 1, Code::Exp},     Function{"ln", 1, Code::Ln},
-      Function{"log10", 1, Code::Log10}, Function{"sqrt", 1, Code::Sqrt},   Function{"abs", 1, Code::Abs},
-      Function{"sign", 1, Code::Sign},   Function{"min", 2, Code::Min},     Function{"max", 2, Code::Max},
-      Function{"hypot", 2, Code::Hypot}, Function{"mod", 2, Code::Mod},     Function{"floor", 1, Code::Floor},
+      Function{"sin", 1, Code::Sin},     Function{"cos", 1, Code::Cos},   Function{"tan", 1, Code::Tan},
+      Function{"asin", 1, Code::Asin},   Function{"acos", 1, Code::Acos}, Function{"atan", 1, Code::Atan},
+      Function{"atan2", 2, Code::Atan2}, Function{"sinh", 1, Code::Sinh}, Function{"cosh", 1, Code::Cosh},
+      Function{"tanh", 1, Code::Tanh},   Function{"exp", 1, Code::Exp},   Function{"ln", 1, Code::Ln},
+      Function{"log10", 1, Code::Log10}, Function{"sqrt", 1, Code::Sqrt}, Function{"abs", 1, Code::Abs},
+      Function{"sign", 1, Code::Sign},   Function{"min", 2, Code::Min},   Function{"max", 2, Code::Max},
+      Function{"hypot", 2, Code::Hypot}, Function{"mod", 2, Code::Mod},   Function{"floor", 1, Code::Floor},
       Function{"table", -1, Code::Table}};
 
   [[noreturn]] static void fail(const std::string& what) { throw std::invalid_argument(what); }
@@ -224,7 +224,7 @@ class FormulaParser {
   void comparison() {
     sum();
     static constexpr std::pair<std::string_view, Code> kSigns[] = {
-        {"<=", Code::AtMost},     {">=", Code::AtLeast}, {"==", Code::Equal},
+        {"<=", Code::AtMost},    {">=", Code::AtLeast}, {"==", Code::Equal},
         {"!=", Code::Different}, {"<", Code::Less},     {">", Code::Greater}};
     for (const auto& [sign, code] : kSigns) {
       if (!take(sign)) continue;
@@ -367,51 +367,121 @@ Value Formula::evaluate(std::span<const Value> variables) const {
   for (const Operation& operation : operations_) {
     Value& last = top[-1];
     switch (operation.code) {
-      case Code::Number: *top++ = Value(operation.number); break;
-      case Code::Variable: *top++ = variables[operation.index]; break;
-      case Code::Negate: last = -last; break;
-      case Code::Add: two([](const Value& a, const Value& b) { return a + b; }); break;
-      case Code::Subtract: two([](const Value& a, const Value& b) { return a - b; }); break;
-      case Code::Multiply: two([](const Value& a, const Value& b) { return a * b; }); break;
-      case Code::Divide: two([](const Value& a, const Value& b) { return a / b; }); break;
-      case Code::Power: two([](const Value& a, const Value& b) { return power_of(a, b); }); break;
-      case Code::Less: compare([](double a, double b) { return a < b; }); break;
-      case Code::Greater: compare([](double a, double b) { return a > b; }); break;
-      case Code::AtMost: compare([](double a, double b) { return a <= b; }); break;
-      case Code::AtLeast: compare([](double a, double b) { return a >= b; }); break;
-      case Code::Equal: compare([](double a, double b) { return a == b; }); break;
-      case Code::Different: compare([](double a, double b) { return a != b; }); break;
-      case Code::And: compare([](double a, double b) { return a != 0 && b != 0; }); break;
-      case Code::Or: compare([](double a, double b) { return a != 0 || b != 0; }); break;
+      case Code::Number:
+        *top++ = Value(operation.number);
+        break;
+      case Code::Variable:
+        *top++ = variables[operation.index];
+        break;
+      case Code::Negate:
+        last = -last;
+        break;
+      case Code::Add:
+        two([](const Value& a, const Value& b) { return a + b; });
+        break;
+      case Code::Subtract:
+        two([](const Value& a, const Value& b) { return a - b; });
+        break;
+      case Code::Multiply:
+        two([](const Value& a, const Value& b) { return a * b; });
+        break;
+      case Code::Divide:
+        two([](const Value& a, const Value& b) { return a / b; });
+        break;
+      case Code::Power:
+        two([](const Value& a, const Value& b) { return power_of(a, b); });
+        break;
+      case Code::Less:
+        compare([](double a, double b) { return a < b; });
+        break;
+      case Code::Greater:
+        compare([](double a, double b) { return a > b; });
+        break;
+      case Code::AtMost:
+        compare([](double a, double b) { return a <= b; });
+        break;
+      case Code::AtLeast:
+        compare([](double a, double b) { return a >= b; });
+        break;
+      case Code::Equal:
+        compare([](double a, double b) { return a == b; });
+        break;
+      case Code::Different:
+        compare([](double a, double b) { return a != b; });
+        break;
+      case Code::And:
+        compare([](double a, double b) { return a != 0 && b != 0; });
+        break;
+      case Code::Or:
+        compare([](double a, double b) { return a != 0 || b != 0; });
+        break;
       case Code::Choose:
         top -= 2;
         top[-1] = value_of(top[-1]) != 0 ? top[0] : top[1];
         break;
-      case Code::Sin: last = sine(last); break;
-      case Code::Cos: last = cosine(last); break;
-      case Code::Tan: last = tangent(last); break;
-      case Code::Asin: last = arc_sine(last); break;
-      case Code::Acos: last = arc_cosine(last); break;
-      case Code::Atan: last = arc_tangent_of(last); break;
-      case Code::Atan2: two([](const Value& a, const Value& b) { return arc_tangent_of(a, b); }); break;
-      case Code::Sinh: last = sinh_of(last); break;
-      case Code::Cosh: last = cosh_of(last); break;
-      case Code::Tanh: last = tanh_of(last); break;
-      case Code::Exp: last = exponential_of(last); break;
-      case Code::Ln: last = logarithm_of(last, 1); break;
-      case Code::Log10: last = logarithm_of(last, std::numbers::ln10); break;
-      case Code::Sqrt: last = root_of(last); break;
-      case Code::Abs: last = value_of(last) < 0 ? -last : last; break;
-      case Code::Sign: last = Value(value_of(last) > 0 ? 1.0 : value_of(last) < 0 ? -1.0 : 0.0); break;
+      case Code::Sin:
+        last = sine(last);
+        break;
+      case Code::Cos:
+        last = cosine(last);
+        break;
+      case Code::Tan:
+        last = tangent(last);
+        break;
+      case Code::Asin:
+        last = arc_sine(last);
+        break;
+      case Code::Acos:
+        last = arc_cosine(last);
+        break;
+      case Code::Atan:
+        last = arc_tangent_of(last);
+        break;
+      case Code::Atan2:
+        two([](const Value& a, const Value& b) { return arc_tangent_of(a, b); });
+        break;
+      case Code::Sinh:
+        last = sinh_of(last);
+        break;
+      case Code::Cosh:
+        last = cosh_of(last);
+        break;
+      case Code::Tanh:
+        last = tanh_of(last);
+        break;
+      case Code::Exp:
+        last = exponential_of(last);
+        break;
+      case Code::Ln:
+        last = logarithm_of(last, 1);
+        break;
+      case Code::Log10:
+        last = logarithm_of(last, std::numbers::ln10);
+        break;
+      case Code::Sqrt:
+        last = root_of(last);
+        break;
+      case Code::Abs:
+        last = value_of(last) < 0 ? -last : last;
+        break;
+      case Code::Sign:
+        last = Value(value_of(last) > 0 ? 1.0 : value_of(last) < 0 ? -1.0 : 0.0);
+        break;
       case Code::Min:
         two([](const Value& a, const Value& b) { return value_of(b) < value_of(a) ? b : a; });
         break;
       case Code::Max:
         two([](const Value& a, const Value& b) { return value_of(b) > value_of(a) ? b : a; });
         break;
-      case Code::Hypot: two([](const Value& a, const Value& b) { return root_of(a * a + b * b); }); break;
-      case Code::Mod: two([](const Value& a, const Value& b) { return rest_of(a, b); }); break;
-      case Code::Floor: last = Value(std::floor(value_of(last))); break;
+      case Code::Hypot:
+        two([](const Value& a, const Value& b) { return root_of(a * a + b * b); });
+        break;
+      case Code::Mod:
+        two([](const Value& a, const Value& b) { return rest_of(a, b); });
+        break;
+      case Code::Floor:
+        last = Value(std::floor(value_of(last)));
+        break;
       case Code::Table: {
         const std::vector<Point>& points = tables_[operation.index];
         const double x = value_of(last);

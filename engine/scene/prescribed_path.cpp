@@ -26,9 +26,8 @@ PrescribedPath::Point PrescribedPath::at(double t) const {
   const Jet x = coordinate(x_, start_.position.x, start_.velocity.x),
             y = coordinate(y_, start_.position.y, start_.velocity.y),
             angle = coordinate(angle_, start_.angle, start_.angular_velocity);
-  return {{{x.value, y.value}, angle.value, {x.first, y.first}, angle.first},
-          {x.second, y.second},
-          angle.second};
+  return {
+      {{x.value, y.value}, angle.value, {x.first, y.first}, angle.first}, {x.second, y.second}, angle.second};
 }
 
 }  // namespace plumb

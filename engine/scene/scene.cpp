@@ -76,12 +76,11 @@ std::array<std::string_view, 2> ends_of(const ForceLaw& law) {
 }
 
 bool has_formulas(const Scene& scene) {
-  return !scene.drives.empty() ||
-         std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return !body.motion.empty(); }) ||
-         std::any_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
-           return std::holds_alternative<FormulaForce>(law) || std::holds_alternative<FormulaSpring>(law);
-         });
+  return !scene.drives.empty() || std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+    return !body.motion.empty();
+  }) || std::any_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
+    return std::holds_alternative<FormulaForce>(law) || std::holds_alternative<FormulaSpring>(law);
+  });
 }
 
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name) {

@@ -173,7 +173,8 @@ struct FormulaSpring {
 /// pi), velocity (m/s) and angular velocity (rad/s), and its mass (kg).
 inline constexpr std::array<std::string_view, 8> kForceVariables{"t",  "x",  "y", "angle",
                                                                  "vx", "vy", "w", "m"};
-/// Names in the formula of a `FormulaSpring`: the time (s), the distance of its points (m) and its rate (m/s).
+/// Names in the formula of a `FormulaSpring`: the time (s), the distance of its points (m) and its rate
+/// (m/s).
 inline constexpr std::array<std::string_view, 3> kSpringVariables{"t", "length", "rate"};
 /// The only name in formulas of a `PrescribedMotion` and of a `Drive`: the time (s).
 inline constexpr std::array<std::string_view, 1> kTimeVariable{"t"};

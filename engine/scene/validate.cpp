@@ -467,7 +467,8 @@ class Checker {
         },
         *joint);
     if (!motor)
-      fail(Error::Kind::Value, "joint", printable(drive.joint), "must have a motor: the drive sets its speed");
+      fail(Error::Kind::Value, "joint", printable(drive.joint),
+           "must have a motor: the drive sets its speed");
     for (std::size_t other = 0; other < place_.index; ++other) {
       if (scene_.drives[other].joint == drive.joint)
         fail(Error::Kind::Name, "joint", printable(drive.joint), "must have one drive at most");

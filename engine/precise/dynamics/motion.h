@@ -253,7 +253,7 @@ class EquationsOfMotion final : public Flow {
     PrescribedPath path;
   };
   std::vector<Prescribed> prescribed_;  // bodies with a motion of their own: no force moves them
-  double length_ = 1, speed_ = 1;  // the scene's, m and m/s
+  double length_ = 1, speed_ = 1;       // the scene's, m and m/s
   double tolerance_ = 0;
   double may_stay_open_ = 0;  // m, of gaps
   std::int64_t evaluations_ = 0;

@@ -58,7 +58,8 @@ bool EquationsOfMotion::held_works() const {
   bool drives = false;
   for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
     const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor && (stop.speed != 0 || stop.drive));
+    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor &&
+                        (stop.speed != 0 || stop.drive));
   }
   return drives || !prescribed_.empty() || std::any_of(guides_.begin(), guides_.end(), moves) ||
          std::any_of(patches_.begin(), patches_.end(), rubs);

@@ -34,7 +34,9 @@ class Stops {
                           std::vector<ContactCandidate>& touches);
 
   /// Returns how fast the speed of a motor rises, m/s^2 or rad/s^2: not at all without a drive.
-  double gain_of_speed(const Brake& brake, double time) const { return stop(brake.stop).speed_at(time).first; }
+  double gain_of_speed(const Brake& brake, double time) const {
+    return stop(brake.stop).speed_at(time).first;
+  }
 
   /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
   /// `force` is the largest of their forces.

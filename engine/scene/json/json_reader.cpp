@@ -156,11 +156,10 @@ Drive read_drive(const View& view) {
 }
 
 Body read_body(const View& view) {
-  const Fields fields(
-      view, "a body",
-      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
-       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping", "angular_damping", "motion",
-       "shapes"});
+  const Fields fields(view, "a body",
+                      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
+                       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping",
+                       "angular_damping", "motion", "shapes"});
   Body body{.name = json::string(fields.required("name"))};
   fields.read("type", body.type, kBodyTypeNames);
   fields.read("position", body.position);
@@ -300,8 +299,9 @@ ForceLaw read_force(const View& view) {
 }
 
 Scene read_scene(const View& view) {
-  const Fields fields(view, "a scene",
-                      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces", "drives"});
+  const Fields fields(
+      view, "a scene",
+      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces", "drives"});
   read_version(fields);
   Scene scene;
   fields.read("name", scene.name);

@@ -29,7 +29,8 @@ class Writer {
     list("joints", scene.joints, [this](const Joint& joint) { this->joint(joint); });
     list("forces", scene.forces, [this](const ForceLaw& force) { this->force(force); });
     // Left out where there is none, as `motion` of a body is: scenes from before them keep their hashes.
-    if (!scene.drives.empty()) list("drives", scene.drives, [this](const Drive& drive) { this->drive(drive); });
+    if (!scene.drives.empty())
+      list("drives", scene.drives, [this](const Drive& drive) { this->drive(drive); });
     out_.end('}');
   }
 
