@@ -355,8 +355,8 @@ Formula::Formula(std::string_view text, std::span<const std::string_view> variab
 
 template <class Value>
 Value Formula::evaluate(std::span<const Value> variables) const {
-  std::array<Value, kDeepest + 1> stack;
-  Value* top = stack.data();  // one past the last value
+  std::array<Value, kDeepest + 2> stack{};
+  Value* top = stack.data() + 1;  // one past the last value; the first is never read
   const auto two = [&](auto&& apply) {
     --top;
     top[-1] = apply(top[-1], top[0]);
@@ -500,7 +500,7 @@ Value Formula::evaluate(std::span<const Value> variables) const {
       }
     }
   }
-  return stack[0];
+  return top[-1];
 }
 
 double Formula::at(std::span<const double> variables) const { return evaluate(variables); }
