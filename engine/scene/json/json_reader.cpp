@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -137,8 +138,15 @@ Shape read_shape(const View& view) {
 
 /// Reads a formula: text, or a number in its place.
 std::string read_formula(const View& view) {
-  if (view.node().kind != json::Kind::Number) return json::string(view);
-  return shortest(json::number(view));
+  if (view.node().kind == json::Kind::Number) {
+    const double value = json::number(view);
+    if (!(std::abs(value) <= kLargest))
+      view.fail(Error::Kind::Value, "must be at most " + shortest(kLargest) + " in magnitude");
+    return shortest(value);
+  }
+  std::string text = json::string(view);
+  if (text.empty()) view.fail(Error::Kind::Syntax, "is no formula: it is empty");
+  return text;
 }
 
 PrescribedMotion read_motion(const View& view) {
