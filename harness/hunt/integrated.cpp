@@ -172,6 +172,10 @@ class Free {
     if (holder) push(out, *holder, arm, -1.0 * force);
   }
 
+  // Scenes with formulas are not `integrable`.
+  void add(const FormulaForce&, const std::vector<BodyState>&, double, Loads&) const {}
+  void add(const FormulaSpring&, const std::vector<BodyState>&, double, Loads&) const {}
+
   const Scene& scene_;
   std::vector<double> inertia_;
   std::set<double> switches_;
@@ -226,7 +230,7 @@ double bound_of(const Case& one, const Engine& engine, double fastest, double ha
 }  // namespace
 
 bool integrable(const Case& one) {
-  if (!one.scene.joints.empty() || one.scene.forces.empty()) return false;
+  if (!one.scene.joints.empty() || one.scene.forces.empty() || has_formulas(one.scene)) return false;
   return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(),
                       [](const Body& body) { return body.lock_x || body.lock_y || body.fixed_rotation; });
 }

@@ -21,7 +21,8 @@ constexpr double kSampled = 1e-4, kGrown = 1000;
 constexpr double kTighter = 1e-11;  // for Precise, whose usual one is 1e-9
 constexpr double kShift = 64;       // m, a power of two
 
-bool plain(const Case& one, const Engine&) { return !one.world_only(); }
+// Formulas are in the scene's own coordinates: a shifted or mirrored scene would need others.
+bool plain(const Case& one, const Engine&) { return !one.world_only() && !has_formulas(one.scene); }
 
 template <class Map>
 Motion mapped(Motion motion, const Map& map) {
