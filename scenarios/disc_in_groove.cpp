@@ -15,10 +15,9 @@ Problem build(std::string_view, int) {
   const Vec2d along = set_up::direction(-left), beside = set_up::direction(right);
   const Vec2d n = perpendicular(along), m = perpendicular(beside);
   const Vec2d centre = radius / (1 + dot(n, m)) * (n + m);
-  problem.scene.bodies = {
-      fixed("left", -2.0 * n - along, solid(Box{4, 4}), -left),
-      fixed("right", -2.0 * m + beside, solid(Box{4, 4}), right),
-      piece("disc", centre, solid(Circle{radius}))};
+  problem.scene.bodies = {fixed("left", -2.0 * n - along, solid(Box{4, 4}), -left),
+                          fixed("right", -2.0 * m + beside, solid(Box{4, 4}), right),
+                          piece("disc", centre, solid(Circle{radius}))};
   problem.truth = equilibrium(problem.scene, "two forces carry the weight (statics)");
   problem.conserved = {.energy = true};
   problem.precise = within(1e-10);

@@ -18,8 +18,7 @@ Problem build(std::string_view variant, int) {
   const double degrees = choose(variant, {{"60", 60}, {"90", 90}, {"120", 120}, {"170", 170}});
   Problem problem{.scene = scene_of("pendulum", variant), .duration = 3};
   const double from = degrees / 180 * std::numbers::pi;
-  problem.scene.bodies = {
-      piece("bob", set_up::turned(from, {0, -kLength}), untouchable(Circle{0.1}), 2)};
+  problem.scene.bodies = {piece("bob", set_up::turned(from, {0, -kLength}), untouchable(Circle{0.1}), 2)};
   problem.scene.joints = {
       DistanceJoint{.name = "rod", .body_a = "world", .body_b = "bob", .length = kLength}};
   const auto law = [](Real angle, Real) { return -kGravity / Real(kLength) * std::sin(angle); };

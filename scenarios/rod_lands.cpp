@@ -16,8 +16,9 @@ Problem build(std::string_view, int) {
   Problem problem{.scene = scene_of("rod_lands"), .duration = 0.27};
   const Vec2<Real> end = turned(kAngle, {-kLength / Real(2), -kThick / Real(2)});
   const Shape shape = solid(Box{kLength, kThick}, 0, kRestitution);
-  problem.scene.bodies = {ground(0, kRestitution),
-                          piece("rod", {0, kDrop - set_up::turned(kAngle, {-kLength / 2, -kThick / 2}).y}, shape, 2)};
+  problem.scene.bodies = {
+      ground(0, kRestitution),
+      piece("rod", {0, kDrop - set_up::turned(kAngle, {-kLength / 2, -kThick / 2}).y}, shape, 2)};
   problem.scene.bodies[1].angle = kAngle;
   const Real at = std::sqrt(2 * Real(kDrop) / kGravity);
   const Real inertia = (Real(kLength) * kLength + Real(kThick) * kThick) / 12;  // over the mass

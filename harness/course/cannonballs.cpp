@@ -174,11 +174,11 @@ Finding spring(const Lab& lab) {
   const auto acting = [&](double side) {
     double sum = 0;
     int count = 0;
-    for (std::size_t k = 0; k + 1 < trace.states.size() && trace.times[k] < 2.5; ++k) {
-      const double stretch = trace.states[k][0].position.x - rest;
+    for (std::size_t i = 0; i + 1 < trace.states.size() && trace.times[i] < 2.5; ++i) {
+      const double stretch = trace.states[i][0].position.x - rest;
       if (side * stretch < amplitude / 4) continue;
-      sum -= mass * (trace.states[k + 1][0].velocity.x - trace.states[k][0].velocity.x) /
-             (trace.times[k + 1] - trace.times[k]) / stretch;
+      sum -= mass * (trace.states[i + 1][0].velocity.x - trace.states[i][0].velocity.x) /
+             (trace.times[i + 1] - trace.times[i]) / stretch;
       ++count;
     }
     return count == 0 ? k : sum / count;

@@ -58,7 +58,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
   }
 }
 
-// What a free flight shows explains a failed check better than its figures.
+// Names a mistake that a free flight shows: it explains a failed check better than the figures do.
 void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);

@@ -6,8 +6,8 @@
 #include "engine/math/trigonometry.h"
 #include "engine/math/vec2.h"
 
-/// Trigonometry for the numbers of a scene. In double and without libm, so that a scene has the same bits on every
-/// platform: libm's last bits differ, and so does the precision of `Real`. Truths use libm and `Real`.
+/// Trigonometry for the numbers of a scene. In double and without libm, so that a scene has the same bits on
+/// every platform: libm's last bits differ, and so does the precision of `Real`. Truths use libm and `Real`.
 namespace plumb::scenarios::truth::set_up {
 
 /// Returns (cos, sin) of `angle`, in rad.
