@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
 
@@ -16,7 +14,7 @@ Problem build(std::string_view, int) {
   Problem problem{.scene = scene_of("wedge"), .duration = 0.6};
   const Real tilt = std::atan(Real(0.5));
   const Vec2<Real> down = direction(-tilt);
-  // The triangle's corners from its centroid: 3 m wide, 1.5 m high, its right angle to the left.
+  // From its centroid: 3 m wide, 1.5 m high, its right angle to the left.
   const Shape triangle = solid(Polygon{{{-1, -0.5}, {2, -0.5}, {-1, 1}}});
   const Vec2d along = 1 / std::sqrt(5.0) * Vec2d{2, -1};  // down the wedge
   const Vec2d place = Vec2d{-1, 1.5} + 0.5 * along + 0.1 * perpendicular(along);

@@ -308,7 +308,7 @@ Finding restitution(const Lab& lab) {
   };
   const Trace trace = after(v);
   const double end = trace.last(0).velocity.y;
-  const bool stops = std::abs(end) < 0.002 * v;
+  const bool stops = std::abs(end) < 0.002 * v && !trembles(trace) && !loses_what_it_got(trace);
   const bool bounces_fast = stops && std::abs(after(5 * v).last(0).velocity.y - 5 * e * v) < 0.05 * v;
   return Judgement()
       .read("vy after the bounce", "m/s", end, e * v, 0.002 * v)

@@ -69,14 +69,19 @@ std::optional<double> largest_speed(std::span<const Vec2d> v, Vec2d gain) {
 
 bool whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
 
-// Returns the number of decimals to which all values are rounded, though `true_change` per step is not.
-std::optional<int> decimals(std::span<const double> values, double true_change) {
+// Returns the number of decimals to which all values are rounded. Their changes are then within a unit of the
+// right ones, `changes` up to `slack`, but not equal to them: a wrong change may have few decimals as well.
+std::optional<int> decimals(std::span<const double> values, std::span<const double> changes, double slack) {
   if (values.size() < 2 * kFewest || values.front() == values.back()) return std::nullopt;
   double unit = 10;
-  for (int digits = 1; digits <= 5; ++digits, unit *= 10) {
+  for (int digits = 1; digits <= 4; ++digits, unit *= 10) {
     if (!std::all_of(values.begin(), values.end(), [&](double v) { return whole(v * unit); })) continue;
-    if (whole(true_change * unit)) return std::nullopt;
-    return digits;
+    bool exact = true;
+    for (std::size_t k = 1; k < values.size(); ++k) {
+      exact = exact && whole(changes[k] * unit);
+      if (std::abs(values[k] - values[k - 1] - changes[k]) > 1.01 / unit + slack) return std::nullopt;
+    }
+    return exact ? std::nullopt : std::optional(digits);
   }
   return std::nullopt;
 }
@@ -87,26 +92,34 @@ std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
   for (std::size_t k = 0; k < n; ++k) v.push_back(run.trace.states[k][b].velocity);
   const Vec2d gain = run.dt * run.scene.gravity;
   for (double Vec2d::*axis : {&Vec2d::x, &Vec2d::y}) {
-    std::vector<double> speeds, places, gains;
+    std::vector<double> speeds, places, gains, moves;
     for (std::size_t k = 0; k < n; ++k) {
       speeds.push_back(v[k].*axis);
-      if (k > 0) places.push_back(run.trace.states[k][b].position.*axis);
-      if (k > 0) gains.push_back(v[k].*axis - v[k - 1].*axis);
+      if (k == 0) continue;
+      places.push_back(run.trace.states[k][b].position.*axis);
+      gains.push_back(v[k].*axis - v[k - 1].*axis);
+      moves.push_back(v[k].*axis * run.dt);
     }
+    const std::vector<double> due(speeds.size(), gain.*axis);
+    const double slack = std::abs(gain.*axis) * run.dt;  // of a method that moves with the old velocity
     if (const auto kept = constant_ratio(gain.*axis == 0 ? speeds : gains))
       return Seen{"damping",
                   fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
                               "here slows the ball, so leave that out.",
                               *kept)};
-    if (const auto digits = decimals(places, n > 1 ? v[1].*axis * run.dt : 0))
+    if (const auto digits = decimals(places, moves, slack))
       return Seen{
           "state_rounded",
           fmt::format("Positions are rounded to {} decimals: keep them as they are from step to step, "
                       "and write all their digits.",
                       *digits)};
-    if (const auto digits = decimals(std::span(speeds).subspan(n > 0 ? 1 : 0), gain.*axis))
-      return Seen{"state_rounded",
-                  fmt::format("Velocities are rounded to {} decimals: keep them as they are.", *digits)};
+    if (n > 1) {
+      const auto later = std::span(speeds).subspan(1);
+      if (const auto digits = decimals(later, due, 0))
+        return Seen{"state_rounded", fmt::format("Velocities are rounded to {} decimals: keep them as they "
+                                                 "are.",
+                                                 *digits)};
+    }
   }
   if (const auto most = largest_speed(v, gain))
     return Seen{
