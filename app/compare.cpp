@@ -167,7 +167,7 @@ void add_compare(CLI::App& app, Action& chosen) {
       ->type_name("NAME");
   options->engines.add_to(*command);
   add_size(*command, options->size);
-  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
+  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("DT");
   command->add_option("--timeout", options->timeout, "s that a run may take (default 300)")->type_name("T");
   command
       ->add_option("--out", options->out,

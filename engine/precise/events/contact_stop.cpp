@@ -264,7 +264,8 @@ double Contacts::guard_value(const Guard& guard, double time, std::span<const do
   const bool by_forces = quantity == Quantity::Force || quantity == Quantity::Cone;
   const ContactForces& forces =
       by_forces ? equations_.contact_forces(time, y) : equations_.last_contact_forces();
-  return contact_value({quantity, guard.patch, guard.point, {}, 0}, forces, first, placed);
+  return contact_value({quantity, static_cast<std::size_t>(guard.patch), guard.point, {}, 0}, forces, first,
+                       placed);
 }
 
 void Contacts::follow(const Contacts& other) {
