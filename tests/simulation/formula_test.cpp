@@ -101,7 +101,7 @@ TEST(Formulas, AgreeWithTheLawsThatTheyWriteDown) {
 // A force that swings quickly shakes a block that lies still between its slips: events are found although the
 // motion alone would allow long steps.
 TEST(Formulas, ShakeABlockLooseAsASinusoidalForceDoes) {
-  Scene by_law{.gravity = {0, -9.81}};
+  Scene by_law{.name = "formulas", .gravity = {0, -9.81}};
   by_law.bodies = {{.name = "floor", .type = BodyType::Static, .shapes = {{.geometry = Box{40, 1}}}},
                    {.name = "block", .position = {0, 1}, .mass = 2, .shapes = {{.geometry = Box{1, 1}}}}};
   by_law.forces = {SinusoidalForce{"block", {11, 0}, {0, -0.5}, 60, 0.3}};
@@ -142,7 +142,7 @@ TEST(Formulas, SpringByTableMovesAsDuffingsEquation) {
 
 /// A rod of length l, as a point mass on a massless link, on a pivot that moves as a cos(w t).
 Scene vibrated_pendulum(double angle, double a, double w) {
-  Scene scene{.gravity = {0, -9.81}};
+  Scene scene{.name = "formulas", .gravity = {0, -9.81}};
   scene.bodies = {
       {.name = "pivot", .type = BodyType::Kinematic},
       {.name = "bob", .position = {std::sin(angle), a - std::cos(angle)}, .mass = 1, .fixed_rotation = true}};
@@ -199,7 +199,7 @@ TEST(Formulas, VibratedPivotHoldsAPendulumUprightAsKapitzaFound) {
 // A table that shakes as a sin(w t) carries a block: it leaves when its acceleration exceeds g.
 TEST(Formulas, ShakenTableLosesItsBlockAtTheAccelerationOfGravity) {
   const auto leaves = [](double w, const Accuracy& accuracy) {
-    Scene scene{.gravity = {0, -9.81}};
+    Scene scene{.name = "formulas", .gravity = {0, -9.81}};
     scene.bodies = {{.name = "table", .type = BodyType::Kinematic, .shapes = {{.geometry = Box{4, 1}}}},
                     {.name = "block", .position = {0, 1}, .mass = 2, .shapes = {{.geometry = Box{1, 1}}}}};
     // From rest, with velocity and acceleration 0.
@@ -225,7 +225,7 @@ TEST(Formulas, ShakenTableLosesItsBlockAtTheAccelerationOfGravity) {
 // A motor that is driven at 2 cos 3t turns its wheel by 2/3 sin 3t, and a motor at 1 + t^2 that is too weak
 // for it turns by T/I t^2/2.
 TEST(Formulas, DrivenMotorsTurnByTheIntegralOfTheirSpeed) {
-  Scene scene{.gravity = {0, -9.81}};
+  Scene scene{.name = "formulas", .gravity = {0, -9.81}};
   scene.bodies = {{.name = "wheel", .mass = 2, .inertia = 0.5}, {.name = "weak", .mass = 2, .inertia = 0.5}};
   scene.joints = {RevoluteJoint{.name = "axle", .body_a = "world", .body_b = "wheel", .motor = Motor{0, 1e4}},
                   RevoluteJoint{.name = "slow", .body_a = "world", .body_b = "weak", .motor = Motor{0, 0.2}}};
