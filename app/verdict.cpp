@@ -84,6 +84,7 @@ std::vector<Result> judge_all(const std::vector<scenarios::Instance>& cases, con
           return harness::to_json(harness::run(scene_case, engine, {}));
         } catch (const reference::ProcessError& error) {
           using Fault = reference::ProcessError::Fault;
+          if (error.fault() == Fault::Killed) throw;
           const harness::Status status = error.fault() == Fault::Timeout    ? harness::Status::Timeout
                                          : error.fault() == Fault::Crash    ? harness::Status::Crashed
                                          : error.fault() == Fault::Diverged ? harness::Status::Diverged

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -19,6 +20,8 @@
 
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
+#include "reference/killed.h"
+#include "reference/process_backend.h"
 
 namespace plumb::harness {
 namespace {
@@ -72,6 +75,14 @@ void limit_memory(std::size_t bytes) {
 #endif
 }
 
+// Ends as the engine's program did, so that the work is done again as after a kill of this process.
+[[noreturn]] void die_with_it(const char* why) {
+  std::fprintf(stderr, "%s\n", why);
+  std::fflush(stderr);
+  raise(SIGKILL);
+  _exit(1);
+}
+
 [[noreturn]] void run_child(const std::function<std::string()>& work, std::size_t memory, const Pipe& answer,
                             const Pipe& output) {
   setpgid(0, 0);
@@ -87,6 +98,9 @@ void limit_memory(std::size_t bytes) {
   // The first character is the outcome: + for a result, - for an error.
   try {
     write_all(answer.write, "+" + work());
+  } catch (const reference::ProcessError& error) {
+    if (error.fault() == reference::ProcessError::Fault::Killed) die_with_it(error.what());
+    write_all(answer.write, fmt::format("-{}", error.what()));
   } catch (const std::exception& error) {
     write_all(answer.write, fmt::format("-{}", error.what()));
   } catch (...) {
@@ -135,6 +149,7 @@ std::string how_it_died(int status, const std::string& printed) {
 /// A forked child at work.
 struct Child {
   std::size_t index = 0;
+  int attempt = 1;
   pid_t process = -1;
   Pipe answer, output;
   std::string text, printed;
@@ -142,6 +157,7 @@ struct Child {
   Clock::time_point began, deadline;
   std::size_t memory = 0;  // bytes, known once it has been waited for
   bool open = true;
+  bool killed = false;  // from outside
 
   Child() = default;
   Child(const Child&) = delete;
@@ -164,15 +180,17 @@ struct Child {
   }
 };
 
-std::unique_ptr<Child> start(std::size_t index, const std::function<std::string()>& work,
-                             const ChildLimits& limits) {
+std::unique_ptr<Child> start(std::size_t index, int attempt,
+                             const std::function<std::string(std::size_t)>& work, const ChildLimits& limits) {
   auto child = std::make_unique<Child>();
   child->index = index;
+  child->attempt = attempt;
   child->limits = limits;
   child->began = Clock::now();
   child->process = fork();
   if (child->process < 0) throw Error(Error::Kind::Io, "a process", "", "", std::strerror(errno));
-  if (child->process == 0) run_child(work, limits.memory, child->answer, child->output);
+  if (child->process == 0)
+    run_child([&] { return work(index); }, limits.memory, child->answer, child->output);
   setpgid(child->process, child->process);
   child->answer.close_write();
   child->output.close_write();
@@ -202,7 +220,12 @@ Outcome how_it_ended(Child& child, int status) {
   if (child.open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", child.limits.seconds)};
   while (child.output.read >= 0 && poll_now(child.output.read) && drain(child.output.read, child.printed)) {
   }
-  if (child.text.empty()) return {Outcome::Kind::Crashed, how_it_died(status, child.printed)};
+  if (child.text.empty()) {
+    child.killed = WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status));
+    std::string text = how_it_died(status, child.printed);
+    if (child.killed) text += fmt::format(", in each of {} attempts", child.attempt);
+    return {Outcome::Kind::Crashed, std::move(text)};
+  }
   const bool failed = child.text.front() == '-';
   return {failed ? Outcome::Kind::Failed : Outcome::Kind::Done, child.text.substr(1)};
 }
@@ -224,8 +247,7 @@ void isolate_all(std::size_t count, int jobs, const std::function<ChildLimits(st
   std::size_t next = 0;
   while (next < count || !running.empty()) {
     while (next < count && running.size() < static_cast<std::size_t>(std::max(1, jobs)) && !interrupted()) {
-      running.push_back(start(
-          next, [&] { return work(next); }, limits(next)));
+      running.push_back(start(next, 1, work, limits(next)));
       ++next;
     }
     if (running.empty()) break;  // interrupted
@@ -238,6 +260,10 @@ void isolate_all(std::size_t count, int jobs, const std::function<ChildLimits(st
       }
       const std::size_t index = child.index;
       const Outcome outcome = end(child);
+      if (child.killed && child.attempt < reference::kAttempts && !interrupted()) {
+        running[i] = start(index, child.attempt + 1, work, limits(index));
+        continue;
+      }
       running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
       done(index, outcome);
     }

@@ -29,8 +29,9 @@ struct ChildLimits {
 };
 
 /// Runs `work` in a forked child, in a process group of its own that is killed at the time limit or at an
-/// interrupt. The child's output is discarded, except for the last lines of a crash. Call without threads
-/// running.
+/// interrupt. A child that is killed by anyone else says nothing about its work, which is done again, up to
+/// reference::kAttempts times; so is work whose engine's program was killed. The child's output is discarded,
+/// except for the last lines of a crash. Call without threads running.
 Outcome isolate(const std::function<std::string()>& work, const ChildLimits& limits);
 
 /// Runs `work(0)` to `work(count - 1)`, at most `jobs` at a time, each as `isolate` does. Calls `done` in

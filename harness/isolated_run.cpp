@@ -20,6 +20,7 @@ Status status_of(reference::ProcessError::Fault fault) {
     case reference::ProcessError::Fault::Timeout:
       return Status::Timeout;
     case reference::ProcessError::Fault::Crash:
+    case reference::ProcessError::Fault::Killed:
       return Status::Crashed;
     case reference::ProcessError::Fault::Diverged:
       return Status::Diverged;
@@ -92,6 +93,7 @@ std::string work(const RunRequest& request) {
                                    nanoseconds / steps, *request.rough));
     }
   } catch (const reference::ProcessError& error) {
+    if (error.fault() == reference::ProcessError::Fault::Killed) throw;
     result = describe(*request.scene_case, *request.backend, request.settings);
     result.status = status_of(error.fault());
     result.reason = error.what();

@@ -28,6 +28,7 @@ class ProcessError : public Error {
     Start,     ///< it cannot be started (kind Io)
     Timeout,   ///< it did not answer in time
     Crash,     ///< it ended by a signal or an exit while an answer was expected
+    Killed,    ///< it ended by a signal from outside, which says nothing about it
     Time,      ///< a sample's time is not the one that is due
     Protocol,  ///< its answer violates docs/protocol.md
     Diverged,  ///< a state that is not finite

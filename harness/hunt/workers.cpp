@@ -15,6 +15,8 @@
 #include <unistd.h>
 
 #include "engine/scene/error.h"
+#include "harness/interrupt.h"
+#include "reference/killed.h"
 
 namespace plumb::harness::hunt {
 namespace {
@@ -87,6 +89,7 @@ struct Workers::Worker {
   int tasks = -1, answers = -1;
   bool at_work = false;
   std::uint64_t task = 0;
+  int attempt = 1;
   Clock::time_point deadline;
   double began = 0;  // s, processor time
   std::string received;
@@ -136,17 +139,19 @@ int Workers::idle() const {
 bool Workers::busy() const { return idle() < static_cast<int>(workers_.size()); }
 
 void Workers::start(std::uint64_t task) {
-  for (auto& worker : workers_) {
-    if (worker->at_work) continue;
-    if (worker->process <= 0) fork_anew(*worker);
-    worker->at_work = true, worker->task = task;
-    worker->began = processor_seconds_of(worker->process);
-    worker->deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                          std::chrono::duration<double>(kPatience * seconds_));
-    // If this fails the worker has died, which `wait` detects.
-    write_all(worker->tasks, reinterpret_cast<const char*>(&task), sizeof task);
-    return;
-  }
+  const auto idle =
+      std::find_if(workers_.begin(), workers_.end(), [](const auto& worker) { return !worker->at_work; });
+  if (idle != workers_.end()) give(**idle, task, 1);
+}
+
+void Workers::give(Worker& worker, std::uint64_t task, int attempt) {
+  if (worker.process <= 0) fork_anew(worker);
+  worker.at_work = true, worker.task = task, worker.attempt = attempt;
+  worker.began = processor_seconds_of(worker.process);
+  worker.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                       std::chrono::duration<double>(kPatience * seconds_));
+  // If this fails the worker has died, which `wait` detects.
+  write_all(worker.tasks, reinterpret_cast<const char*>(&task), sizeof task);
 }
 
 std::vector<Answer> Workers::wait() {
@@ -174,9 +179,15 @@ std::vector<Answer> Workers::wait() {
       int status = 0;
       while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
       }
-      out.push_back({worker.task, Answer::Kind::Died, how_it_died(status)});
+      const Answer answer{worker.task, Answer::Kind::Died, how_it_died(status)};
+      const int attempt = worker.attempt;
+      const bool killed = WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status));
       close(worker.tasks), close(worker.answers);
       worker = {};
+      if (killed && attempt < reference::kAttempts && !interrupted())
+        give(worker, answer.task, attempt + 1);
+      else
+        out.push_back(answer);
     } else if (Clock::now() > worker.deadline ||
                processor_seconds_of(worker.process) - worker.began > seconds_) {
       out.push_back({worker.task, Answer::Kind::Hung, fmt::format("no end within {:g} s", seconds_)});

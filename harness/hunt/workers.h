@@ -17,7 +17,7 @@ struct Answer {
 };
 
 /// Forked processes that execute one task after the other, without forking for each. One that dies or exceeds
-/// its time limit is replaced. Call without threads running.
+/// its time limit is replaced; the task of one that was killed from outside is done again. Call without threads running.
 class Workers {
  public:
   using Work = std::function<std::string(std::uint64_t task)>;
@@ -38,6 +38,7 @@ class Workers {
  private:
   struct Worker;
   void fork_anew(Worker& worker);
+  void give(Worker& worker, std::uint64_t task, int attempt);
   void end(Worker& worker);
 
   double seconds_;

@@ -36,6 +36,7 @@ Verdict verdict_of_fault(ProcessError::Fault fault) {
       return Verdict::NotFinite;
     case ProcessError::Fault::Start:
     case ProcessError::Fault::Crash:
+    case ProcessError::Fault::Killed:
     case ProcessError::Fault::Time:
     case ProcessError::Fault::Protocol:
       break;
@@ -199,6 +200,7 @@ Cell run_cell(const Task& task, const Witness& witness) {
     run(task, witness, cell);
   } catch (const Enough&) {
   } catch (const ProcessError& error) {
+    if (error.fault() == ProcessError::Fault::Killed) throw;
     cell.finding = plain(verdict_of_fault(error.fault()), error.what());
   } catch (const Error& error) {
     cell.finding = plain(Verdict::Refused, error.what());

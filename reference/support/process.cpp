@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "engine/core/text.h"
+#include "reference/killed.h"
 #include "reference/support/supervisor.h"
 
 namespace plumb::reference {
@@ -267,7 +268,8 @@ ProcessError Process::ended() {
   const bool torn = !received_.empty();
   std::string problem = status_when_ended();
   if (torn) problem += ", in the middle of a line";
-  return fail(Fault::Crash, std::move(problem));
+  const bool killed = pid_ <= 0 && WIFSIGNALED(status_) && comes_from_outside(WTERMSIG(status_));
+  return fail(killed ? Fault::Killed : Fault::Crash, std::move(problem));
 }
 
 /// Returns, for an error, how a program ended that closed a pipe. Waits at most `kGrace` for its end.

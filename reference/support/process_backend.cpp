@@ -9,6 +9,7 @@
 
 #include "engine/core/text.h"
 #include "engine/scene/json.h"
+#include "reference/killed.h"
 #include "reference/support/process.h"
 #include "reference/support/protocol.h"
 #include "reference/support/settings.h"
@@ -26,6 +27,18 @@ struct Launch {
   std::vector<std::string> command;
   ProcessLimits limits;
 };
+
+/// Returns what `question` returns, asked again while programs are killed from outside.
+template <class Question>
+auto ask_again(const Question& question) {
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return question();
+    } catch (const ProcessError& error) {
+      if (error.fault() != Fault::Killed || attempt == kAttempts) throw;
+    }
+  }
+}
 
 /// One running program and the conversation with it.
 class Session {
@@ -210,7 +223,7 @@ class ProcessBackend final : public Backend {
     if (!known_) {
       known_.emplace();
       try {
-        session_ = std::make_unique<Session>(launch_);
+        session_ = ask_again([&] { return std::make_unique<Session>(launch_); });
         known_->hello = session_->hello();
       } catch (const Error& error) {
         known_->reason = error.what();
@@ -236,15 +249,17 @@ class ProcessBackend final : public Backend {
     const std::string request = load_request(scene, settings);
     const std::lock_guard lock(mutex_);
     if (request == asked_) return answer_;
-    // A session inherited through a fork belongs to the parent, so start another.
-    if (!session_ || !session_->owned()) session_ = std::make_unique<Session>(launch_);
     asked_.clear();
-    try {
-      answer_ = session_->load(request);
-    } catch (const Error&) {
-      session_.reset();
-      throw;
-    }
+    answer_ = ask_again([&] {
+      // A session inherited through a fork belongs to the parent, so start another.
+      if (!session_ || !session_->owned()) session_ = std::make_unique<Session>(launch_);
+      try {
+        return session_->load(request);
+      } catch (const Error&) {
+        session_.reset();
+        throw;
+      }
+    });
     asked_ = request;
     return answer_;
   }

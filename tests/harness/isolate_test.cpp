@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "harness/isolated_run.h"
+#include "reference/process_backend.h"
 #include "tests/harness/fakes.h"
 
 namespace plumb::harness {
@@ -78,6 +80,62 @@ TEST(Isolate, AHangIsStopped) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
+/// Says, once for each name, that it is asked for the first time: by any process.
+class FirstTime {
+ public:
+  explicit FirstTime(const char* name)
+      : path_(testing::TempDir() + "/first_time_" + name + "_" + std::to_string(getpid())) {
+    std::remove(path_.c_str());
+  }
+  ~FirstTime() { std::remove(path_.c_str()); }
+  bool operator()() const {
+    const int file = open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
+    if (file >= 0) close(file);
+    return file >= 0;
+  }
+
+ private:
+  std::string path_;
+};
+
+TEST(Isolate, WorkThatIsKilledFromOutsideIsDoneAgain) {
+  for (const int signal : {SIGKILL, SIGTERM, SIGINT, SIGHUP}) {
+    const FirstTime first(std::to_string(signal).c_str());
+    const Outcome outcome = isolate(
+        [&]() -> std::string {
+          if (first()) raise(signal);
+          return "whole";
+        },
+        10);
+    EXPECT_EQ(outcome.kind, Outcome::Kind::Done) << signal << ": " << outcome.text;
+    EXPECT_EQ(outcome.text, "whole") << signal;
+  }
+}
+
+TEST(Isolate, FaultsOfTheWorkAreNotTriedAgain) {
+  const FirstTime first("fault");
+  const Outcome outcome = isolate(
+      [&]() -> std::string {
+        if (first()) raise(SIGFPE);
+        return "whole";
+      },
+      10);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Crashed);
+  EXPECT_EQ(outcome.text, "signal 8 (SIGFPE)");
+}
+
+TEST(Isolate, WorkWhoseEngineIsKilledIsDoneAgain) {
+  using reference::ProcessError;
+  const FirstTime first("engine");
+  const Outcome outcome = isolate(
+      [&]() -> std::string {
+        if (first()) throw ProcessError(ProcessError::Fault::Killed, "mine", "run", "it was killed");
+        return "whole";
+      },
+      10);
+  EXPECT_EQ(outcome.text, "whole");
+}
+
 TEST(Isolate, PrintingDoesNotBlockTheChild) {
   const Outcome outcome = isolate(
       [] {
@@ -111,7 +169,7 @@ TEST(IsolatedRun, EveryEndHasAStatus) {
   EXPECT_EQ(failed.result.engine, "fake");
   const IsolatedRun crashed = run_fake([](long, double, std::span<BodyState>) { raise(SIGKILL); });
   EXPECT_EQ(crashed.result.status, Status::Crashed);
-  EXPECT_EQ(crashed.result.reason, "signal 9 (SIGKILL)");
+  EXPECT_EQ(crashed.result.reason, "signal 9 (SIGKILL), in each of 3 attempts");
   const IsolatedRun hung = run_fake([](long, double, std::span<BodyState>) { sleep(100); }, 0.3);
   EXPECT_EQ(hung.result.status, Status::Timeout);
   const IsolatedRun diverged =

@@ -339,6 +339,8 @@ MUTATIONS = [
              "kNothing = 1e-12;", "kNothing = 1.05e-12;", "world", ("linear_algebra/redundancy",)),
 
     # The judges of the engines.
+    Mutation("harness: a killed run counts as a crash of its engine", "reference/killed.h",
+             "return signal == SIGKILL ||", "return signal == SIGUSR2 ||", "harness", ("harness/isolate",)),
     Mutation("harness: engines agree at three times their bounds", "harness/track.cpp",
              "return distance <= tolerance;", "return distance <= 3 * tolerance;", "harness",
              ("harness/judging",)),

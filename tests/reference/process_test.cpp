@@ -132,6 +132,7 @@ TEST_F(ProcessTest, EnginesThatIgnoreSignalsAreEndedAllTheSame) {
 TEST_F(ProcessTest, DeathNamesItsCauseAndTheLastWords) {
   expect_failure(engine("sys.exit(3)"), Fault::Crash, "it ended with exit code 3");
   expect_failure(engine("os.kill(os.getpid(), signal.SIGSEGV)"), Fault::Crash, "killed by signal 11");
+  expect_failure(engine("os.kill(os.getpid(), signal.SIGKILL)"), Fault::Killed, "killed by signal 9");
   expect_failure(engine("say('{\"t\": 0.0')\nsys.exit(0)"), Fault::Crash, "in the middle of a line");
   // Deaf when it answers "load": the next request goes nowhere, and the host survives that.
   expect_failure(
@@ -143,6 +144,20 @@ TEST_F(ProcessTest, DeathNamesItsCauseAndTheLastWords) {
                  Fault::Crash, "RuntimeError: oops");
   expect_failure(engine("print('x' * 1000000, file=sys.stderr)\nprint('last', file=sys.stderr)\nsys.exit(1)"),
                  Fault::Crash, "last");
+}
+
+TEST_F(ProcessTest, EnginesThatAreKilledFromOutsideAreAskedAgain) {
+  for (const std::string request : {"hello()", "load(scene, settings)"}) {
+    const fs::path file = folder_.path() / request.substr(0, 4);
+    const auto backend =
+        script("answer = " + request.substr(0, request.find('(')) + "\ndef " + request +
+               ":\n    if not os.path.exists('" + file.string() + "'):\n        open('" + file.string() +
+               "', 'w').close()\n        os.kill(os.getpid(), signal.SIGKILL)\n" + "    return answer" +
+               request.substr(request.find('(')) + "\n");
+    EXPECT_TRUE(backend->identity().available) << backend->identity().reason;
+    EXPECT_EQ(backend->unsupported(falling({}), {}), "") << request;
+    EXPECT_TRUE(fs::exists(file)) << "it was killed in " << request;
+  }
 }
 
 TEST_F(ProcessTest, Hanging) {
