@@ -17,7 +17,8 @@ struct Answer {
 };
 
 /// Forked processes that execute one task after the other, without forking for each. One that dies or exceeds
-/// its time limit is replaced; the task of one that was killed from outside is done again. Call without threads running.
+/// its time limit is replaced; the task of one that was killed from outside is done again. Call without
+/// threads running.
 class Workers {
  public:
   using Work = std::function<std::string(std::uint64_t task)>;
