@@ -18,6 +18,23 @@ MUTATIONS = [
     Mutation("a force does not end", "engine/forces/laws.cpp",
              "if (start <= t0 && end >= t1) return 1;", "if (start <= t0) return 1;"),
 
+    # Formulas.
+    Mutation("a formula's quotient has its slope by the dividend's value", "engine/math/jet.h",
+             "slope = (a.first - q * b.first) / b.value;", "slope = (a.first - a.value * b.first) / b.value;", "scene",
+             ("scene/formula",)),
+    Mutation("a formula's tangent has the slope of its reciprocal", "engine/scene/formula_functions.h",
+             "slope = 1 + tan * tan;", "slope = 1 / (1 + tan * tan);", "scene", ("scene/formula",)),
+    Mutation("a formula's power binds to the left", "engine/scene/formula_parser.cpp",
+             "if (!take(\"^\")) return;\n    signed_power();", "if (!take(\"^\")) return;\n    value();", "scene",
+             ("scene/formula",)),
+    Mutation("a formula's table is a staircase", "engine/scene/formula.cpp",
+             "from.y + slope * (x - from.x)", "from.y", "scene", ("scene/formula",)),
+    Mutation("a formula's force has an arm that does not turn", "engine/forces/formula_force.h",
+             "cross(pose.rotation * point, force)", "cross(point, force)", "simulation", ("simulation/formula",)),
+    Mutation("a formula's spring does not know its bodies turn", "engine/forces/formula_spring.h",
+             "(twist_b.velocity + cross(twist_b.angular_velocity, arm_b))", "twist_b.velocity", "simulation",
+             ("simulation/formula",)),
+
     # Masses.
     Mutation("inertia of a box by 1/6", "engine/scene/geometry.cpp",
              "box.height * box.height) / 12", "box.height * box.height) / 6"),

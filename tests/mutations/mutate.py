@@ -71,6 +71,7 @@ def mismatches(root, mutations):
 SUITES = {
     "agreement": (["test_agreement"], ["-L", "agreement", "-LE", "slow", "-R", "plumb"]),
     "precise": (["test_precise"], ["-L", "unit", "-R", "^precise/"]),
+    "scene": (["test_scene"], ["-L", "unit", "-R", "^scene/"]),
     "simulation": (["test_simulation"], ["-L", "unit", "-R", "^simulation/"]),
     "world": (["test_collision", "test_joints", "test_linear_algebra", "test_world", "test_world_solver"],
               ["-L", "unit", "-R", "^(collision|joints|linear_algebra|world)/"]),

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/math/arc_tangent.h"
+#include "engine/math/exponential.h"
+#include "engine/math/hyperbolic.h"
+#include "engine/math/jet.h"
+#include "engine/math/trigonometry.h"
+
+/// Functions that a formula may call, of a number or of a jet.
+namespace plumb::formula {
+
+inline double value_of(double a) { return a; }
+inline double value_of(const Jet& a) { return a.value; }
+
+inline double through(double, double f, double, double) { return f; }
+
+// Functions of a number or a jet: the value, and the first two derivatives where they are wanted.
+template <class V>
+V sine(V a) {
+  const Rotation<double> turn = rotation_of(value_of(a));
+  return through(a, turn.s, turn.c, -turn.s);
+}
+template <class V>
+V cosine(V a) {
+  const Rotation<double> turn = rotation_of(value_of(a));
+  return through(a, turn.c, -turn.s, -turn.c);
+}
+template <class V>
+V tangent(V a) {
+  const Rotation<double> turn = rotation_of(value_of(a));
+  const double tan = turn.s / turn.c, slope = 1 + tan * tan;
+  return through(a, tan, slope, 2 * tan * slope);
+}
+template <class V>
+V arc_sine(V a) {
+  const double x = value_of(a), rest = (1 - x) * (1 + x), root = std::sqrt(rest);
+  return through(a, rest < 0 ? root : arc_tangent(x, root), 1 / root, x / (rest * root));
+}
+template <class V>
+V arc_cosine(V a) {
+  const double x = value_of(a), rest = (1 - x) * (1 + x), root = std::sqrt(rest);
+  return through(a, rest < 0 ? root : arc_tangent(root, x), -1 / root, -x / (rest * root));
+}
+template <class V>
+V arc_tangent_of(V a) {
+  const double x = value_of(a), slope = 1 / (1 + x * x);
+  return through(a, arc_tangent(x, 1), slope, -2 * x * slope * slope);
+}
+template <class V>
+V exponential_of(V a) {
+  const double grown = exponential(value_of(a));
+  return through(a, grown, grown, grown);
+}
+template <class V>
+V logarithm_of(V a, double unit) {
+  const double x = value_of(a);
+  return through(a, logarithm(x) / unit, 1 / (unit * x), -1 / (unit * x * x));
+}
+// At 0 the slope is taken as 0, so that sqrt(x^2 + y^2) has a derivative everywhere.
+template <class V>
+V root_of(V a) {
+  const double root = std::sqrt(value_of(a));
+  const double slope = root > 0 ? 0.5 / root : 0;
+  return through(a, root, slope, root > 0 ? -0.5 * slope / (root * root) : 0);
+}
+template <class V>
+V sinh_of(V a) {
+  const double s = hyperbolic_sine(value_of(a)), c = hyperbolic_cosine(value_of(a));
+  return through(a, s, c, s);
+}
+template <class V>
+V cosh_of(V a) {
+  const double s = hyperbolic_sine(value_of(a)), c = hyperbolic_cosine(value_of(a));
+  return through(a, c, s, c);
+}
+template <class V>
+V tanh_of(V a) {
+  const double t = hyperbolic_tangent(value_of(a)), slope = 1 - t * t;
+  return through(a, t, slope, -2 * t * slope);
+}
+
+inline double arc_tangent_of(double y, double x) { return arc_tangent(y, x); }
+// d atan2(y, x) = (x dy - y dx) / r^2.
+inline Jet arc_tangent_of(Jet y, Jet x) {
+  const Jet slope = (x * Jet(y.first, y.second) - y * Jet(x.first, x.second)) / (x * x + y * y);
+  return {arc_tangent(y.value, x.value), slope.value, slope.first};
+}
+
+inline double power_of(double a, double b) { return power(a, b); }
+inline Jet power_of(Jet a, Jet b) {
+  const double value = power(a.value, b.value);
+  if (b.first == 0 && b.second == 0) {
+    const double n = b.value;
+    const double slope = n == 0 ? 0 : n * power(a.value, n - 1);
+    const double curve = n == 0 || n == 1 ? 0 : n * (n - 1) * power(a.value, n - 2);
+    return through(a, value, slope, curve);
+  }
+  Jet grown = exponential_of(b * logarithm_of(a, 1));
+  grown.value = value;
+  return grown;
+}
+
+inline double rest_of(double a, double b) { return a - b * std::floor(a / b); }
+inline Jet rest_of(Jet a, Jet b) { return a - b * Jet(std::floor(a.value / b.value)); }
+
+}  // namespace plumb::formula
