@@ -1,86 +1,10 @@
 #pragma once
 
-#include <memory_resource>
-#include <utility>
 #include <vector>
 
-#include "engine/linear_algebra/bounded_rows.h"
-#include "engine/world/contact_solver/restitution_contacts.h"
+#include "engine/world/contact_solver/impact_scratch.h"
 
 namespace plumb {
-
-/// A point with an impact, in one round.
-template <class Real>
-struct StruckPoint {
-  RestitutionContact<Real>* bounce = nullptr;
-  int point = 0;
-  Real time = 0;     ///< s, since the start of the substep
-  Real wanted = 0;   ///< m/s, target velocity along the normal
-  Real before = 0;   ///< m/s, velocity along the normal before the round
-  Real impulse = 0;  ///< N s
-  int group = 0;     ///< the same for points that share a body, directly or through others
-};
-
-/// Impact times of a contact's points, for the present motion of its bodies; infinity: none.
-template <class Real>
-struct ComingImpact {
-  Real time[2] = {};    ///< s, since the start of the substep
-  Real wanted[2] = {};  ///< m/s, target velocity along the normal
-  Real before[2] = {};  ///< m/s, velocity along the normal
-};
-
-/// A joint that passes impacts on at once.
-struct ImpactJoint {
-  int a = 0, b = 0;             ///< bodies
-  int slot = 0;                 ///< in the joint set
-  int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
-  int next = -1;                ///< joint of the same group, in `ImpactScratch::joints`
-};
-
-/// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is a set of bodies connected by
-/// joints, identified by its lowest body index; a body without joints is a group of its own.
-template <class Real>
-struct ImpactScratch {
-  explicit ImpactScratch(std::pmr::memory_resource* room = std::pmr::get_default_resource()) : system(room) {}
-
-  // Joints, filled by the caller; all empty where there are none.
-  std::vector<int> group;  ///< by body
-  std::vector<ImpactJoint> joints;
-  std::vector<int> first_joint;  ///< by group, in `joints`
-  std::vector<BoundedRow> rows;  ///< between bodies of the world: equalities, or an impulse of at least 0
-
-  // By group; valid for those of the present crowd.
-  std::vector<char> reached;       ///< impacts may propagate to it
-  std::vector<char> struck_now;    ///< it has an impact in this round
-  std::vector<char> marked;        ///< it is in `groups`
-  std::vector<Real> earliest;      ///< s, time of its next impact
-  std::vector<Real> last;          ///< s, time of its last impact
-  std::vector<int> first_contact;  ///< first of the crowd's contacts at it: edge = 2 contact + side
-  std::vector<int> struck_at;      ///< struck point of the present round at it
-  // By contact.
-  std::vector<int> next;      ///< by edge: the next one at the same group
-  std::vector<char> in_list;  ///< it is in a list of the present round
-  std::vector<ComingImpact<Real>> coming;
-  // Lists.
-  std::vector<int> crowd;   ///< contacts to which impacts may propagate, ascending
-  std::vector<int> looked;  ///< contacts to look at
-  std::vector<int> groups;  ///< those whose impacts have changed
-  std::vector<StruckPoint<Real>> struck, grouped;
-  std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
-
-  // The joints and bodies of struck points in a round, and their rows.
-  struct Link {
-    int body = 0;
-    Vec2<Real> velocity{};  ///< m/s, before the round
-    Real spin = 0;          ///< rad/s
-  };
-  std::vector<int> taking_part;  ///< in `joints`
-  std::vector<Link> links;
-  std::vector<int> link_of;  ///< by body
-  std::vector<std::pair<int, int>> blocks;
-  std::vector<int> sizes;
-  BoundedRows system;
-};
 
 /// Finds the contacts that impacts may reach, before `propagate_impacts`. Returns false if there are none. So
 /// far joints are given by `room.group` alone; the caller then fills in the rows of joints whose group is
