@@ -94,23 +94,11 @@ struct Derivative {
     block().position[2][2] = -sine * dot(ends[0].pose.rotation * law.point, law.amplitude);
   }
 
-  // f = T u with u = d/l and T = k (l - l0) + c u.w:
-  // df/dd = k u u^T + T/l (1 - u u^T) + c/l u (w - (u.w) u)^T, df/dw = c u u^T.
   void operator()(const SpringForce& law) const {
-    Coupling c{.arms = {ends[0].pose.rotation * law.anchor_a, ends[1].pose.rotation * law.anchor_b}};
-    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
-    const double length = std::sqrt(length_squared(way));
-    if (length > 0) {
-      const Vec2d u = (1 / length) * way, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
-      const double closing = dot(u, rate);
-      const double tension = law.stiffness * (length - law.rest_length) + law.damping * closing;
-      c.force = tension * u;
-      c.by_way = law.stiffness * outer(u, u) +
-                 (tension / length) * outer(perpendicular(u), perpendicular(u)) +
-                 (law.damping / length) * outer(u, rate - closing * u);
-      c.by_rate = law.damping * outer(u, u);
-    }
-    couple(c);
+    pull_along(law, [&](double length, double closing) {
+      return Tension{law.stiffness * (length - law.rest_length) + law.damping * closing, law.stiffness,
+                     law.damping};
+    });
   }
 
   // f = mu m d / r^(n + 1): df/dd = mu m / r^(n + 1) (1 - (n + 1) u u^T).
@@ -145,22 +133,35 @@ struct Derivative {
     }
   }
 
-  // As a spring, with the derivatives of T by the length and by its rate in place of k and c.
   void operator()(const FormulaSpringLaw& law) const {
+    pull_along(law, [&](double length, double closing) {
+      const Jet by_length[] = {time, {length, 1}, closing}, by_rate[] = {time, length, {closing, 1}};
+      const Jet tension = law.tension.at(std::span<const Jet>(by_length));
+      return Tension{tension.value, tension.first, law.tension.at(std::span<const Jet>(by_rate)).first};
+    });
+  }
+
+  /// A tension, N, and its derivatives by the length, N/m, and by its rate, N s/m.
+  struct Tension {
+    double value, by_length, by_rate;
+  };
+
+  // f = T u with u = d/l, T of l and u.w, k and c its derivatives:
+  // df/dd = k u u^T + T/l (1 - u u^T) + c/l u (w - (u.w) u)^T, df/dw = c u u^T.
+  template <class Law, class TensionAt>
+  void pull_along(const Law& law, const TensionAt& tension_at) const {
     Coupling c{.arms = {ends[0].pose.rotation * law.anchor_a, ends[1].pose.rotation * law.anchor_b}};
     const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
     const double length = std::sqrt(length_squared(way));
     if (length > 0) {
       const Vec2d u = (1 / length) * way, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
       const double closing = dot(u, rate);
-      const Jet by_length[] = {time, {length, 1}, closing}, by_rate[] = {time, length, {closing, 1}};
-      const Jet tension = law.tension.at(std::span<const Jet>(by_length));
-      const double damping = law.tension.at(std::span<const Jet>(by_rate)).first;
+      const Tension tension = tension_at(length, closing);
       c.force = tension.value * u;
-      c.by_way = tension.first * outer(u, u) +
+      c.by_way = tension.by_length * outer(u, u) +
                  (tension.value / length) * outer(perpendicular(u), perpendicular(u)) +
-                 (damping / length) * outer(u, rate - closing * u);
-      c.by_rate = damping * outer(u, u);
+                 (tension.by_rate / length) * outer(u, rate - closing * u);
+      c.by_rate = tension.by_rate * outer(u, u);
     }
     couple(c);
   }

@@ -374,13 +374,18 @@ class Checker {
     check_time(law.start, law.duration);
   }
 
-  void check_force(const SpringForce& law) const {
+  template <class Spring>
+  void check_ends(const Spring& law) const {
     const Body* a = body_called("body_a", law.body_a, true);
     const Body* b = body_called("body_b", law.body_b, true);
     if (a == b)
       fail(Error::Kind::Name, "body_b", law.body_b, "must differ from body_a: a spring pulls two ends");
     vector("anchor_a", law.anchor_a, "m");
     vector("anchor_b", law.anchor_b, "m");
+  }
+
+  void check_force(const SpringForce& law) const {
+    check_ends(law);
     number("rest_length", law.rest_length, Limits::NonNegative, "m");
     number("stiffness", law.stiffness, Limits::NonNegative, "N/m");
     number("damping", law.damping, Limits::NonNegative, "N s/m");
@@ -426,12 +431,7 @@ class Checker {
   }
 
   void check_force(const FormulaSpring& law) const {
-    const Body* a = body_called("body_a", law.body_a, true);
-    const Body* b = body_called("body_b", law.body_b, true);
-    if (a == b)
-      fail(Error::Kind::Name, "body_b", law.body_b, "must differ from body_a: a spring pulls two ends");
-    vector("anchor_a", law.anchor_a, "m");
-    vector("anchor_b", law.anchor_b, "m");
+    check_ends(law);
     formula("tension", law.tension, kSpringVariables);
   }
 

@@ -5,30 +5,13 @@
 #include <vector>
 
 #include "engine/simulation/simulation.h"
+#include "tests/simulation/point_masses.h"
 
 /// Springs, attractions and driven forces in both drivers, against closed forms.
 namespace plumb {
 namespace {
 
-constexpr double kDt = 1.0 / 60;
-
-std::vector<BodyState> run(const Scene& scene, const Accuracy& accuracy, int steps) {
-  Simulation simulation = compile(scene, accuracy);
-  simulation.step(steps);
-  std::vector<BodyState> states(scene.bodies.size());
-  simulation.read(states);
-  return states;
-}
-
 double distance(Vec2d a, Vec2d b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-Body mass_point(const char* name, double mass, Vec2d position, Vec2d velocity = {}) {
-  return {.name = name, .position = position, .velocity = velocity, .mass = mass, .inertia = 1};
-}
-
-Scene weightless(std::vector<Body> bodies, std::vector<ForceLaw> forces) {
-  return {.name = "weightless", .gravity = {0, 0}, .bodies = std::move(bodies), .forces = std::move(forces)};
-}
 
 /// m x'' = -k x - c x': x = e^(-b t) (cos wd t + b/wd sin wd t) from x = 1 at rest, b = c/2m, wd^2 = k/m -
 /// b^2. A rest length of 3 m lies between the spring's ends.

@@ -8,29 +8,12 @@
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
 #include "engine/simulation/simulation.h"
+#include "tests/simulation/point_masses.h"
 
 /// Forces, springs, supports and motors by formulas, in both drivers, against closed forms and against the
 /// same laws written without formulas.
 namespace plumb {
 namespace {
-
-constexpr double kDt = 1.0 / 60;
-
-std::vector<BodyState> run(const Scene& scene, const Accuracy& accuracy, int steps) {
-  Simulation simulation = compile(scene, accuracy);
-  simulation.step(steps);
-  std::vector<BodyState> states(scene.bodies.size());
-  simulation.read(states);
-  return states;
-}
-
-Body mass_point(const char* name, double mass, Vec2d position, Vec2d velocity = {}) {
-  return {.name = name, .position = position, .velocity = velocity, .mass = mass, .inertia = 1};
-}
-
-Scene weightless(std::vector<Body> bodies, std::vector<ForceLaw> forces) {
-  return {.name = "weightless", .gravity = {0, 0}, .bodies = std::move(bodies), .forces = std::move(forces)};
-}
 
 const Precise kPrecise{.tolerance = 1e-11, .max_dt = kDt};
 
