@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/reality/published/domino_row.h"
-
 namespace plumb::harness::reality {
 namespace {
 
@@ -22,17 +20,6 @@ TEST(PublishedLaws, HaveBandsAndSources) {
     EXPECT_LT(law.low, law.high) << law.name;
     EXPECT_FALSE(law.source.empty() || law.quantity.empty()) << law.name;
   }
-}
-
-TEST(PublishedLaws, RowOfDominoesTopplesAsFastAsInVanLeeuwensTable) {
-  // Speeds over sqrt(g h) by a copy of his program, which takes steps of a hundredth of the turn and the last
-  // one beyond it: up to 1/400 of the time. Blocks of 48 mm x 7.5 mm, friction 0.25.
-  const struct {
-    double gap, speed;
-  } rows[] = {{0.100, 1.468}, {0.204, 1.380}, {0.309, 1.321}, {0.406, 1.276}, {0.503, 1.230}, {0.600, 1.180}};
-  for (const auto& row : rows)
-    EXPECT_NEAR(toppling_speed({1, 7.5 / 48, row.gap, 0.25, 1}), row.speed, row.speed / 400);
-  EXPECT_EQ(toppling_speed({1, 7.5 / 48, 0.01, 2, 1}), 0) << "with much friction the wave stops";
 }
 
 TEST(PublishedLaws, ReboundIsTheHighestPointAfterTheImpact) {
