@@ -8,9 +8,10 @@
 
 #include <gtest/gtest.h>
 
-// Van Leeuwen's model of toppling dominoes, formulated anew: every contact's force is an unknown of its own, every
-// block has its own equation of rotation, the row starts as one block and grows by one an impact, and time is
-// the variable of integration. The formula under test has one equation, of the first block, by its angle.
+// Van Leeuwen's model of toppling dominoes, formulated anew: every contact's force is an unknown of its own,
+// every block has its own equation of rotation, the row starts as one block and grows by one an impact, and
+// time is the variable of integration. The formula under test has one equation, of the first block, by its
+// angle.
 namespace plumb::harness::reality {
 namespace {
 
@@ -72,8 +73,7 @@ class Contacts {
   std::vector<double> rates_after(const Blocks& b) const {
     std::vector<double> momenta;
     for (const double rate : b.rates) momenta.push_back(inertia() * rate);
-    return every_second(
-        solved(matrix(b), interleaved(momenta, std::vector<double>(b.angles.size(), 0))));
+    return every_second(solved(matrix(b), interleaved(momenta, std::vector<double>(b.angles.size(), 0))));
   }
 
   /// Returns how deep the foremost block has passed into the next one, which stands upright.

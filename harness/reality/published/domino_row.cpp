@@ -10,8 +10,8 @@ constexpr int kBlocks = 100;
 /// Share of a block's equation in the sum below which it and those behind it are left out.
 constexpr double kLeast = 1e-9;
 constexpr int kSteps = 50;  // of the first block's turn between two impacts, of fourth order
-/// Impacts that it takes at most until the speed is the same to `kSteady`. Each leaves a third to nine tenths of
-/// the difference.
+/// Impacts that it takes at most until the speed is the same to `kSteady`. Each leaves a third to nine tenths
+/// of the difference.
 constexpr int kImpacts = 1000;
 constexpr double kSteady = 1e-13;
 
