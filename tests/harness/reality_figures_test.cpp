@@ -81,7 +81,8 @@ TEST(RealityFigures, EveryFigureOfThePageHasAnInterval) {
   const std::string number = R"([-+0-9.e]+)";
   const std::regex with_interval(number + R"( <span class="unit">\[)" + number + " " + number +
                                  R"(\]</span>)");
-  const std::regex cells(R"re(<td class="(?:number|wide)">(.*?)</td>)re"), label(R"(<br>90 %: |m\^2|1/m)");
+  const std::regex cells(R"re(<td class="(?:number|wide)"[^>]*>(.*?)</td>)re"),
+      label(R"(<br>90 %: |m\^2|1/m)");
   int figures = 0, counts = 0;
   for (std::sregex_iterator at(page.begin(), page.end(), cells), end; at != end; ++at) {
     const std::string cell = (*at)[1];

@@ -50,7 +50,7 @@ std::string published_text(std::span<const PublishedFinding> findings) {
                          f.source);
     last = f.law;
     if (f.why_not.empty()) {
-      out += fmt::format("  {:<18}{:<26}{:<17}{}\n", f.engine,
+      out += fmt::format("  {:<18}{:<26}{:<19}{}\n", f.engine,
                          fmt::format("{:.4g} [{:.4g} {:.4g}]", f.value.value, f.value.low, f.value.high),
                          fmt::format("{:.4g} to {:.4g}", f.least, f.most), f.inside() ? "inside" : "outside");
     } else {
