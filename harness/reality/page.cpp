@@ -31,8 +31,12 @@ std::string fitted_text(std::span<const Parameter> parameters, std::span<const E
 std::string ellipse_row(const EllipseFinding& law, bool best) {
   return fmt::format("<tr><td>{}{}{}</td>", best ? "<b>" : "", escaped(law.name), best ? "</b>" : "") +
          cell(fmt::format("{}", law.parameters.size())) + cell(with_interval(law.validated, 1)) +
-         cell(with_interval(law.median, 1)) + cell(with_interval(law.ninetieth, 1)) +
-         fmt::format("</tr>\n<tr><td class=\"wide\" colspan=\"5\">{}. Fitted: {}</td></tr>\n",
+         cell(with_interval(law.median, 1)) + cell(with_interval(law.ninetieth, 1)) + "</tr>\n";
+}
+
+/// Returns a paragraph, because a table would grow as wide as its longest row.
+std::string fitted_line(const EllipseFinding& law) {
+  return fmt::format("<p class=\"note fitted\"><b>{}</b>: {}. Fitted: {}</p>\n", escaped(law.name),
                      escaped(law.text), fitted_text(law.parameters, law.fitted));
 }
 
@@ -71,7 +75,9 @@ std::string ellipse_table(const EllipseFindings& ellipse) {
       "<th class=\"number\">90th percentile</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < ellipse.laws.size(); ++i)
     out += ellipse_row(ellipse.laws[i], i == ellipse.best || i == ellipse.best_of_all_floors);
-  return out + ellipse_row(ellipse.bound, false) + "</tbody></table></div>\n";
+  out += ellipse_row(ellipse.bound, false) + "</tbody></table></div>\n";
+  for (const EllipseFinding& law : ellipse.laws) out += fitted_line(law);
+  return out + fitted_line(ellipse.bound);
 }
 
 std::string time_heads() {

@@ -81,7 +81,7 @@ TEST(RealityFigures, EveryFigureOfThePageHasAnInterval) {
   const std::string number = R"([-+0-9.e]+)";
   const std::regex with_interval(number + R"( <span class="unit">\[)" + number + " " + number +
                                  R"(\]</span>)");
-  const std::regex cells(R"re(<td class="(?:number|wide)"[^>]*>(.*?)</td>)re"),
+  const std::regex cells(R"re(<(?:td class="(?:number|wide)"|p class="note fitted")>(.*?)</(?:td|p)>)re"),
       label(R"(<br>90 %: |m\^2|1/m)");
   int figures = 0, counts = 0;
   for (std::sregex_iterator at(page.begin(), page.end(), cells), end; at != end; ++at) {
