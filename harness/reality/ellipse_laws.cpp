@@ -18,6 +18,7 @@ const Parameter kRestitution{"restitution", "", 0.55, 0.03, 0, 1};
 const Parameter kLater{"later friction", "", 0.2, 0.03, 0, 1};
 const Parameter kTangential{"tangential restitution", "", 0.1, 0.05, 0, 1};
 const Parameter kExponent{"exponent", "", 0.25, 0.1, 0, 2};
+const Parameter kOblique{"restitution lost by obliquity", "", 0.1, 0.05, -1, 1};
 const Parameter kSlope{"restitution along the floor", "1/m", 0, 0.3, -4, 4};
 
 /// Speed beyond which restitution falls, m/s. It is below all that were measured, so that only the exponent
@@ -83,6 +84,17 @@ EllipseLaw later_falling(const char* name, const char* text, Rule rule) {
           }};
 }
 
+EllipseLaw oblique(const char* name, const char* text, Rule rule) {
+  return {name,
+          text,
+          {kInertia, kFriction, kRestitution, kLater, kOblique},
+          false,
+          [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
+            const double e = v[2] * (1 - v[4] * std::abs(point.slip / point.closing));
+            return rule(point, {std::clamp(e, 0.0, 1.0), v[1], v[3], 0});
+          }};
+}
+
 EllipseLaw along_floor(const char* name, const char* text, Rule rule) {
   return {name,
           text,
@@ -109,6 +121,9 @@ const std::vector<EllipseLaw>& ellipse_laws() {
             precise::stronge_impulse),
       later_falling("stronge-later-falling", "Stronge's, second friction, restitution falls with speed",
                     precise::stronge_impulse),
+      oblique("stronge-later-oblique",
+              "Stronge's, second friction, restitution falls with slip over approach before the impact",
+              precise::stronge_impulse),
       along_floor("stronge-later-floor", "Stronge's, second friction, restitution changes along this floor",
                   precise::stronge_impulse)};
   return laws;

@@ -29,11 +29,15 @@ std::string fitted_text(std::span<const Parameter> parameters, std::span<const E
 }
 
 std::string ellipse_row(const EllipseFinding& law, bool best) {
-  return fmt::format("<tr><td>{}{}{}</td><td class=\"wide\">{}</td>", best ? "<b>" : "", escaped(law.name),
-                     best ? "</b>" : "", escaped(law.text)) +
+  return fmt::format("<tr><td>{}{}{}</td>", best ? "<b>" : "", escaped(law.name), best ? "</b>" : "") +
          cell(fmt::format("{}", law.parameters.size())) + cell(with_interval(law.validated, 1)) +
-         cell(with_interval(law.median, 1)) + cell(with_interval(law.ninetieth, 1)) +
-         fmt::format("<td class=\"wide\">{}</td></tr>\n", fitted_text(law.parameters, law.fitted));
+         cell(with_interval(law.median, 1)) + cell(with_interval(law.ninetieth, 1)) + "</tr>\n";
+}
+
+/// Returns a paragraph, because a table would grow as wide as its longest row.
+std::string fitted_line(const EllipseFinding& law) {
+  return fmt::format("<p class=\"note fitted\"><b>{}</b>: {}. Fitted: {}</p>\n", escaped(law.name),
+                     escaped(law.text), fitted_text(law.parameters, law.fitted));
 }
 
 /// Returns the name of an engine with its rate, and what it could not finish.
@@ -66,12 +70,14 @@ std::string ellipse_engine_table(const EllipseFindings& ellipse) {
 
 std::string ellipse_table(const EllipseFindings& ellipse) {
   std::string out =
-      "<div class=\"scroll\"><table><thead><tr><th>law</th><th></th><th class=\"number\">parameters</th>"
+      "<div class=\"scroll\"><table><thead><tr><th>law</th><th class=\"number\">parameters</th>"
       "<th class=\"number\">cross-validated</th><th class=\"number\">median, held out</th>"
-      "<th class=\"number\">90th percentile</th><th>fitted</th></tr></thead><tbody>\n";
+      "<th class=\"number\">90th percentile</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < ellipse.laws.size(); ++i)
     out += ellipse_row(ellipse.laws[i], i == ellipse.best || i == ellipse.best_of_all_floors);
-  return out + ellipse_row(ellipse.bound, false) + "</tbody></table></div>\n";
+  out += ellipse_row(ellipse.bound, false) + "</tbody></table></div>\n";
+  for (const EllipseFinding& law : ellipse.laws) out += fitted_line(law);
+  return out + fitted_line(ellipse.bound);
 }
 
 std::string time_heads() {

@@ -105,10 +105,11 @@ std::string engine_picture(const Findings& findings) {
   const double height = kTop + static_cast<double>(rows.size()) * (2 * kHigh + kGap) + 40;
   std::string out =
       open(900, static_cast<int>(height), "Numerical error and error of the law, engine by engine");
-  out += label(kLeft, 18,
-               fmt::format("Position {:.0f} ms after the first impact, median: blue, numerical error; "
-                           "orange, error of the law (log scale)",
-                           1e3 * kTimes[kTime]));
+  out +=
+      label(kLeft, 18,
+            fmt::format("Position {:.0f} ms after the first impact, median: blue, numerical error (a line if "
+                        "below 1 um); orange, error of the law",
+                        1e3 * kTimes[kTime]));
   const char* const names[] = {"1 um", "10 um", "0.1 mm", "1 mm", "1 cm", "10 cm"};
   for (int i = 0; i <= 5; ++i) {
     const double x = kLeft + kWide * i / 5;

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/error.h"
-#include "engine/simulation/simulation.h"
+#include "tests/harness/made_up_measurements.h"
 
 namespace plumb::harness::reality {
 namespace {
@@ -63,34 +63,6 @@ TEST(RealityFit, StaysWithinTheBounds) {
   EXPECT_EQ(fit.values[0], 1);
 }
 
-/// Impacts that obey a law with these values, with noise of a hundredth on what is measured.
-std::vector<MeasuredImpact> made_up(const EllipseLaw& law, const std::vector<double>& values) {
-  std::mt19937 random(2);
-  const auto draw = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  std::vector<MeasuredImpact> out;
-  for (int i = 0; i < 400; ++i) {
-    MeasuredImpact one{.velocity = {draw(0, 1), draw(-3, -2)},
-                       .angular_velocity = draw(-5, 5),
-                       .lever_normal = draw(-0.01, 0.01),
-                       .lever_tangent = draw(0.025, 0.035),
-                       .place = draw(0.3, 0.45),
-                       .doubted = i % 10 == 0};
-    const double n = one.lever_normal, t = one.lever_tangent, k = values[0];
-    const precise::ImpactPoint point{one.velocity.y + n * one.angular_velocity,
-                                     one.velocity.x + t * one.angular_velocity, 1 + n * n / k, n * t / k,
-                                     1 + t * t / k};
-    const precise::ContactImpulse impulse = law.impulse(point, one, values);
-    one.velocity_after = one.velocity + Vec2d{impulse.tangential, impulse.normal};
-    one.angular_velocity_after = one.angular_velocity + (n * impulse.normal + t * impulse.tangential) / k;
-    one.velocity_after += Vec2d{draw(-0.01, 0.01), draw(-0.01, 0.01)};
-    if (one.doubted) one.velocity_after = {100, 100};
-    out.push_back(one);
-  }
-  return out;
-}
-
 TEST(RealityEllipse, FindsTheLawAndTheValuesThatTheImpactsWereMadeWith) {
   const std::vector<EllipseLaw>& laws = ellipse_laws();
   const auto made_with =
@@ -129,34 +101,12 @@ TEST(RealityDrops, StartIsTheParabolaBeforeTheFirstImpact) {
   EXPECT_EQ(starts[0].frames.size(), 60u - 11u);
 }
 
-/// Drops that Precise moves under the first law, 250 frames a second.
-std::vector<MeasuredDrop> made_up_drops(const std::vector<double>& values) {
-  std::vector<MeasuredDrop> out;
-  std::mt19937 random(3);
-  const auto draw = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  for (int i = 0; i < 40; ++i) {
-    DropStart start{i, {{0, 0.12}, draw(0, 1.5), {draw(-1, 0), draw(-2, -1)}, draw(-3, 3)}, {}};
-    const Scene scene = scene_of(start, drop_laws().front(), values);
-    Simulation simulation = compile(scene, plumb::Precise{.tolerance = 1e-7, .max_dt = 1 / kFramesPerSecond});
-    MeasuredDrop drop{i, {}};
-    for (int frame = 0; frame < 120; ++frame) {
-      const BodyState state = simulation.state(1);
-      drop.frames.push_back({state.position, state.angle - values[2]});
-      simulation.step();
-    }
-    out.push_back(drop);
-  }
-  return out;
-}
-
 TEST(RealityDrops, NumericalErrorIsToldFromTheLawsError) {
   // Under the law that is fitted, no error of the law is left, and Precise has no numerical one.
   const std::vector<double> values{0.0302, 0, 0.01, 5.8e-4, 0.15, 0.45};
   const std::vector<const reference::Backend*> engines{&reference::find_backend("plumb-precise"),
                                                        &reference::find_backend("bullet")};
-  const DropFindings findings = examine_drops(made_up_drops(values), engines, 1);
+  const DropFindings findings = examine_drops(made_up_drops(drop_laws().front(), values), engines, 1);
   EXPECT_EQ(findings.drops, 40);
   ASSERT_GE(findings.engines.size(), 2u);
   EXPECT_LT(findings.laws[0].model.position[0].value, 1e-3);
@@ -212,6 +162,10 @@ TEST(RealityMeasured, BestLawPredictsTheEllipseTo13Percent) {
   EXPECT_EQ(findings.impacts, 2000);
   EXPECT_EQ(findings.doubted, 282);
   EXPECT_LT(findings.laws[findings.best].median.high, 0.13);
+  EXPECT_EQ(findings.laws[findings.best].parameters.size(), 5u);
+  EXPECT_LT(findings.laws[findings.best_of_all_floors].median.value, 0.13)
+      << "without a parameter of the place";
+  EXPECT_EQ(findings.laws[findings.best_of_all_floors].parameters.size(), 5u);
   EXPECT_NEAR(findings.laws[0].median.value, 0.163, 0.01) << "Newton";
   EXPECT_NEAR(findings.laws[1].median.value, 0.145, 0.01) << "Poisson";
   EXPECT_NEAR(findings.bound.median.value, 0.035, 0.004);

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "harness/reality/sample.h"
 #include "reference/backend.h"
 
-/// Laws of real matter that were published, as scenes: an engine's figure beside the published band.
+/// Laws of real matter that were published, as scenes: an engine's figure beside the published band. A single
+/// run of a collapse is no figure: starts that differ by less than anyone could measure end far apart. Each
+/// law is run from several starts, and its figure is their median.
 namespace plumb::harness::reality {
 
 /// States of all bodies at one time.
@@ -19,11 +23,18 @@ struct PublishedLaw {
   std::string quantity;  ///< measured, with its unit
   std::string source;    ///< of the band
   double low = 0, high = 0;
-  Scene scene;
+  std::vector<Scene> starts;            ///< the first as described, in the others places differ slightly
   double duration = 1, dt = 1.0 / 120;  ///< s
   /// Returns the quantity from the samples, one a step from the start on.
   std::function<double(std::span<const Sample>)> measure;
 };
+
+/// Number of starts of a law: the interval of a median needs 20 to be narrower than the range of the runs.
+inline constexpr std::size_t kStarts = 20;
+
+/// Returns `kStarts` scenes of `scene_with(shift)`, where `shift()` is 0 for the first, and for the others a
+/// random number between -1 and 1 at each call.
+std::vector<Scene> starts_of(const std::function<Scene(const std::function<double()>& shift)>& scene_with);
 
 // A file each.
 std::vector<PublishedLaw> bouncing_ball();
@@ -39,12 +50,15 @@ std::vector<PublishedLaw> published_laws();
 
 struct PublishedFinding {
   std::string law, quantity, source, engine;
-  double low = 0, high = 0, value = 0;
-  std::string why_not{};  ///< reason if the engine was not run, or did not finish
-  bool inside() const { return why_not.empty() && value >= low && value <= high; }
+  double low = 0, high = 0;    ///< the published band
+  Estimate value{};            ///< median of the starts, with the interval of bootstrap samples of them
+  double least = 0, most = 0;  ///< of the starts
+  std::size_t starts = 0;      ///< that were run
+  std::string why_not{};       ///< reason if the engine was not run, or did not finish a start
+  bool inside() const { return why_not.empty() && value.value >= low && value.value <= high; }
 };
 
-/// Runs every law on every engine.
+/// Runs every law on every engine, each start in a process of its own, two at a time.
 std::vector<PublishedFinding> examine_published(std::span<const PublishedLaw> laws,
                                                 std::span<const reference::Backend* const> engines);
 

@@ -7,12 +7,16 @@
 namespace plumb::harness::reality {
 
 std::string published_csv(std::span<const PublishedFinding> findings) {
-  std::string out = "law,quantity,source,engine,low,high,value,inside,skipped\n";
+  std::string out =
+      "law,quantity,source,engine,low,high,starts,value,value_low,value_high,least,most,inside,skipped\n";
   for (const PublishedFinding& f : findings) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(f.law), csv_field(f.quantity),
-                       csv_field(f.source), csv_field(f.engine), f.low, f.high,
-                       f.why_not.empty() ? fmt::format("{}", f.value) : "", f.inside() ? "true" : "false",
-                       csv_field(f.why_not));
+    const bool run = f.why_not.empty();
+    out += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{}\n", csv_field(f.law), csv_field(f.quantity), csv_field(f.source),
+        csv_field(f.engine), f.low, f.high, f.starts,
+        run ? fmt::format("{},{},{},{},{}", f.value.value, f.value.low, f.value.high, f.least, f.most)
+            : ",,,,",
+        f.inside() ? "true" : "false", csv_field(f.why_not));
   }
   return out;
 }
@@ -23,7 +27,12 @@ std::string published_json(std::span<const PublishedFinding> findings) {
     nlohmann::ordered_json row{{"law", f.law},       {"quantity", f.quantity}, {"source", f.source},
                                {"engine", f.engine}, {"low", f.low},           {"high", f.high}};
     if (f.why_not.empty()) {
-      row["value"] = f.value;
+      row["value"] = f.value.value;
+      row["value_low"] = f.value.low;
+      row["value_high"] = f.value.high;
+      row["starts"] = f.starts;
+      row["least"] = f.least;
+      row["most"] = f.most;
       row["inside"] = f.inside();
     } else {
       row["skipped"] = f.why_not;
@@ -41,12 +50,17 @@ std::string published_text(std::span<const PublishedFinding> findings) {
                          f.source);
     last = f.law;
     if (f.why_not.empty()) {
-      out += fmt::format("  {:<20}{:>9.4g}  {}\n", f.engine, f.value, f.inside() ? "inside" : "outside");
+      out += fmt::format("  {:<18}{:<26}{:<19}{}\n", f.engine,
+                         fmt::format("{:.4g} [{:.4g} {:.4g}]", f.value.value, f.value.low, f.value.high),
+                         fmt::format("{:.4g} to {:.4g}", f.least, f.most), f.inside() ? "inside" : "outside");
     } else {
-      out += fmt::format("  {:<20}{}\n", f.engine, f.why_not);
+      out += fmt::format("  {:<18}{}\n", f.engine, f.why_not);
     }
   }
-  return out;
+  return out +
+         fmt::format(
+             "median of {} starts that differ by a thousandth [95 % of bootstrap samples], and all of them\n",
+             kStarts);
 }
 
 }  // namespace plumb::harness::reality
