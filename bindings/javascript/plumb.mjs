@@ -1,7 +1,7 @@
 // plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
-import {PlumbError, bodyOf, filterOf, flag, geometryOf, jointOf, kNames, materialOf, named, pair, queryOf, shapeOf,
-  thresholdsOf} from "./plumb.definitions.mjs";
+import {PlumbError, bodyOf, filterOf, flag, geometryOf, jointOf, kNames, knownMass, knownMaterial, knownMover, listed,
+  materialOf, named, own, pair, queryOf, shapeOf, thresholdsOf, worldOf} from "./plumb.definitions.mjs";
 import packed from "./plumb.wasm.mjs";
 
 export {PlumbError};
@@ -159,7 +159,10 @@ export class Body extends Handle {
   get shapes() { return handles(Shape, this.world, result(this._call("body_shapes"))); }
 
   setPose(position, angle) { this._call("body_set_pose", ...pair(position), angle); }
-  setMass({mass, inertia, centre = {x: 0, y: 0}}) { this._call("body_set_mass", mass, ...pair(centre), inertia); }
+  setMass(given) {
+    const {mass, inertia, centre = {x: 0, y: 0}} = knownMass(given);
+    this._call("body_set_mass", mass, ...pair(centre, "centre"), inertia);
+  }
   useDensities() { this._call("body_use_densities"); }
   setLocks({x = false, y = false, rotation = false}) { this._call("body_set_locks", flag(x), flag(y), flag(rotation)); }
   moveTowards(position, angle, dt) { this._call("body_move_towards", ...pair(position), angle, dt); }
@@ -178,8 +181,8 @@ export class Body extends Handle {
     return new Shape(this.world, made[0], made[1]);
   }
   createChain({points, closed = false, filter, ...material}) {
-    const input = [flag(closed), ...materialOf(material), ...filterOf(filter), points.length,
-      ...points.flatMap((p) => pair(p, "points"))];
+    const input = [flag(closed), ...materialOf(knownMaterial(material)), ...filterOf(filter),
+      listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
     const made = result(call("chain_create", [this.world._address, this.index, this.generation], input));
     return new Chain(this.world, made[0], made[1]);
   }
@@ -214,7 +217,7 @@ export class Shape extends Handle {
     return {friction, restitution, rollingResistance, surfaceSpeed};
   }
   set material(m) {
-    const input = materialOf({...this.material, ...m});
+    const input = materialOf({...this.material, ...knownMaterial(m)});
     call("shape_set_material", [this.world._address, this.index, this.generation], input);
   }
   set filter(f) { call("shape_set_filter", [this.world._address, this.index, this.generation], filterOf(f)); }
@@ -245,14 +248,8 @@ const collected = new FinalizationRegistry((address) => {
 });
 
 export class World {
-  constructor({precision = "float", gravity = {x: 0, y: -9.81}, combineFriction = "geometric_mean",
-    combineRestitution = "maximum", sleeping = true, continuous = true, solver = "soft_steps",
-    integrator = "velocity_verlet", iterations = 10, directIslands = true, quarantine = true,
-    thresholds = {}} = {}) {
-    this._address = call("world_create", [], [named("precision", precision), ...pair(gravity, "gravity"),
-      named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
-      flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
-      flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)]);
+  constructor(definition = {}) {
+    this._address = call("world_create", [], worldOf(definition));
     collected.register(this, this._address, this);
   }
   /// Frees the world's memory now; without it that happens when the object is collected.
@@ -305,6 +302,7 @@ export class World {
     return new Body(this, made[0], made[1]);
   }
   createJoint(a, b, kind, definition = {}) {
+    own(this, a, "a"), own(this, b, "b");
     const made = result(call("joint_create", [this._address, a.index, a.generation, b.index, b.generation],
       jointOf(kind, definition)));
     return new Joint(this, made[0], made[1]);
@@ -373,28 +371,29 @@ export class World {
 
   rayCast(origin, translation, filter) {
     return this.#hit(call("ray_cast", [this._address],
-      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(filter)]), "fraction");
+      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(this, filter)]), "fraction");
   }
   castShape(shape, position, angle, translation, filter) {
     const input = [...geometryOf(shape), ...pair(position), angle, ...pair(translation, "translation"),
-      ...queryOf(filter)];
+      ...queryOf(this, filter)];
     return this.#hit(call("cast_shape", [this._address], input), "fraction");
   }
   overlapShape(shape, position, angle = 0, filter = {}) {
-    const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(filter)];
+    const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(this, filter)];
     return handles(Shape, this, result(call("overlap_shape", [this._address], input)));
   }
   shapesAt(at, filter) {
-    return handles(Shape, this, result(call("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(filter)])));
+    return handles(Shape, this, result(call("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(this, filter)])));
   }
   nearest(at, maxDistance, filter) {
-    return this.#hit(call("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(filter)]), "distance");
+    return this.#hit(call("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(this, filter)]), "distance");
   }
-  move(capsule, position, velocity, dt, {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0,
-    pushForce = 1e12, push = true, filter} = {}) {
+  move(capsule, position, velocity, dt, options = {}) {
+    const {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0, pushForce = 1e12, push = true,
+      filter} = knownMover(options);
     const n = result(call("move", [this._address, flag(push)], [...geometryOf({capsule}), ...pair(position),
       ...pair(velocity, "velocity"), dt, ...pair(up, "up"), maxSlope, stepHeight, skin, mass, pushForce,
-      ...queryOf(filter)]));
+      ...queryOf(this, filter)]));
     return {position: point(n), velocity: point(n, 2), onGround: n[4] !== 0, squeezed: n[5] !== 0,
       groundNormal: point(n, 6), ground: new Body(this, n[8], n[9]), groundVelocity: point(n, 10)};
   }
