@@ -68,12 +68,13 @@ std::optional<double> read_decimal(std::string_view decimal) {
   const auto result = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
   if (result.ec != std::errc{}) return std::nullopt;
 #else
-  // Reads by a stream where a library, like LLVM's before 20, writes floating-point numbers but reads none. A stream
-  // reports subnormal numbers as out of range too, so that its value tells.
+  // Reads by a stream where a library, like LLVM's before 20, writes floating-point numbers but reads none. A
+  // stream reports subnormal numbers as out of range too, so that its value tells.
   std::istringstream stream{std::string(decimal)};
   stream.imbue(std::locale::classic());
   stream >> value;
-  const bool zero = decimal.substr(0, decimal.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
+  const bool zero =
+      decimal.substr(0, decimal.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
   if (!std::isfinite(value) || (value == 0 && !zero)) return std::nullopt;
 #endif
   return value;
