@@ -6,8 +6,8 @@
 #include <system_error>
 
 #ifndef __cpp_lib_to_chars
-#include <locale>
-#include <sstream>
+#include <clocale>
+#include <cstdlib>
 #endif
 
 namespace plumb {
@@ -68,11 +68,13 @@ std::optional<double> read_decimal(std::string_view decimal) {
   const auto result = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
   if (result.ec != std::errc{}) return std::nullopt;
 #else
-  // Reads by a stream where a library, like LLVM's before 20, writes floating-point numbers but reads none. A
-  // stream reports subnormal numbers as out of range too, so that its value tells.
-  std::istringstream stream{std::string(decimal)};
-  stream.imbue(std::locale::classic());
-  stream >> value;
+  // Reads by strtod where a library, like LLVM's before 20, writes floating-point numbers but reads none:
+  // with the locale's decimal point. Subnormal numbers set its errno as well as those out of range, so that
+  // the value tells.
+  std::string text(decimal);
+  const std::size_t point = text.find('.');
+  if (point != std::string::npos) text.replace(point, 1, std::localeconv()->decimal_point);
+  value = std::strtod(text.c_str(), nullptr);
   const bool zero =
       decimal.substr(0, decimal.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
   if (!std::isfinite(value) || (value == 0 && !zero)) return std::nullopt;
