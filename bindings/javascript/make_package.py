@@ -13,7 +13,7 @@ import sys
 def main():
     sources, program, to = map(pathlib.Path, sys.argv[1:4])
     to.mkdir(parents=True, exist_ok=True)
-    for name in ("plumb.mjs", "plumb.d.ts", "README.md"):
+    for name in ("plumb.mjs", "plumb.definitions.mjs", "plumb.d.ts", "README.md"):
         shutil.copy(sources / name, to / name)
     (to / "package.json").write_text((sources / "package.json.in").read_text().replace("@VERSION@", sys.argv[4]))
     packed = base64.b64encode(gzip.compress(program.read_bytes(), 9, mtime=0)).decode()

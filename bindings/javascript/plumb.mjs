@@ -1,41 +1,10 @@
 // plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
+import {PlumbError, bodyOf, filterOf, flag, geometryOf, jointOf, kNames, knownMass, knownMaterial, knownMover, listed,
+  materialOf, named, own, pair, queryOf, shapeOf, thresholdsOf, worldOf} from "./plumb.definitions.mjs";
 import packed from "./plumb.wasm.mjs";
 
-const kNames = {
-  precision: ["float", "double"],
-  type: ["static", "kinematic", "dynamic"],
-  combine: ["geometric_mean", "product", "maximum", "minimum", "average"],
-  solver: ["soft_steps", "sequential_impulses", "jakobsen", "xpbd", "direct"],
-  integrator: ["velocity_verlet", "semi_implicit_euler", "explicit_euler"],
-  joint: ["distance", "revolute", "prismatic", "weld", "wheel", "motor", "mouse", "gear", "pulley", "ratchet",
-    "friction"],
-  shape: ["circle", "box", "capsule", "polygon", "segment"],
-};
-const kKinds = ["SyntaxError", "InvalidValue", "UnknownName", "Unsupported", "RunError", "FileError"];
-const kBodyFields = new Set(["type", "position", "angle", "velocity", "angularVelocity", "mass", "gravityScale",
-  "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "continuous", "userData",
-  "name", "shapes"]);
-
-/// Reports a refusal by plumb: `kind`, and the parts of the sentence in `message`.
-export class PlumbError extends Error {
-  constructor(kind, message, subject = "", field = "", value = "") {
-    super(message);
-    Object.assign(this, {name: "PlumbError", kind, subject, field, value});
-  }
-}
-
-function refuse(field, value, problem, kind = "InvalidValue") {
-  throw new PlumbError(kind, `${field} is ${value}: ${problem}`, "", field, String(value));
-}
-function named(kind, name, field = kind) {
-  const place = kNames[kind].indexOf(name);
-  return place >= 0 ? place : refuse(field, name, `must be one of ${kNames[kind].join(", ")}`, "UnknownName");
-}
-function known(fields, object, subject) {
-  for (const field of Object.keys(object))
-    if (!fields.has(field)) refuse(field, object[field], `is not a field of ${subject}`, "UnknownName");
-}
+export {PlumbError};
 
 // ---- The program ----------------------------------------------------------------------------------------------------
 
@@ -44,6 +13,7 @@ async function unpack() {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
+const kKinds = ["SyntaxError", "InvalidValue", "UnknownName", "Unsupported", "RunError", "FileError"];
 const kNoSystem = 52;  // WASI's ENOSYS: there are no files and no processes
 const hooks = new Map(), filters = new Map();  // of worlds, by their address
 
@@ -112,60 +82,6 @@ function point(numbers, at = 0) {
 }
 function box(numbers) {
   return {lower: point(numbers), upper: point(numbers, 2)};
-}
-
-// ---- Definitions, as numbers in the order in which buffer.cpp reads them -------------------------------------------
-
-const flag = (value) => (value ? 1 : 0);
-function wide(value = 0) {
-  const bits = BigInt.asUintN(64, BigInt(value));
-  return [Number(bits & 0xFFFFFFFFn), Number(bits >> 32n)];
-}
-function pair(p, field = "position") {
-  if (typeof p?.x !== "number" || typeof p?.y !== "number") refuse(field, JSON.stringify(p), "must be {x, y}");
-  return [p.x, p.y];
-}
-function geometryOf(shape) {
-  const given = kNames.shape.filter((kind) => shape[kind] !== undefined);
-  if (given.length !== 1) refuse("shape", given.join(" and ") || "empty", `must have one of ${kNames.shape.join(", ")}`);
-  const kind = given[0], g = shape[kind], zero = {x: 0, y: 0};
-  const points = g.points ?? [];
-  return [named("shape", kind), g.radius ?? 0, g.width ?? 0, g.height ?? 0, ...pair(g.start ?? zero, "start"),
-    ...pair(g.end ?? zero, "end"), points.length, ...points.flatMap((p) => pair(p, "points"))];
-}
-function materialOf(m) {
-  return [m.friction ?? 0.6, m.restitution ?? 0, m.rollingResistance ?? 0, m.surfaceSpeed ?? 0];
-}
-function filterOf(f = {}) {
-  return [...wide(f.category ?? 1), ...wide(f.mask ?? -1), f.group ?? 0];
-}
-const thresholdsOf = ({hit = -1, bounce = -1, sleep = -1}) => [hit, bounce, sleep];
-const kShapeFields = new Set([...kNames.shape, "position", "angle", "density", "friction", "restitution",
-  "rollingResistance", "surfaceSpeed", "filter", "sensor", "hitEvents", "preSolve", "userData"]);
-function shapeOf(s) {
-  known(kShapeFields, s, "a shape");
-  return [...geometryOf(s), ...pair(s.position ?? {x: 0, y: 0}), s.angle ?? 0, s.density ?? 1, ...materialOf(s),
-    ...filterOf(s.filter), flag(s.sensor), flag(s.hitEvents), flag(s.preSolve), ...wide(s.userData)];
-}
-function queryOf(q = {}) {
-  return [...wide(q.category ?? -1), ...wide(q.mask ?? -1), flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
-    q.ignore?.generation ?? 0];
-}
-const spring = (s) => [flag(s), s?.hertz ?? 0, s?.dampingRatio ?? 1];
-function jointOf(kind, d) {
-  const zero = {x: 0, y: 0};
-  const axis = d.axis ?? (kind === "wheel" ? {x: 0, y: 1} : {x: 1, y: 0});
-  const drive = kind === "motor" ? {hertz: 2, dampingRatio: 1} : kind === "mouse" ? {hertz: 5, dampingRatio: 0.7} : null;
-  const ratio = d.ratio ?? (kind === "gear" ? -1 : 1);
-  return [named("joint", kind), flag(d.collide), d.breakForce ?? 0, d.breakTorque ?? 0, ...wide(d.userData),
-    d.reportForce ?? 0, d.reportTorque ?? 0,
-    ...pair(d.anchorA ?? zero, "anchorA"), ...pair(d.anchorB ?? zero, "anchorB"), ...pair(axis, "axis"),
-    d.referenceAngle ?? 0, ...spring(d.spring ?? drive), ...spring(d.linearSpring), ...spring(d.angularSpring),
-    flag(d.limits), d.limits?.lower ?? -Infinity, d.limits?.upper ?? Infinity,
-    flag(d.motor), d.motor?.speed ?? 0, d.motor?.maxForce ?? 0,
-    d.length ?? (kind === "pulley" ? -1 : 1), d.targetAngle ?? 0, d.targetTranslation ?? 0,
-    ...pair(d.targetPosition ?? zero, "targetPosition"), d.maxForce ?? 0, d.maxTorque ?? 0, ratio, d.phase ?? 0,
-    d.tooth ?? 0.1, ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
 }
 
 const kContact = 17;  // numbers of a contact
@@ -243,7 +159,10 @@ export class Body extends Handle {
   get shapes() { return handles(Shape, this.world, result(this._call("body_shapes"))); }
 
   setPose(position, angle) { this._call("body_set_pose", ...pair(position), angle); }
-  setMass({mass, inertia, centre = {x: 0, y: 0}}) { this._call("body_set_mass", mass, ...pair(centre), inertia); }
+  setMass(given) {
+    const {mass, inertia, centre = {x: 0, y: 0}} = knownMass(given);
+    this._call("body_set_mass", mass, ...pair(centre, "centre"), inertia);
+  }
   useDensities() { this._call("body_use_densities"); }
   setLocks({x = false, y = false, rotation = false}) { this._call("body_set_locks", flag(x), flag(y), flag(rotation)); }
   moveTowards(position, angle, dt) { this._call("body_move_towards", ...pair(position), angle, dt); }
@@ -262,8 +181,8 @@ export class Body extends Handle {
     return new Shape(this.world, made[0], made[1]);
   }
   createChain({points, closed = false, filter, ...material}) {
-    const input = [flag(closed), ...materialOf(material), ...filterOf(filter), points.length,
-      ...points.flatMap((p) => pair(p, "points"))];
+    const input = [flag(closed), ...materialOf(knownMaterial(material)), ...filterOf(filter),
+      listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
     const made = result(call("chain_create", [this.world._address, this.index, this.generation], input));
     return new Chain(this.world, made[0], made[1]);
   }
@@ -298,7 +217,7 @@ export class Shape extends Handle {
     return {friction, restitution, rollingResistance, surfaceSpeed};
   }
   set material(m) {
-    const input = materialOf({...this.material, ...m});
+    const input = materialOf({...this.material, ...knownMaterial(m)});
     call("shape_set_material", [this.world._address, this.index, this.generation], input);
   }
   set filter(f) { call("shape_set_filter", [this.world._address, this.index, this.generation], filterOf(f)); }
@@ -329,14 +248,8 @@ const collected = new FinalizationRegistry((address) => {
 });
 
 export class World {
-  constructor({precision = "float", gravity = {x: 0, y: -9.81}, combineFriction = "geometric_mean",
-    combineRestitution = "maximum", sleeping = true, continuous = true, solver = "soft_steps",
-    integrator = "velocity_verlet", iterations = 10, directIslands = true, quarantine = true,
-    thresholds = {}} = {}) {
-    this._address = call("world_create", [], [named("precision", precision), ...pair(gravity, "gravity"),
-      named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
-      flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
-      flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)]);
+  constructor(definition = {}) {
+    this._address = call("world_create", [], worldOf(definition));
     collected.register(this, this._address, this);
   }
   /// Frees the world's memory now; without it that happens when the object is collected.
@@ -382,22 +295,14 @@ export class World {
   }
 
   createBody(definition = {}) {
-    const d = definition, zero = {x: 0, y: 0};
-    known(kBodyFields, d, "a body");
-    const name = encoder.encode(d.name ?? "");
-    const place = calls.bytes(name.length);
+    const name = encoder.encode(definition.name ?? "");
+    const input = bodyOf(definition), place = calls.bytes(name.length);
     new Uint8Array(calls.memory.buffer, place, name.length).set(name);
-    const shapes = (d.shapes ?? []).map(shapeOf);
-    const made = result(call("body_create", [this._address], [named("type", d.type ?? "dynamic"),
-      ...pair(d.position ?? zero), d.angle ?? 0, ...pair(d.velocity ?? zero, "velocity"), d.angularVelocity ?? 0,
-      flag(d.mass), d.mass?.mass ?? 1, ...pair(d.mass?.centre ?? zero, "centre"), d.mass?.inertia ?? 1,
-      d.gravityScale ?? 1, d.linearDamping ?? 0, d.angularDamping ?? 0, flag(d.lockX), flag(d.lockY),
-      flag(d.lockRotation), flag(d.maySleep ?? true), flag(d.awake ?? true),
-      flag(d.continuous ?? true), ...wide(d.userData), shapes.length,
-      ...shapes.flat()]));
+    const made = result(call("body_create", [this._address], input));
     return new Body(this, made[0], made[1]);
   }
   createJoint(a, b, kind, definition = {}) {
+    own(this, a, "a"), own(this, b, "b");
     const made = result(call("joint_create", [this._address, a.index, a.generation, b.index, b.generation],
       jointOf(kind, definition)));
     return new Joint(this, made[0], made[1]);
@@ -466,28 +371,29 @@ export class World {
 
   rayCast(origin, translation, filter) {
     return this.#hit(call("ray_cast", [this._address],
-      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(filter)]), "fraction");
+      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(this, filter)]), "fraction");
   }
   castShape(shape, position, angle, translation, filter) {
     const input = [...geometryOf(shape), ...pair(position), angle, ...pair(translation, "translation"),
-      ...queryOf(filter)];
+      ...queryOf(this, filter)];
     return this.#hit(call("cast_shape", [this._address], input), "fraction");
   }
   overlapShape(shape, position, angle = 0, filter = {}) {
-    const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(filter)];
+    const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(this, filter)];
     return handles(Shape, this, result(call("overlap_shape", [this._address], input)));
   }
   shapesAt(at, filter) {
-    return handles(Shape, this, result(call("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(filter)])));
+    return handles(Shape, this, result(call("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(this, filter)])));
   }
   nearest(at, maxDistance, filter) {
-    return this.#hit(call("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(filter)]), "distance");
+    return this.#hit(call("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(this, filter)]), "distance");
   }
-  move(capsule, position, velocity, dt, {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0,
-    pushForce = 1e12, push = true, filter} = {}) {
+  move(capsule, position, velocity, dt, options = {}) {
+    const {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0, pushForce = 1e12, push = true,
+      filter} = knownMover(options);
     const n = result(call("move", [this._address, flag(push)], [...geometryOf({capsule}), ...pair(position),
       ...pair(velocity, "velocity"), dt, ...pair(up, "up"), maxSlope, stepHeight, skin, mass, pushForce,
-      ...queryOf(filter)]));
+      ...queryOf(this, filter)]));
     return {position: point(n), velocity: point(n, 2), onGround: n[4] !== 0, squeezed: n[5] !== 0,
       groundNormal: point(n, 6), ground: new Body(this, n[8], n[9]), groundVelocity: point(n, 10)};
   }

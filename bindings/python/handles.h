@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bindings/python/held_world.h"
+#include "engine/scene/error.h"
 
 /// Handles of a world as Python has them, and what their classes have in common.
 namespace plumb::python {
@@ -23,6 +24,15 @@ py::list handles(const WorldPointer& world, const std::vector<Id>& ids) {
   py::list all;
   for (const Id id : ids) all.append(Held<Id>{world, id});
   return all;
+}
+
+/// Returns the number of `handle` in `world`. Throws `Error` (Value) if it is of another world, where the
+/// number would name another object.
+template <class Id>
+Id id_in(const WorldPointer& world, const Held<Id>& handle, const char* field) {
+  if (handle.world != world)
+    throw Error(Error::Kind::Value, "world", field, std::to_string(handle.id.index), "is of another world");
+  return handle.id;
 }
 
 /// Returns a contact as a dict.

@@ -10,12 +10,12 @@ namespace {
 
 using py::arg;
 
-/// A filter of a query; `ignore` is a body or None.
-QueryFilter filter_of(const std::optional<HeldBody>& ignore, std::uint64_t category, std::uint64_t mask,
-                      bool sensors) {
+/// Returns a filter of a query; `ignore` is a body of `world` or None.
+QueryFilter filter_of(const WorldPointer& world, const std::optional<HeldBody>& ignore,
+                      std::uint64_t category, std::uint64_t mask, bool sensors) {
   QueryFilter filter;
   filter.category = category, filter.mask = mask, filter.sensors = sensors;
-  if (ignore) filter.ignore = ignore->id;
+  if (ignore) filter.ignore = id_in(world, *ignore, "ignore");
   return filter;
 }
 
@@ -33,7 +33,7 @@ void bind_queries(HeldWorldClass& world) {
           [](const WorldPointer& h, Vec2d origin, Vec2d translation, std::optional<HeldBody> ignore,
              std::uint64_t category, std::uint64_t mask, bool sensors) -> py::object {
             const auto hit = h->visit([&](auto& w) {
-              return ray_cast_closest(w, origin, translation, filter_of(ignore, category, mask, sensors));
+              return ray_cast_closest(w, origin, translation, filter_of(h, ignore, category, mask, sensors));
             });
             if (!hit) return py::none();
             py::dict found = hit_of(h, *hit);
@@ -80,8 +80,9 @@ void bind_queries(HeldWorldClass& world) {
           [](const WorldPointer& h, const ShapeGeometry& shape, Vec2d position, double angle,
              Vec2d translation, std::optional<HeldBody> ignore) -> py::object {
             const auto hit = h->visit([&](auto& w) {
-              return cast_shape_closest(w, QueryShape(shape), position, angle, translation,
-                                        filter_of(ignore, ~0u, ~0u, false));
+              return cast_shape_closest(
+                  w, QueryShape(shape), position, angle, translation,
+                  filter_of(h, ignore, QueryFilter{}.category, QueryFilter{}.mask, false));
             });
             if (!hit) return py::none();
             py::dict found = hit_of(h, *hit);

@@ -218,7 +218,7 @@ void bind_world(py::module_& module) {
              double break_force, double break_torque, std::uint64_t user_data, double report_force,
              double report_torque) {
             return HeldJoint{h, h->visit([&](auto& w) {
-                               return w.create_joint(a.id, b.id,
+                               return w.create_joint(id_in(h, a, "a"), id_in(h, b, "b"),
                                                      {kind, collide, break_force, break_torque, user_data,
                                                       report_force, report_torque});
                              })};
@@ -244,9 +244,11 @@ void bind_world(py::module_& module) {
           "bodies",
           [](const WorldPointer& h) { return h->visit([&](auto& w) { return handles(h, w.bodies()); }); },
           "All bodies, by index.")
-      .def_property_readonly("events", &events_of,
-                             "Of the last step: begin, end, hits, sensor_begin, sensor_end, broken, loaded, "
-                             "fell_asleep, woke, quarantined.")
+      .def_property_readonly(
+          "events", &events_of,
+          "Of the last step, as lists: begin, end (shape, shape), sensor_begin, sensor_end (sensor, "
+          "visitor), hits, loaded, quarantined (dicts, SI units), broken (joints), fell_asleep, "
+          "woke (bodies).")
       .def(
           "on_pre_solve",
           [](HeldWorld& h, std::optional<std::function<bool(py::dict)>> hook) {

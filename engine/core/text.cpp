@@ -3,6 +3,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <system_error>
+
+#ifndef __cpp_lib_to_chars
+#include <clocale>
+#include <cstdlib>
+#endif
 
 namespace plumb {
 namespace {
@@ -32,6 +38,48 @@ std::string shortest(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+std::size_t decimal_length(std::string_view text) {
+  const auto digits_from = [&](std::size_t at) {
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    return at;
+  };
+  std::size_t end = digits_from(0);
+  std::size_t digits = end;
+  if (end < text.size() && text[end] == '.') {
+    const std::size_t after = digits_from(end + 1);
+    digits += after - end - 1;
+    end = after;
+  }
+  if (digits == 0) return 0;
+  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    std::size_t first = end + 1;
+    if (first < text.size() && (text[first] == '+' || text[first] == '-')) ++first;
+    const std::size_t after = digits_from(first);
+    if (after > first) end = after;
+  }
+  return end;
+}
+
+std::optional<double> read_decimal(std::string_view decimal) {
+  double value = 0;
+#ifdef __cpp_lib_to_chars
+  const auto result = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (result.ec != std::errc{}) return std::nullopt;
+#else
+  // Reads by strtod where a library, like LLVM's before 20, writes floating-point numbers but reads none:
+  // with the locale's decimal point. Subnormal numbers set its errno as well as those out of range, so that
+  // the value tells.
+  std::string text(decimal);
+  const std::size_t point = text.find('.');
+  if (point != std::string::npos) text.replace(point, 1, std::localeconv()->decimal_point);
+  value = std::strtod(text.c_str(), nullptr);
+  const bool zero =
+      decimal.substr(0, decimal.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
+  if (!std::isfinite(value) || (value == 0 && !zero)) return std::nullopt;
+#endif
+  return value;
 }
 
 std::size_t utf8_length(std::string_view text) {

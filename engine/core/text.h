@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +11,14 @@ namespace plumb {
 /// Returns the shortest decimal that reads back to the same bits, as a JSON number; a negative zero is
 /// "-0.0". Non-finite values become "nan", "inf" or "-inf", which are not JSON.
 std::string shortest(double value);
+
+/// Returns the length of the decimal number without a sign at the start of `text` ("2", ".5", "1.", "3e-4");
+/// 0 if there is none. An exponent without digits is no part of it.
+std::size_t decimal_length(std::string_view text);
+
+/// Returns the double nearest to `decimal`, which `decimal_length` measured whole; nothing beyond the range
+/// of doubles. The same bits with every standard library and locale.
+std::optional<double> read_decimal(std::string_view decimal);
 
 /// Makes `text` fit for a message: control characters and bytes that are not UTF-8 are written as \xNN. Texts
 /// longer than `limit` bytes are cut and end in "...".

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/scene/formula.h"
 
 namespace plumb {
@@ -166,12 +167,11 @@ class FormulaParser {
   }
 
   double number() {
-    const char* const begin = text_.data() + at_;
-    double value = 0;
-    const auto [stop, failure] = std::from_chars(begin, text_.data() + text_.size(), value);
-    if (failure != std::errc{}) fail("has no number in " + quoted_here());
-    at_ += static_cast<std::size_t>(stop - begin);
-    return value;
+    const std::size_t length = decimal_length(text_.substr(at_));
+    const std::optional<double> value = read_decimal(text_.substr(at_, length));
+    if (length == 0 || !value) fail("has no number in " + quoted_here());
+    at_ += length;
+    return *value;
   }
   double signed_number() {
     skip_spaces();

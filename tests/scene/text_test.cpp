@@ -82,4 +82,30 @@ TEST(Printable, HidesNothingAndStaysShort) {
 }
 
 }  // namespace
+TEST(Text, MeasuresTheDecimalAtTheStart) {
+  EXPECT_EQ(decimal_length("2.5e-3*x"), 6U);
+  EXPECT_EQ(decimal_length(".5)"), 2U);
+  EXPECT_EQ(decimal_length("1."), 2U);
+  EXPECT_EQ(decimal_length("3e"), 1U);  // a name may follow
+  EXPECT_EQ(decimal_length("3e+x"), 1U);
+  EXPECT_EQ(decimal_length("0x1p3"), 1U);  // no hexadecimal numbers
+  EXPECT_EQ(decimal_length("."), 0U);
+  EXPECT_EQ(decimal_length("-1"), 0U);
+  EXPECT_EQ(decimal_length("inf"), 0U);
+}
+
+// The bits: 2^-1 + 2^-54 lies halfway and is rounded to even; the largest double, the least, and those
+// beyond.
+TEST(Text, ReadsDecimalsToTheNearestDouble) {
+  EXPECT_EQ(read_decimal("0.500000000000000055511151231257827021181583404541015625"), 0.5);
+  EXPECT_EQ(read_decimal("0.50000000000000005551115123125782702118158340454101562500001"),
+            0x1.0000000000001p-1);
+  EXPECT_EQ(read_decimal("0.1"), 0x1.999999999999ap-4);
+  EXPECT_EQ(read_decimal("1.7976931348623157e308"), 0x1.fffffffffffffp1023);
+  EXPECT_EQ(read_decimal("5e-324"), 0x1p-1074);
+  EXPECT_EQ(read_decimal("0e999"), 0.0);
+  EXPECT_EQ(read_decimal("1e309"), std::nullopt);
+  EXPECT_EQ(read_decimal("1e-400"), std::nullopt);
+}
+
 }  // namespace plumb

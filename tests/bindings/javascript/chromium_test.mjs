@@ -1,5 +1,7 @@
 // The npm package in Chromium: a thousand bodies on a canvas at 60 steps a second, and Node's hash.
-//   node chromium_test.mjs PACKAGE CHROMIUM
+// The example page draws, and answers a click.
+//   node chromium_test.mjs PACKAGE CHROMIUM [BUILT]
+// BUILT is a folder with the example page as a bundler left it (docs/javascript.md); without it the page is served as it is.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {createServer} from "node:http";
@@ -8,7 +10,8 @@ import test, {after, before} from "node:test";
 import {pathToFileURL} from "node:url";
 import {Chromium, Page} from "../../web/chromium.mjs";
 
-const [folder, executable] = process.argv.slice(2);
+const [folder, executable, built] = process.argv.slice(2);
+const example = built ?? path.join(import.meta.dirname, "../../../bindings/javascript/examples/page");
 const {World} = await import(pathToFileURL(path.resolve(folder, "plumb.mjs")));
 
 // The same lines in the page and here.
@@ -50,10 +53,12 @@ requestAnimationFrame(frame);
 let server, browser;
 before(async () => {
   server = createServer((request, response) => {
-    const name = request.url.slice(1);
+    const name = request.url.slice(1), asset = /^(assets\/)?(page|index)[\w.-]*(js|html)$/.exec(name);
     const file = /^plumb[a-z.]*\.mjs$/.test(name);
-    response.setHeader("Content-Type", file ? "text/javascript" : "text/html");
-    response.end(file ? readFileSync(path.join(folder, name)) : kPage);
+    response.setHeader("Content-Type", /js$/.test(name) ? "text/javascript" : "text/html");
+    // What a bundler does with the package's name.
+    if (asset) response.end(readFileSync(path.join(example, name), "utf8").replace('"plumb-physics"', '"./plumb.mjs"'));
+    else response.end(file ? readFileSync(path.join(folder, name)) : kPage);
   });
   await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
   browser = new Chromium(executable);
@@ -73,5 +78,21 @@ test("a thousand bodies take 60 steps a second on a canvas, with Node's bits", a
   assert.equal(figures.hash, world.hash());
   // The median: other programs of the machine may take the processor at times.
   assert.ok(figures.median < 1000 / 60, `${figures.median} ms a step`);
+  await page.close();
+});
+
+test("the example page draws its pyramid, and drops a ball where it is clicked", async () => {
+  const page = await Page.open(browser, `http://127.0.0.1:${server.address().port}/index.html`);
+  await page.until(`document.getElementById("stage") !== null`);
+  const colour = (x, y) => `Array.from(document.getElementById("stage").getContext("2d").getImageData(${x}, ${y}, 1, 1).data)`;
+  // The middle of the lowest box on the left, at -3.5 m and 0.5 m: 40 pixels a metre, the ground 40 pixels above the edge.
+  await page.until(`${colour(400 - 3.5 * 40, 560 - 20)}.join() === "68,170,119,255"`, 60);
+  const {left, top} = await page.ask(`(({left, top}) => ({left, top}))(document.getElementById("stage").getBoundingClientRect())`);
+  assert.deepEqual((await page.ask(colour(100, 540))).slice(0, 3), [0, 0, 0]);
+  await page.click({x: left + 100, y: top + 500});
+  // It falls and lies on the ground, its middle 20 pixels above.
+  await page.until(`${colour(100, 540)}.join() === "204,102,51,255"`);
+  // Reading pixels, as this test does, is slow: Chromium says so.
+  assert.deepEqual(page.complaints.filter((each) => !/^(asked for http:..127|Canvas2D: .* readback)/.test(each)), []);
   await page.close();
 });

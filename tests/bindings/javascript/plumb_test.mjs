@@ -59,6 +59,29 @@ test("errors name the field and the value, and leave the world as it was", () =>
   world.step();
 });
 
+test("a misspelt field is refused wherever it is given", () => {
+  const world = new World(), other = new World();
+  const a = world.createBody(), b = world.createBody({shapes: [{circle: {radius: 1}}]}), foreign = other.createBody();
+  const refused = (field, work) => assert.throws(work, (error) => error instanceof PlumbError && error.field === field, field);
+  refused("gravty", () => new World({gravty: {x: 0, y: 0}}));
+  refused("bounce", () => { b.shapes[0].material = {bounce: 1}; });
+  refused("size", () => b.createShape({box: {size: 1}}));
+  refused("group_", () => { b.shapes[0].filter = {group_: 1}; });
+  refused("anchor", () => world.createJoint(a, b, "revolute", {anchor: {x: 0, y: 0}}));
+  refused("min", () => world.createJoint(a, b, "revolute", {limits: {min: 0}}));
+  refused("frequency", () => world.createJoint(a, b, "weld", {linearSpring: {frequency: 2}}));
+  refused("ignor", () => world.rayCast({x: 0, y: 5}, {x: 0, y: -9}, {ignor: a}));
+  refused("slope", () => world.move({start: {x: 0, y: 0}, end: {x: 0, y: 1}, radius: 0.3}, {x: 0, y: 9}, {x: 0, y: 0},
+    1 / 60, {slope: 1}));
+  refused("mass", () => world.createBody({mass: 5}));  // it needs an inertia too
+  refused("shapes", () => world.createBody({shapes: {circle: {radius: 1}}}));
+  // The numbers of a body of another world would name one of this.
+  refused("b", () => world.createJoint(a, foreign, "weld"));
+  refused("ignore", () => world.nearest({x: 0, y: 0}, 1, {ignore: foreign}));
+  assert.equal(world.counts.bodies, 2);
+  assert.equal(world.counts.joints, 0);
+});
+
 test("a saved state goes on to the same hash; damaged ones are refused", () => {
   const {world} = withGround();
   for (let i = 0; i < 5; ++i) world.createBody({position: {x: 0.05 * i, y: 0.5 + i}, shapes: [{box: {width: 1, height: 1}}]});

@@ -109,6 +109,24 @@ def test_contacts_are_one_array():
     assert lowest["impulses"].sum() == pytest.approx(5 * G / 240, rel=1e-3)
 
 
+def test_a_body_of_another_world_is_refused():
+    world, other = plumb.World(), plumb.World()
+    other.create_body(plumb.Circle(1))
+    foreign, own = other.create_body(plumb.Circle(1)), world.create_body(plumb.Circle(1))
+    world.create_body(plumb.Circle(1), position=(5, 0))  # has the number of `foreign`
+    with pytest.raises(plumb.InvalidValue, match="another world"):
+        world.create_joint(own, foreign, plumb.Weld())
+    with pytest.raises(plumb.InvalidValue, match="another world"):
+        world.ray_cast((5, 5), (0, -9), ignore=foreign)
+    assert world.counts["joints"] == 0
+
+
+def test_casts_of_shapes_meet_every_category():
+    world = plumb.World()
+    world.create_body(plumb.ShapeDefinition(plumb.Circle(1), category=1 << 40))
+    assert world.cast_shape(plumb.Circle(0.5), (0, 5), 0, (0, -9))["fraction"] == pytest.approx(3.5 / 9)
+
+
 def test_errors_have_a_type_and_parts():
     world = plumb.World()
     with pytest.raises(plumb.InvalidValue, match="ball") as caught:

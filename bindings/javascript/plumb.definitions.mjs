@@ -1,0 +1,157 @@
+// Writes definitions as numbers in the order in which buffer.cpp reads them; refuses unknown names and fields.
+
+export const kNames = {
+  precision: ["float", "double"],
+  type: ["static", "kinematic", "dynamic"],
+  combine: ["geometric_mean", "product", "maximum", "minimum", "average"],
+  solver: ["soft_steps", "sequential_impulses", "jakobsen", "xpbd", "direct"],
+  integrator: ["velocity_verlet", "semi_implicit_euler", "explicit_euler"],
+  joint: ["distance", "revolute", "prismatic", "weld", "wheel", "motor", "mouse", "gear", "pulley", "ratchet",
+    "friction"],
+  shape: ["circle", "box", "capsule", "polygon", "segment"],
+};
+
+/// Reports a refusal by plumb: `kind`, and the parts of the sentence in `message`.
+export class PlumbError extends Error {
+  constructor(kind, message, subject = "", field = "", value = "") {
+    super(message);
+    Object.assign(this, {name: "PlumbError", kind, subject, field, value});
+  }
+}
+
+function shown(value) {
+  if (typeof value !== "object") return String(value);
+  return JSON.stringify(value, (_, part) => (typeof part === "bigint" ? String(part) : part));
+}
+function refuse(field, value, problem, kind = "InvalidValue") {
+  const text = shown(value);
+  throw new PlumbError(kind, `${field} is ${text}: ${problem}`, "", field, text);
+}
+export function named(kind, name, field = kind) {
+  const place = kNames[kind].indexOf(name);
+  return place >= 0 ? place : refuse(field, name, `must be one of ${kNames[kind].join(", ")}`, "UnknownName");
+}
+/// Returns `object`; refuses one with another field than `fields`.
+function known(fields, object, subject) {
+  if (object === null || typeof object !== "object" || Array.isArray(object))
+    refuse(subject.split(" ").pop(), object, `must be {${[...fields].join(", ")}}`);
+  for (const field of Object.keys(object))
+    if (!fields.has(field)) refuse(field, object[field], `is not a field of ${subject}`, "UnknownName");
+  return object;
+}
+export function listed(list, field) {
+  return Array.isArray(list) ? list : refuse(field, list, "must be an array");
+}
+/// Refuses a handle of another world than `world`: its numbers would name another object.
+export function own(world, handle, field) {
+  if (handle?.world !== world) refuse(field, handle?.world ? "of another world" : handle, "must be of this world");
+  return handle;
+}
+
+export const flag = (value) => (value ? 1 : 0);
+function wide(value = 0) {
+  const bits = BigInt.asUintN(64, BigInt(value));
+  return [Number(bits & 0xFFFFFFFFn), Number(bits >> 32n)];
+}
+export function pair(p, field = "position") {
+  if (typeof p?.x !== "number" || typeof p?.y !== "number") refuse(field, p, "must be {x, y}");
+  return [p.x, p.y];
+}
+const kGeometryFields = {
+  circle: new Set(["radius"]), box: new Set(["width", "height"]), capsule: new Set(["start", "end", "radius"]),
+  polygon: new Set(["points", "radius"]), segment: new Set(["start", "end"]),
+};
+export function geometryOf(shape) {
+  const given = kNames.shape.filter((kind) => shape[kind] !== undefined);
+  if (given.length !== 1) refuse("shape", given.join(" and ") || "empty", `must have one of ${kNames.shape.join(", ")}`);
+  const kind = given[0], g = known(kGeometryFields[kind], shape[kind], `a ${kind}`), zero = {x: 0, y: 0};
+  const points = listed(g.points ?? [], "points");
+  return [named("shape", kind), g.radius ?? 0, g.width ?? 0, g.height ?? 0, ...pair(g.start ?? zero, "start"),
+    ...pair(g.end ?? zero, "end"), points.length, ...points.flatMap((p) => pair(p, "points"))];
+}
+const kMaterialFields = new Set(["friction", "restitution", "rollingResistance", "surfaceSpeed"]);
+export const knownMaterial = (m) => known(kMaterialFields, m, "a material");
+export function materialOf(m) {
+  return [m.friction ?? 0.6, m.restitution ?? 0, m.rollingResistance ?? 0, m.surfaceSpeed ?? 0];
+}
+const kFilterFields = new Set(["category", "mask", "group"]);
+export function filterOf(f = {}) {
+  known(kFilterFields, f, "a filter");
+  return [...wide(f.category ?? 1), ...wide(f.mask ?? -1), f.group ?? 0];
+}
+const kThresholds = new Set(["hit", "bounce", "sleep"]);
+export function thresholdsOf(t) {
+  const {hit = -1, bounce = -1, sleep = -1} = known(kThresholds, t, "the thresholds");
+  return [hit, bounce, sleep];
+}
+const kWorldFields = new Set(["precision", "gravity", "combineFriction", "combineRestitution", "sleeping", "continuous",
+  "solver", "integrator", "iterations", "directIslands", "quarantine", "thresholds"]);
+export function worldOf(definition) {
+  const {precision = "float", gravity = {x: 0, y: -9.81}, combineFriction = "geometric_mean",
+    combineRestitution = "maximum", sleeping = true, continuous = true, solver = "soft_steps",
+    integrator = "velocity_verlet", iterations = 10, directIslands = true, quarantine = true,
+    thresholds = {}} = known(kWorldFields, definition, "a world");
+  return [named("precision", precision), ...pair(gravity, "gravity"),
+    named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
+    flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
+    flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)];
+}
+const kShapeFields = new Set([...kNames.shape, "position", "angle", "density", "friction", "restitution",
+  "rollingResistance", "surfaceSpeed", "filter", "sensor", "hitEvents", "preSolve", "userData"]);
+export function shapeOf(s) {
+  known(kShapeFields, s, "a shape");
+  return [...geometryOf(s), ...pair(s.position ?? {x: 0, y: 0}), s.angle ?? 0, s.density ?? 1, ...materialOf(s),
+    ...filterOf(s.filter), flag(s.sensor), flag(s.hitEvents), flag(s.preSolve), ...wide(s.userData)];
+}
+const kBodyFields = new Set(["type", "position", "angle", "velocity", "angularVelocity", "mass", "gravityScale",
+  "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "continuous", "userData",
+  "name", "shapes"]);
+const kMassFields = new Set(["mass", "inertia", "centre"]);
+export const knownMass = (mass) => known(kMassFields, mass, "a mass");
+export function bodyOf(d) {
+  known(kBodyFields, d, "a body");
+  if (d.mass) knownMass(d.mass);
+  const zero = {x: 0, y: 0}, shapes = listed(d.shapes ?? [], "shapes").map(shapeOf);
+  return [named("type", d.type ?? "dynamic"), ...pair(d.position ?? zero), d.angle ?? 0,
+    ...pair(d.velocity ?? zero, "velocity"), d.angularVelocity ?? 0, flag(d.mass), d.mass?.mass ?? 1,
+    ...pair(d.mass?.centre ?? zero, "centre"), d.mass?.inertia ?? 1, d.gravityScale ?? 1, d.linearDamping ?? 0,
+    d.angularDamping ?? 0, flag(d.lockX), flag(d.lockY), flag(d.lockRotation), flag(d.maySleep ?? true),
+    flag(d.awake ?? true), flag(d.continuous ?? true), ...wide(d.userData), shapes.length, ...shapes.flat()];
+}
+const kQueryFields = new Set(["category", "mask", "sensors", "ignore"]);
+export function queryOf(world, q = {}) {
+  known(kQueryFields, q, "a query's filter");
+  if (q.ignore) own(world, q.ignore, "ignore");
+  return [...wide(q.category ?? -1), ...wide(q.mask ?? -1), flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
+    q.ignore?.generation ?? 0];
+}
+const kMoverFields = new Set(["up", "maxSlope", "stepHeight", "skin", "mass", "pushForce", "push", "filter"]);
+export const knownMover = (options) => known(kMoverFields, options, "the mover's options");
+const kSpringFields = new Set(["hertz", "dampingRatio"]), kLimitFields = new Set(["lower", "upper"]);
+const kMotorFields = new Set(["speed", "maxForce"]);
+function spring(s) {
+  if (s) known(kSpringFields, s, "a spring");
+  return [flag(s), s?.hertz ?? 0, s?.dampingRatio ?? 1];
+}
+const kJointFields = new Set(["collide", "breakForce", "breakTorque", "reportForce", "reportTorque", "userData",
+  "anchorA", "anchorB", "axis", "referenceAngle", "spring", "linearSpring", "angularSpring", "limits", "motor", "length",
+  "targetAngle", "targetTranslation", "targetPosition", "maxForce", "maxTorque", "ratio", "phase", "tooth", "groundA",
+  "groundB"]);
+export function jointOf(kind, d) {
+  known(kJointFields, d, "a joint");
+  if (d.limits) known(kLimitFields, d.limits, "limits");
+  if (d.motor) known(kMotorFields, d.motor, "a motor");
+  const zero = {x: 0, y: 0};
+  const axis = d.axis ?? (kind === "wheel" ? {x: 0, y: 1} : {x: 1, y: 0});
+  const drive = kind === "motor" ? {hertz: 2, dampingRatio: 1} : kind === "mouse" ? {hertz: 5, dampingRatio: 0.7} : null;
+  const ratio = d.ratio ?? (kind === "gear" ? -1 : 1);
+  return [named("joint", kind), flag(d.collide), d.breakForce ?? 0, d.breakTorque ?? 0, ...wide(d.userData),
+    d.reportForce ?? 0, d.reportTorque ?? 0,
+    ...pair(d.anchorA ?? zero, "anchorA"), ...pair(d.anchorB ?? zero, "anchorB"), ...pair(axis, "axis"),
+    d.referenceAngle ?? 0, ...spring(d.spring ?? drive), ...spring(d.linearSpring), ...spring(d.angularSpring),
+    flag(d.limits), d.limits?.lower ?? -Infinity, d.limits?.upper ?? Infinity,
+    flag(d.motor), d.motor?.speed ?? 0, d.motor?.maxForce ?? 0,
+    d.length ?? (kind === "pulley" ? -1 : 1), d.targetAngle ?? 0, d.targetTranslation ?? 0,
+    ...pair(d.targetPosition ?? zero, "targetPosition"), d.maxForce ?? 0, d.maxTorque ?? 0, ratio, d.phase ?? 0,
+    d.tooth ?? 0.1, ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
+}
