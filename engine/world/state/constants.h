@@ -67,6 +67,10 @@ inline constexpr double kDirectJointShare = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
 inline constexpr double kLinkTurn = 0.125;
+/// Opening of joints that iterations may leave after a step, as the angle, rad, that turns the smaller of its
+/// bodies so far about the joint; and rounds of closing what is open by more.
+inline constexpr double kOpening = 0.005;
+inline constexpr int kCloseRounds = 4;
 
 /// Natural frequency of the joint spring, as a fraction of the substep rate, and its damping ratio.
 inline constexpr double kJointFrequencyShare = 0.25;
