@@ -224,8 +224,9 @@ TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {
   }
 }
 
-// Iterations leave open what a shock opens within a step: here the last link of a chain is given 10 m/s across
-// it. The gaps are closed in the metric of the masses, which moves no centre of mass, and changes no velocity.
+// Iterations leave open what a shock opens within a step: here the last link of a chain is given 10 m/s
+// across it. The gaps are closed in the metric of the masses, which moves no centre of mass, and changes no
+// velocity.
 TYPED_TEST(Mechanisms, AShockOpensNoChain) {
   Plan plan{.layout = Layout::Chain, .ties = Ties::Limits, .count = 10};
   for (std::uint64_t seed = 0; seed < 8; ++seed) {

@@ -26,11 +26,17 @@ int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
   return place;
 }
 
+/// Begins an island without links.
+template <class Real>
+void start_links(WorldData<Real>& w, JointedIsland<Real>& island) {
+  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
+  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+}
+
 /// Finds the bodies of an island's joints and contacts.
 template <class Real>
 void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
-  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
-  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+  start_links(w, island);
   const auto add = [&](int a, int b) {
     const int link_a = link_at(w, island, a);
     island.blocks.emplace_back(link_a, link_at(w, island, b));

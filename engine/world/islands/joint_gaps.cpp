@@ -9,6 +9,11 @@
 namespace plumb {
 namespace {
 
+// Most loops of a mechanism that is closed: 8 x 8 bodies tied to their neighbours have 49. The cost grows
+// with the square of their number; a net of 30 x 30 is open in each step, and would cost as much again as its
+// step.
+constexpr int kLoops = 64;
+
 // Marks of a joint, by slot.
 enum : char { kClosed, kOpen, kCollected };
 
@@ -46,11 +51,21 @@ double order(JointedIsland<Real>& island) {
   return island.system.order(island.blocks, island.sizes);
 }
 
-// Collects the mechanism of a joint: all joints that dynamic bodies tie to it.
+// Returns true if the island of a joint is known to have too many loops.
 template <class Real>
-void collect(WorldData<Real>& w, JointedIsland<Real>& island, int joint) {
+bool is_net(const WorldData<Real>& w, int joint) {
+  if (!w.scratch.islands_known) return false;
+  const auto [a, b] = w.joint_set.bodies(joint);
+  return w.scratch.island_joints[w.scratch.island_of[w.is_dynamic(a) ? a : b]] > kLoops;
+}
+
+// Collects the mechanism of a joint: all joints that dynamic bodies tie to it. Returns false if it has too
+// many loops.
+template <class Real>
+bool collect(WorldData<Real>& w, JointedIsland<Real>& island, int joint) {
   std::vector<char>& marks = w.scratch.open_joints;
   island.joints.clear();
+  start_links(w, island);
   const auto add = [&](int slot) {
     if (marks[slot] == kCollected) return;
     marks[slot] = kCollected;
@@ -59,14 +74,18 @@ void collect(WorldData<Real>& w, JointedIsland<Real>& island, int joint) {
   add(joint);
   for (std::size_t next = 0; next < island.joints.size(); ++next) {
     const auto [a, b] = w.joint_set.bodies(island.joints[next]);
-    for (const int body : {a, b}) {
+    const std::size_t known = island.links.size();
+    const int link_a = link_at(w, island, a);
+    island.blocks.emplace_back(link_a, link_at(w, island, b));
+    for (std::size_t link = known; link < island.links.size(); ++link) {
+      const int body = island.links[link].body;
       if (!w.is_dynamic(body)) continue;
       for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, const JointRecord& record) {
         if (record.active) add(record.slot);
       });
     }
   }
-  std::sort(island.joints.begin(), island.joints.end());
+  return static_cast<int>(island.joints.size() - island.links.size()) <= kLoops;
 }
 
 template <class Real>
@@ -74,7 +93,6 @@ void close(WorldData<Real>& w, JointedIsland<Real>& island) {
   const auto is_open = [&](int joint) {
     return w.joint_set.is_open(joint, w.solver_bodies(), Real(tuning::kOpening));
   };
-  find_links(w, island);
   for (int round = 0; round < tuning::kCloseRounds; ++round) {
     make_rows(w, island);
     if (round == 0 && order(island) > tuning::kJointedCost) return;
@@ -87,18 +105,17 @@ void close(WorldData<Real>& w, JointedIsland<Real>& island) {
 }  // namespace
 
 template <class Real>
-void close_joint_gaps(WorldData<Real>& w, const std::vector<char>& apart) {
+void close_joint_gaps(WorldData<Real>& w) {
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kClosed);
   if (!w.joint_set.find_open(w.solver_bodies(), Real(tuning::kOpening), marks, &w.crew)) return;
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
-    if (marks[joint] != kOpen || (!apart.empty() && apart[joint] != 0)) continue;
-    collect(w, w.scratch.opened, joint);
-    close(w, w.scratch.opened);
+    if (marks[joint] != kOpen || is_net(w, joint)) continue;
+    if (collect(w, w.scratch.opened, joint)) close(w, w.scratch.opened);
   }
 }
 
-template void close_joint_gaps(WorldData<float>&, const std::vector<char>&);
-template void close_joint_gaps(WorldData<double>&, const std::vector<char>&);
+template void close_joint_gaps(WorldData<float>&);
+template void close_joint_gaps(WorldData<double>&);
 
 }  // namespace plumb

@@ -279,8 +279,10 @@ void JointBlocks<Joint>::open(int first, int last, const SolverBodies<Real>& bod
         const LanePairs<Number> pairs(block, bodies, true);
         const Number opening = joint_opening(block.joint, pairs.motion(bodies), pairs.v, share);
         if (!any(opening > Number(0))) return;
+        Real value[Number::kLanes];
+        opening.store(value);
         for (int i = 0; i < block.kLanes; ++i)
-          if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
+          if (value[i] > 0) visit(data, *block.from[i]);
       });
 }
 

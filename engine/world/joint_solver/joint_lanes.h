@@ -77,7 +77,7 @@ class JointBlocks {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
     beyond_limits(first, last, motion, slack, call, &act);
   }
-  /// Calls `act(joint)` for the joints of blocks of which one is open (joint_opening.h).
+  /// Calls `act(joint)` for the joints of blocks that are open (joint_opening.h), some of them twice.
   template <class Act>
   void open(int first, int last, const SolverBodies<Real>& bodies, Real share, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };

@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// Compares how far rigid rows and limits of a joint are open with the way that a body makes at the joint when
-/// it turns by `share`, rad: that is `share` times its radius of gyration about the joint. For angles it is
-/// `share` itself. With Lanes, of several joints side by side.
+/// Compares how far rigid rows and limits of a joint are open with the way that a body makes at the joint
+/// when it turns by `share`, rad: that is `share` times its radius of gyration about the joint. For angles it
+/// is `share` itself. With Lanes, of several joints side by side.
 template <class Number>
 struct JointOpening {
   const JointVelocities<Number>& v;

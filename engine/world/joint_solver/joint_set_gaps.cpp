@@ -25,10 +25,12 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
                                Crew* crew) {
   Parts& p = *parts_;
   std::atomic<bool> any = false;
-  const auto look = [&](const auto& joint) {
-    if (!plumb::is_open(joint, bodies, share)) return;
+  const auto mark = [&](const auto& joint) {
     open[joint.joint] = 1;
     any.store(true, std::memory_order_relaxed);
+  };
+  const auto look = [&](const auto& joint) {
+    if (plumb::is_open(joint, bodies, share)) mark(joint);
   };
   for (const JointRun& run : p.runs) {
     p.with(run.form, [&](auto& lists) {
@@ -38,7 +40,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
-            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, bodies, share, look);
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, bodies, share, mark);
             for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
           });
         }

@@ -137,7 +137,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
-    if (jointed && substep + 1 == substeps) close_joint_gaps(w, w.scratch.joints_apart);
+    if (jointed && substep + 1 == substeps) close_joint_gaps(w);
     if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
