@@ -17,7 +17,7 @@ constexpr int kLoops = 64;
 // Marks of a joint, by slot.
 enum : char { kClosed, kOpen, kCollected };
 
-// Adds a joint's rows that have to be closed: rigid ones, and limits that are exceeded.
+// Adds a joint's rows: rigid ones and exceeded limits, to be closed, and motors, not to be turned.
 template <class Real>
 void add_rows(WorldData<Real>& w, JointedIsland<Real>& island, int block) {
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
@@ -25,13 +25,13 @@ void add_rows(WorldData<Real>& w, JointedIsland<Real>& island, int block) {
   w.joint_set.solver_rows(island.joints[block], w.solver_bodies(), rows);
   const auto [link_a, link_b] = island.blocks[block];
   for (const JointSolverRow<Real>& from : rows) {
-    const bool exceeded = from.role == RowRole::Limit && from.row.residual < 0;
-    if (from.role != RowRole::Rigid && !exceeded) continue;
+    const bool open_limit = from.role == RowRole::Limit && !(from.row.residual < 0);
+    if (open_limit || from.role == RowRole::Spring) continue;
     BoundedRow row{.a = link_a, .b = link_b};
     row.linear_a = from.row.linear_a.template as<double>();
     row.linear_b = from.row.linear_b.template as<double>();
     row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
-    row.gap = from.row.residual;
+    row.gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
     row.block = block;
     island.system.rows.push_back(row);
   }
