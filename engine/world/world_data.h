@@ -316,8 +316,10 @@ struct Scratch {
   int direct_count = 0;
   std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
   int jointed_count = 0;
-  bool islands_known = false;   ///< `island_of` and `island_size` are up to date
-  bool islands_chosen = false;  ///< one of them at least is solved directly
+  std::vector<char> open_joints;      ///< by slot of the joint: joint_gaps.cpp
+  JointedIsland<Real> opened{&room};  ///< a mechanism whose gaps are being closed
+  bool islands_known = false;         ///< `island_of` and `island_size` are up to date
+  bool islands_chosen = false;        ///< one of them at least is solved directly
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same

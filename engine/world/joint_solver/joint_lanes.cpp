@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "engine/core/room.h"
+#include "engine/world/joint_solver/joint_opening.h"
 
 namespace plumb {
 namespace {
@@ -319,6 +320,21 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
           for (int i = 0; i < block.kLanes; ++i)
             if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
         }
+      });
+}
+
+template <class Joint>
+void JointBlocks<Joint>::open(int first, int last, const SolverBodies<Real>& bodies, Real share, Visit visit,
+                              const void* data) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        const LanePairs<Number> pairs(block, bodies, true);
+        const Number opening = joint_opening(block.joint, pairs.motion(bodies), pairs.v, share);
+        if (!any(opening > Number(0))) return;
+        Real value[Number::kLanes];
+        opening.store(value);
+        for (int i = 0; i < block.kLanes; ++i)
+          if (value[i] > 0) visit(data, *block.from[i]);
       });
 }
 

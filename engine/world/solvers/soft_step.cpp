@@ -7,6 +7,7 @@
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
+#include "engine/world/islands/joint_gaps.h"
 #include "engine/world/islands/jointed_islands.h"
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
@@ -161,6 +162,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
+    if (jointed && substep + 1 == substeps) close_joint_gaps(w);
     if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);

@@ -1,0 +1,61 @@
+#include <atomic>
+
+#include "engine/world/joint_solver/joint_opening.h"
+#include "engine/world/joint_solver/joint_parts.h"
+
+namespace plumb {
+namespace {
+
+template <class Joint, class Real>
+bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real share) {
+  if constexpr (kIsHinge<Joint>)
+    if (joint.held) return false;
+  return joint_opening(joint, motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), share) > 0;
+}
+
+}  // namespace
+
+template <class Real>
+bool JointSet<Real>::is_open(int joint, const SolverBodies<Real>& bodies, Real share) const {
+  return parts_->at(joint, [&](const auto& constraint) { return plumb::is_open(constraint, bodies, share); });
+}
+
+template <class Real>
+bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open,
+                               Crew* crew) {
+  Parts& p = *parts_;
+  std::atomic<bool> any = false;
+  const auto mark = [&](const auto& joint) {
+    open[joint.joint] = 1;
+    any.store(true, std::memory_order_relaxed);
+  };
+  const auto look = [&](const auto& joint) {
+    if (plumb::is_open(joint, bodies, share)) mark(joint);
+  };
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      auto& list = lists[run.colour];
+      if constexpr (kSideBySide<One>) {
+        if (run.sorted) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+          return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, bodies, share, mark);
+            for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
+          });
+        }
+      }
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        for (int i = first; i < last; ++i) look(list[i]);
+      });
+    });
+  }
+  return any.load(std::memory_order_relaxed);
+}
+
+template bool JointSet<float>::is_open(int, const SolverBodies<float>&, float) const;
+template bool JointSet<double>::is_open(int, const SolverBodies<double>&, double) const;
+template bool JointSet<float>::find_open(const SolverBodies<float>&, float, std::vector<char>&, Crew*);
+template bool JointSet<double>::find_open(const SolverBodies<double>&, double, std::vector<char>&, Crew*);
+
+}  // namespace plumb
