@@ -8,9 +8,11 @@ namespace {
 
 template <class Joint, class Real>
 bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real share) {
-  if constexpr (kIsHinge<Joint>)
+  if constexpr (Joint::kPlainHinge)
     if (joint.held) return false;
-  return joint_opening(joint, motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), share) > 0;
+  const BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia}, share) >
+         0;
 }
 
 }  // namespace

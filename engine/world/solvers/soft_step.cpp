@@ -162,7 +162,6 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
-    if (jointed && substep + 1 == substeps) close_joint_gaps(w);
     if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
@@ -170,6 +169,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     hold_again(std::span<Bounce>(w.scratch.bounces));
     contacts.warm_start = joints.warm_start = 1;
   }
+  if (jointed) close_joint_gaps(w, h, substeps);
   passes.finish();
   if (jointed) w.joint_set.finish(bodies, &w.crew);
   finish_direct_islands(w);
