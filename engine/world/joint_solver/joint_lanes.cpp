@@ -324,8 +324,7 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
 }
 
 template <class Joint>
-void JointBlocks<Joint>::open(int first, int last, const SolverBodies<Real>&, Real share, Visit visit,
-                              const void* data) {
+void JointBlocks<Joint>::open(int first, int last, Real share, Visit visit, const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         const Number opening = joint_opening(

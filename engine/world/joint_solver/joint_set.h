@@ -139,12 +139,11 @@ class JointSet {
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
                               Real most, Crew* crew = nullptr);
 
-  /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row or limit is open by more than
-  /// `share` times the radius of gyration of one of its bodies about the joint, or in angle by `share`, rad;
-  /// returns true if there are any. Call between the motion and `relax`. Does not allocate.
+  /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row, or a limit along an axis, was
+  /// open after the last `relax` by more than `share` times the radius of gyration of one of its bodies about
+  /// the joint, or in angle by `share`, rad; returns true if there are any. Call before `finish`. Does not
+  /// allocate.
   bool find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open, Crew* crew = nullptr);
-  /// Returns that of a joint.
-  bool is_open(int joint, const SolverBodies<Real>& bodies, Real share) const;
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.

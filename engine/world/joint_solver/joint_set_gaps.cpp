@@ -18,11 +18,6 @@ bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real share) {
 }  // namespace
 
 template <class Real>
-bool JointSet<Real>::is_open(int joint, const SolverBodies<Real>& bodies, Real share) const {
-  return parts_->at(joint, [&](const auto& constraint) { return plumb::is_open(constraint, bodies, share); });
-}
-
-template <class Real>
 bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open,
                                Crew* crew) {
   Parts& p = *parts_;
@@ -32,7 +27,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
     any.store(true, std::memory_order_relaxed);
   };
   const auto look = [&](const auto& joint) {
-    if (plumb::is_open(joint, bodies, share)) mark(joint);
+    if (is_open(joint, bodies, share)) mark(joint);
   };
   for (const JointRun& run : p.runs) {
     p.with(run.form, [&](auto& lists) {
@@ -42,7 +37,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
-            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, bodies, share, mark);
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, share, mark);
             for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
           });
         }
@@ -55,8 +50,6 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
   return any.load(std::memory_order_relaxed);
 }
 
-template bool JointSet<float>::is_open(int, const SolverBodies<float>&, float) const;
-template bool JointSet<double>::is_open(int, const SolverBodies<double>&, double) const;
 template bool JointSet<float>::find_open(const SolverBodies<float>&, float, std::vector<char>&, Crew*);
 template bool JointSet<double>::find_open(const SolverBodies<double>&, double, std::vector<char>&, Crew*);
 

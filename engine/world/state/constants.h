@@ -67,10 +67,6 @@ inline constexpr double kDirectJointShare = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
 inline constexpr double kLinkTurn = 0.125;
-/// rad, opening that a step leaves: what a body makes at the joint when it turns so far (at 0.01, 5 % of
-/// random mechanisms open by 1 % of a link); and rounds of closing: at 8 welded cantilevers creep up.
-inline constexpr double kOpening = 0.005;
-inline constexpr int kCloseRounds = 4;
 
 /// Natural frequency of the joint spring, as a fraction of the substep rate, and its damping ratio.
 inline constexpr double kJointFrequencyShare = 0.25;
